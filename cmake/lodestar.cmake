@@ -1,0 +1,37 @@
+# What every target shares: the language, the warnings, the sanitizers, the include root.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_library(lodestar_properties INTERFACE)
+target_include_directories(lodestar_properties INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(lodestar_properties INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+if(LODESTAR_SANITIZE)
+  target_compile_options(lodestar_properties INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(lodestar_properties INTERFACE -fsanitize=address,undefined)
+endif()
+
+
+# lodestar_library(NAME SOURCES ... USES ...): one folder's target, its arrows on one line.
+function(lodestar_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES" ${ARGN})
+  add_library(lodestar_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(lodestar_${name} PUBLIC lodestar_properties ${ARG_USES})
+endfunction()
+
+# lodestar_test(NAME SOURCES ... USES ...): the tests of one folder in one program.
+function(lodestar_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name}_test ${ARG_SOURCES})
+  target_link_libraries(${name}_test PRIVATE lodestar_properties ${ARG_USES} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name}_test PRIVATE LODESTAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name}_test WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,1 @@
+#include "control/differential_drive.hpp"

@@ -1,0 +1,1 @@
+#include "control/rotate_then_drive.hpp"

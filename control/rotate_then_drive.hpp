@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "maps/motion.hpp"
+
+namespace lodestar {
+
+struct DriveOptions {
+  double max_forward_mps = 0.6;
+  double max_turn_radps = 1.2;
+  double max_acceleration_mps2 = 0.5;
+  double max_turn_acceleration_radps2 = 2.0;
+  double max_wheel_mps = 0.8;
+  double track_width_m = 0.4;
+  double arrival_distance_m = 0.01;           ///< epsilon of Eq. (19), at the goal
+  double waypoint_distance_m = 0.02;          ///< epsilon at the waypoints between
+  double arrival_heading_rad = radians(1.0);  ///< of the final heading, when one is wanted
+  double turn_done_rad = radians(1.0);        ///< rotation before a leg ends here
+  double turn_again_rad = radians(20.0);  ///< a leg's heading error from which the robot stops to rotate anew
+  double heading_gain_per_s = 2.5;        ///< heading correction while driving
+  double lateral_gain_per_m = 2.0;        ///< heading wanted towards the leg, per metre beside it
+};
+
+enum class DrivePhase { rotating, driving, final_rotation, arrived };
+std::string_view to_string(DrivePhase phase);
+
+/// The paper's closed loop (section 6.3): rotate towards the next waypoint (Eq. (18), with atan2 and
+/// wrapped), drive straight until the distance is within epsilon (Eq. (19)), correcting heading and lateral
+/// error on the way; at the end turn to the final heading. A value type whose state is which leg, which phase
+/// and the last command.
+class RotateThenDrive {
+ public:
+  RotateThenDrive(Path path, std::optional<double> final_heading_rad, const DriveOptions& options = {});
+
+  /// The velocity to command now. Called at a steady rate; `elapsed` since the last call bounds the change of
+  /// speed.
+  BodyVelocity update(const PoseEstimate& estimate, Duration elapsed);
+
+  /// The velocity that brings the robot to rest within the acceleration limits; forgets nothing of the path.
+  BodyVelocity slow_down(Duration elapsed);
+
+  [[nodiscard]] DrivePhase phase() const { return phase_; }
+  [[nodiscard]] bool arrived() const { return phase_ == DrivePhase::arrived; }
+
+ private:
+  Path path_;
+  std::optional<double> final_heading_rad_;
+  DriveOptions options_;
+  DrivePhase phase_ = DrivePhase::rotating;
+  std::size_t target_ = 1;  ///< index of the waypoint driven to
+  BodyVelocity last_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,1 @@
+#include "control/safety_stop.hpp"

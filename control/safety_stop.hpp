@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "maps/motion.hpp"
+
+namespace lodestar {
+
+struct SafetyStopOptions {
+  Duration max_time_without_fix = std::chrono::seconds(6);
+  Duration max_travel_age =
+      std::chrono::milliseconds(100);  ///< wheel travel older than this: the base is silent
+  double max_position_sigma_m = 0.05;  ///< largest principal deviation
+  double max_heading_sigma_rad = radians(5.0);
+};
+
+enum class StopReason { no_pose, pose_stale, pose_uncertain, base_silent };
+std::string_view to_string(StopReason reason);
+
+/// Why the robot must not move now; nothing when it may. The robot never drives on a guess.
+std::optional<StopReason> reason_to_stop(Stamp now, const std::optional<PoseEstimate>& estimate,
+                                         const SafetyStopOptions& options);
+
+}  // namespace lodestar

@@ -1,0 +1,1 @@
+#include "drivers/agilex_v2.hpp"

@@ -1,0 +1,1 @@
+#include "drivers/base_driver.hpp"

@@ -1,0 +1,1 @@
+#include "drivers/simulated_camera.hpp"

@@ -1,0 +1,1 @@
+#include "drivers/can_bus.hpp"

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "drivers/camera.hpp"
+#include "drivers/can_bus.hpp"
+#include "drivers/scoring.hpp"
+#include "drivers/simulated_base.hpp"
+#include "drivers/simulated_camera.hpp"
+#include "maps/camera_model.hpp"
+#include "maps/marker_registry.hpp"
+#include "maps/occupancy_map.hpp"
+
+namespace lodestar {
+
+/// Everything that the simulated world is made of. The map and registry are the true ones.
+struct SimulationOptions {
+  SimulatedBaseOptions base;
+  SimulatedCameraOptions camera;
+  Pose2 start;  ///< true pose of the base at time 0
+  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  std::uint64_t seed = 1;
+};
+
+/// The simulated world as a set of drivers: a camera and a CAN bus, moved along in simulated time. Nothing
+/// here tells where the robot really is; that is for the Scorer alone.
+class Simulation {
+ public:
+  Simulation(const OccupancyMap& map, const MarkerRegistry& registry, const CameraModel& camera,
+             const SimulationOptions& options);
+  ~Simulation();
+
+  /// Moves time on in fixed small steps: wheels turn, frames are exposed, CAN frames travel.
+  void advance(Duration by);
+  [[nodiscard]] Stamp now() const;
+
+  Camera& camera();
+  CanBus& can();
+
+  /// Called with every CAN frame on the bus, either way, when it is on the wire (for the run's can.log).
+  void on_can_frame(std::function<void(const StampedCanFrame&)> listener);
+
+  /// The judge, who sees the truth.
+  [[nodiscard]] Scorer& scorer();
+
+ private:
+  struct World;
+  std::unique_ptr<World> world_;
+};
+
+}  // namespace lodestar

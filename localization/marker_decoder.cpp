@@ -1,0 +1,1 @@
+#include "localization/detected_marker.hpp"

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "localization/pose_fix.hpp"
+#include "maps/geometry.hpp"
+#include "maps/stamp.hpp"
+
+namespace lodestar {
+
+/// Where the robot is by one camera fix. The covariance is of (x_m, y_m, yaw_rad) in the map frame.
+struct PlanarFix {
+  Stamp stamp;
+  Pose2 map_from_base;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// Mount compensation, Eq. (17) for any mount: map_from_base = map_from_camera * camera_from_base. With the
+/// camera r ahead on the x axis this is x_r = x_t - r cos(theta), y_r = y_t - r sin(theta).
+PlanarFix compensate_mount(const PoseFix& fix, const Eigen::Isometry3d& base_from_camera);
+
+}  // namespace lodestar

@@ -1,0 +1,1 @@
+#include "localization/paper_detector.hpp"

@@ -1,0 +1,1 @@
+#include "localization/pose_fix.hpp"

@@ -1,0 +1,1 @@
+#include "maps/atomic_file.hpp"

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace lodestar {
+
+/// Replaces a file's content in one step (temporary file beside it, fsync, rename, fsync of the folder):
+/// whoever reads sees the old content or the new, whole. Throws InputError when the folder cannot be written.
+void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+
+}  // namespace lodestar

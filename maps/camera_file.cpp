@@ -1,0 +1,1 @@
+#include "maps/camera_model.hpp"

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+
+#include "maps/geometry.hpp"
+
+namespace lodestar {
+
+enum class Distortion { none, plumb_bob, rational_polynomial, equidistant };
+
+/// A calibrated camera in the OpenCV convention: x right, y down, z along the optical axis; pixel centres
+/// have integer coordinates. Coefficients in OpenCV's order: k1 k2 p1 p2 k3 k4 k5 k6, or k1..k4
+/// (equidistant).
+struct CameraModel {
+  int width_px = 0;
+  int height_px = 0;
+  double fx_px = 0.0;
+  double fy_px = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+  Distortion distortion = Distortion::none;
+  std::array<double, 8> coefficients{};
+
+  /// Image point of a point in the camera frame; nothing behind the camera (z <= 0).
+  [[nodiscard]] std::optional<Vec2> project(const Vec3& point_in_camera) const;
+
+  /// Image point of the ray (x, y, 1).
+  [[nodiscard]] Vec2 distorted(const Vec2& normalized) const;
+
+  /// Derivative of distorted() by its argument, pixels per unit.
+  [[nodiscard]] Eigen::Matrix2d distorted_jacobian(const Vec2& normalized) const;
+
+  /// The inverse of distorted(): x and y of the ray (x, y, 1) through a pixel (Newton's method). Nothing when
+  /// the distortion has no inverse there.
+  [[nodiscard]] std::optional<Vec2> normalized(const Vec2& pixel) const;
+
+  [[nodiscard]] bool contains(const Vec2& pixel, double margin_px = 0.0) const;
+};
+
+/// Reads a ROS camera_info YAML file, or an OpenCV FileStorage one (`%YAML:1.0`). Throws InputError.
+CameraModel load_camera(const std::filesystem::path& file);
+
+}  // namespace lodestar

@@ -1,0 +1,1 @@
+#include "maps/distance_field.hpp"

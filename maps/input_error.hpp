@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace lodestar {
+
+/// Input that cannot be used. what() reads `file:line: found ..., wanted ...`; line 0 (not a matter of one
+/// line: a missing or binary file) is left out. The command line turns it into exit code 2.
+class InputError : public std::runtime_error {
+ public:
+  InputError(const std::filesystem::path& file, int line, const std::string& found,
+             const std::string& wanted);
+  explicit InputError(const std::string& what_is_wrong) : std::runtime_error(what_is_wrong) {}
+};
+
+}  // namespace lodestar

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "maps/occupancy_map.hpp"
+
+namespace lodestar {
+
+/// How pixel values become occupancy (ROS map_server `mode`).
+enum class MapMode { trinary, scale, raw };
+
+/// The keys of a ROS map_server YAML file.
+struct MapFileInfo {
+  std::filesystem::path image;
+  MapMode mode = MapMode::trinary;
+  bool negate = false;
+  double occupied_threshold = 0.65;
+  double free_threshold = 0.196;
+};
+
+struct LoadedMap {
+  OccupancyMap map;
+  MapFileInfo info;
+  std::vector<std::string> warnings;  ///< such as 205 (unknown to the saver) read as free
+};
+
+/// Reads a map_server YAML file and its image (PGM P2/P5, PNG, BMP; relative to the YAML file). Throws
+/// InputError with file and line: unknown or missing keys, NaN or infinite origin, resolution <= 0,
+/// thresholds out of order, an image that is missing or broken.
+LoadedMap load_map(const std::filesystem::path& yaml_file);
+
+/// Writes `yaml_file` and the image beside it (same stem; PGM), in a mode that loses nothing: trinary when
+/// all values are 0, 100 or -1, raw otherwise. Numbers are written so that reading gives the same doubles
+/// back.
+void save_map(const OccupancyMap& map, const std::filesystem::path& yaml_file);
+
+}  // namespace lodestar

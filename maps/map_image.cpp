@@ -1,0 +1,1 @@
+#include "maps/map_file.hpp"

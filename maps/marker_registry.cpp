@@ -1,0 +1,1 @@
+#include "maps/marker_registry.hpp"

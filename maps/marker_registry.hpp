@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "maps/geometry.hpp"
+
+namespace lodestar {
+
+/// One surveyed marker: the centre of its dot O, and the direction O->X counter-clockwise from the x axis
+/// seen from above, both in the registry's frame.
+struct RegisteredMarker {
+  int id = 0;
+  Vec3 position_m = Vec3::Zero();
+  double yaw_rad = 0.0;
+  int line = 0;  ///< where it stands in its file, for messages; 0 when it has none
+};
+
+/// All surveyed markers, and how the registry as a whole lies on the occupancy map.
+struct MarkerRegistry {
+  Pose2 map_from_registry;
+  std::vector<RegisteredMarker> markers;
+
+  /// Nothing when no marker, or more than one, has this ID: a robot must not guess which.
+  [[nodiscard]] const RegisteredMarker* find(int id) const;
+};
+
+/// Marker frame to map frame. The marker's z axis points down, so its y axis points to yaw - 90 degrees.
+Eigen::Isometry3d map_from_marker(const MarkerRegistry& registry, const RegisteredMarker& marker);
+
+/// Reads a `format: lodestar-markers` file. Throws InputError with file and line for an unknown, missing or
+/// ill-typed key, a number that is not finite, an ID outside 0..4095 or listed twice.
+MarkerRegistry load_registry(const std::filesystem::path& file);
+
+/// Writes one marker a line, atomically: a reader sees the old file or the new one, whole.
+void save_registry(const MarkerRegistry& registry, const std::filesystem::path& file);
+
+}  // namespace lodestar

@@ -1,0 +1,29 @@
+#include "maps/occupancy_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lodestar {
+namespace {
+
+/// Floor as an int; far-away or non-finite coordinates end at the edges of int rather than in undefined
+/// behaviour.
+int floor_to_int(double value) {
+  constexpr double limit = std::numeric_limits<int>::max();
+  if (std::isnan(value)) return std::numeric_limits<int>::min();
+  return static_cast<int>(std::clamp(std::floor(value), -limit, limit));
+}
+
+}  // namespace
+
+Cell OccupancyMap::cell_at(const Vec2& point_in_map) const {
+  const Vec2 point_in_grid = inverse(map_from_grid) * point_in_map / resolution_m;
+  return {floor_to_int(point_in_grid.x()), floor_to_int(point_in_grid.y())};
+}
+
+Vec2 OccupancyMap::center_of(Cell cell) const {
+  return map_from_grid * Vec2((cell.column + 0.5) * resolution_m, (cell.row + 0.5) * resolution_m);
+}
+
+}  // namespace lodestar

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "maps/geometry.hpp"
+
+namespace lodestar {
+
+/// A cell of the grid: column along the grid's x, row along its y. Row 0 is the bottom row, as in ROS.
+struct Cell {
+  int column = 0;
+  int row = 0;
+  friend bool operator==(const Cell&, const Cell&) = default;
+};
+
+/// The floor as known: ROS occupancy values (0 free .. 100 occupied, -1 unknown) on a grid that may lie
+/// rotated in the map frame.
+struct OccupancyMap {
+  static constexpr std::int8_t free = 0;
+  static constexpr std::int8_t occupied = 100;
+  static constexpr std::int8_t unknown = -1;
+
+  int columns = 0;
+  int rows = 0;
+  double resolution_m = 0.0;
+  Pose2 map_from_grid;             ///< place of the lower-left corner of cell (0, 0): the file's `origin`
+  std::vector<std::int8_t> cells;  ///< row by row from the bottom
+
+  [[nodiscard]] bool contains(Cell cell) const {
+    return cell.column >= 0 && cell.row >= 0 && cell.column < columns && cell.row < rows;
+  }
+  [[nodiscard]] std::size_t index(Cell cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(cell.column);
+  }
+  [[nodiscard]] std::int8_t at(Cell cell) const { return cells[index(cell)]; }
+
+  /// The cell that holds a point of the map frame; it may lie outside the grid, which contains() tells.
+  [[nodiscard]] Cell cell_at(const Vec2& point_in_map) const;
+  /// The centre of a cell in the map frame.
+  [[nodiscard]] Vec2 center_of(Cell cell) const;
+};
+
+/// May the robot's body stand over a cell of this value? Unknown is not free: the robot never acts on a
+/// guess.
+constexpr bool is_drivable(std::int8_t value) {
+  return value >= 0 && value < 50;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,1 @@
+#include "maps/octomap_file.hpp"

@@ -1,0 +1,1 @@
+#include "maps/strict_yaml.hpp"

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+#include <yaml-cpp/yaml.h>
+
+#include "maps/geometry.hpp"
+
+namespace lodestar {
+
+/// A YAML mapping of which every key must be known, present and well typed. Ask for the keys, then call
+/// finish(): a key that nobody asked for is an error. All errors are InputErrors with file and line.
+class StrictYaml {
+ public:
+  /// The top mapping of a file.
+  static StrictYaml load(const std::filesystem::path& file);
+
+  [[nodiscard]] bool has(const std::string& key) const;
+  [[nodiscard]] double number(const std::string& key);                           ///< finite
+  [[nodiscard]] double number(const std::string& key, double low, double high);  ///< in [low, high]
+  [[nodiscard]] int integer(const std::string& key, int low, int high);
+  [[nodiscard]] bool boolean(const std::string& key);
+  [[nodiscard]] std::string text(const std::string& key);
+  [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count);
+  [[nodiscard]] StrictYaml mapping(const std::string& key);
+  [[nodiscard]] std::vector<StrictYaml> list_of_mappings(const std::string& key);
+  [[nodiscard]] YAML::Node node(const std::string& key);
+
+  /// Throws for the first key that nobody asked for.
+  void finish() const;
+
+  /// Throws InputError at the line of a key of this mapping.
+  [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& wanted) const;
+
+  [[nodiscard]] int line() const;
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+ private:
+  StrictYaml(std::filesystem::path file, YAML::Node node, std::string where);
+
+  std::filesystem::path file_;
+  YAML::Node node_;
+  std::string where_;  ///< the path of parents, for messages
+  std::set<std::string> asked_;
+};
+
+}  // namespace lodestar

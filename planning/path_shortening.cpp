@@ -1,0 +1,1 @@
+#include "planning/grid_planner.hpp"
