@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/can_bus.hpp"
+#include "drivers/scoring.hpp"
+#include "maps/marker_registry.hpp"
+#include "maps/motion.hpp"
+#include "maps/occupancy_map.hpp"
+
+// What one replay leaves behind in memory; run_folder writes it out, figure and report draw it.
+namespace lodestar {
+
+/// A place to drive to; the heading only when one is wanted.
+struct Goal {
+  Vec2 position_m = Vec2::Zero();
+  std::optional<double> heading_rad;
+};
+
+/// One step of the navigator, at its steady rate.
+struct StepRecord {
+  PoseEstimate estimate;
+  BodyVelocity commanded;
+  BodyVelocity measured;  ///< by the base
+};
+
+/// One frame that gave a pose.
+struct FixRecord {
+  Stamp stamp;  ///< capture
+  Pose2 map_from_base;
+  std::vector<int> ids;
+  double confidence = 0.0;
+  bool accepted = false;  ///< by the pose filter
+};
+
+/// How one goal ended.
+struct GoalRecord {
+  Goal goal;
+  Path planned;
+  bool arrived = false;
+  std::string failure;                ///< in words, when it did not arrive
+  Duration travel_time{};             ///< simulated
+  std::optional<ArrivalScore> score;  ///< by the truth, when it arrived
+};
+
+struct RunRecord {
+  std::string site;
+  std::string camera;  ///< profile: wide or paper
+  std::uint64_t seed = 0;
+  Pose2 start;
+  double robot_radius_m = 0.0;
+  std::vector<GoalRecord> goals;
+  std::vector<StepRecord> steps;
+  std::vector<FixRecord> fixes;
+  std::vector<StampedCanFrame> can_frames;
+  std::vector<TruePose> truth;
+  std::vector<double> path_distances_m;  ///< of the true track from the planned curve
+  int contacts = 0;
+  int frames = 0;            ///< that arrived from the camera
+  double wall_time_s = 0.0;  ///< never written to a file that must repeat byte for byte
+
+  [[nodiscard]] bool arrived() const;
+};
+
+}  // namespace lodestar
