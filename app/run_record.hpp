@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/goal.hpp"
 #include "drivers/can_bus.hpp"
 #include "drivers/scoring.hpp"
 #include "maps/marker_registry.hpp"
@@ -13,12 +14,6 @@
 
 // What one replay leaves behind in memory; run_folder writes it out, figure and report draw it.
 namespace lodestar {
-
-/// A place to drive to; the heading only when one is wanted.
-struct Goal {
-  Vec2 position_m = Vec2::Zero();
-  std::optional<double> heading_rad;
-};
 
 /// One step of the navigator, at its steady rate.
 struct StepRecord {

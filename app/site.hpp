@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/goal.hpp"
+#include "maps/camera_model.hpp"
+#include "maps/map_file.hpp"
+#include "maps/marker_registry.hpp"
+#include "maps/motion.hpp"
+
+namespace lodestar {
+
+/// What robot.yaml says of the robot.
+struct Robot {
+  std::string name;
+  double radius_m = 0.0;
+  double track_width_m = 0.0;
+  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  RollPitchYaw camera_mount;          ///< the rotation of base_from_camera, Rz(yaw) Ry(pitch) Rx(roll)
+  double mount_tilt_sigma_rad = 0.0;  ///< how well roll and pitch of the camera hold while driving
+  double mount_height_sigma_m = 0.0;
+  double preferred_clearance_m = 0.0;
+  double max_forward_mps = 0.0;
+  double max_turn_radps = 0.0;
+  double max_acceleration_mps2 = 0.0;
+  double max_turn_acceleration_radps2 = 0.0;
+  double max_wheel_mps = 0.0;
+  double arrival_distance_m = 0.0;
+  double arrival_heading_rad = 0.0;
+};
+
+/// A site folder: the map, the markers above it, the cameras, the robot and the usual drive.
+struct Site {
+  std::string name;
+  std::filesystem::path folder;
+  LoadedMap map;
+  MarkerRegistry registry;
+  std::map<std::string, CameraModel> cameras;
+  std::string default_camera;
+  Robot robot;
+  Pose2 start;
+  std::vector<Goal> goals;
+};
+
+/// Reads `folder`/site.yaml and all files that it names. Throws InputError with file and line.
+Site load_site(const std::filesystem::path& folder);
+
+Robot load_robot(const std::filesystem::path& file);
+
+}  // namespace lodestar
