@@ -1,1 +1,199 @@
 #include "drivers/base_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+bool is_older(const std::optional<Stamp>& stamp, Stamp now, Duration age) {
+  return !stamp || now - *stamp > age;
+}
+
+}  // namespace
+
+std::string_view to_string(BaseState state) {
+  switch (state) {
+    case BaseState::waiting_for_base:
+      return "waiting for the base";
+    case BaseState::asking_for_can_mode:
+      return "asking the base for CAN mode";
+    case BaseState::ready:
+      return "ready";
+    case BaseState::fault:
+      return "stopped by a fault";
+  }
+  return "in an unknown state";
+}
+
+std::string_view to_string(BaseFault fault) {
+  switch (fault) {
+    case BaseFault::feedback_lost:
+      return "the base is silent";
+    case BaseFault::left_can_mode:
+      return "the base is not in CAN mode";
+    case BaseFault::emergency_stop:
+      return "the emergency stop is pressed";
+    case BaseFault::vehicle_exception:
+      return "the base reports an exception";
+    case BaseFault::fault_bits:
+      return "the base reports fault bits";
+    case BaseFault::not_following:
+      return "the base does not follow its commands";
+    case BaseFault::second_master:
+      return "somebody else sends motion commands";
+    case BaseFault::send_failed:
+      return "commands cannot be sent";
+  }
+  return "an unknown fault";
+}
+
+BaseDriver::BaseDriver(CanBus& bus, const BaseDriverOptions& options)
+    : bus_(bus), options_(options), travel_(options.max_plausible_wheel_mps), following_(options.following) {}
+
+BaseFeedback BaseDriver::poll(Stamp now) {
+  now_ = now;
+  std::vector<WheelTravel> travel;
+  while (const auto received = bus_.poll()) take_in(*received, travel);
+  if (state_ == BaseState::ready) {
+    watch(now);
+  } else if (state_ != BaseState::fault) {
+    shake_hands(now);
+  }
+  return {state_, fault_, std::move(travel), measured_, system_, last_heard_};
+}
+
+void BaseDriver::take_in(const StampedCanFrame& received, std::vector<WheelTravel>& travel) {
+  const CanFrame& frame = received.frame;
+  if (const auto state = agilex::decode_system_state(frame)) {
+    take_in_system_state(received.stamp, *state);
+  } else if (const auto velocity = agilex::decode_motion_state(frame)) {
+    measured_ = velocity;
+    last_motion_state_ = received.stamp;
+  } else if (const auto reading = agilex::decode_odometer(frame)) {
+    take_in_odometer(received.stamp, *reading, travel);
+  } else {
+    const bool from_base = frame.id == agilex::system_state_id || frame.id == agilex::motion_state_id ||
+                           frame.id == agilex::odometer_id;
+    if (from_base) ++counts_.odd_frames;
+    if (frame.id == agilex::motion_command_id && state_ == BaseState::ready) latch(BaseFault::second_master);
+    return;
+  }
+  last_heard_ = received.stamp;
+}
+
+void BaseDriver::take_in_system_state(Stamp stamp, const agilex::SystemState& state) {
+  const bool is_named =
+      state.vehicle != agilex::VehicleState::unknown && state.mode != agilex::ControlMode::unknown;
+  if (!is_named) ++counts_.odd_frames;
+
+  const int steps = system_ ? static_cast<std::uint8_t>(state.counter - system_->counter) : 1;
+  if (steps == 0) ++counts_.counter_repeats;
+  if (steps > 1) ++counts_.counter_jumps;
+  if (steps != 0) last_alive_ = stamp;
+  system_ = state;
+
+  if (state_ != BaseState::ready) return;
+  if (const auto fault = complaint(state)) latch(*fault);
+}
+
+void BaseDriver::take_in_odometer(Stamp stamp, const agilex::Odometer& reading,
+                                  std::vector<WheelTravel>& travel) {
+  last_odometer_ = stamp;
+  if (const auto rolled = travel_.take(stamp, reading)) {
+    travel.push_back(*rolled);
+  } else {
+    ++counts_.odd_frames;
+  }
+}
+
+/// What only time can tell of a ready base; what its frames tell is latched as they come.
+void BaseDriver::watch(Stamp now) {
+  if (!hears_base(now)) return latch(BaseFault::feedback_lost);
+  const bool base_obeys_us = !is_older(commanded_at_, now, options_.base_command_timeout);
+  const BodyVelocity expected = base_obeys_us ? commanded_ : BodyVelocity{};
+  if (following_.strays(now, expected, *measured_)) latch(BaseFault::not_following);
+}
+
+void BaseDriver::shake_hands(Stamp now) {
+  state_ = BaseState::waiting_for_base;
+  fault_ = is_alive(now) ? complaint(*system_) : BaseFault::feedback_lost;
+  if (!fault_ && !hears_base(now)) fault_ = BaseFault::feedback_lost;
+  if (!fault_) {
+    state_ = BaseState::ready;
+    commanded_at_.reset();
+    following_.restart(now, *measured_);
+  } else if (fault_ == BaseFault::left_can_mode) {
+    state_ = BaseState::asking_for_can_mode;
+    if (asked_at_ && now - *asked_at_ < options_.handshake_period) return;
+    asked_at_ = now;
+    send(agilex::encode_control_mode(agilex::ControlMode::can));
+  }
+}
+
+void BaseDriver::latch(BaseFault fault) {
+  state_ = BaseState::fault;
+  fault_ = fault;
+  // One last word: stop. Not to a base that somebody else drives now.
+  if (fault == BaseFault::left_can_mode) return;
+  send(agilex::encode_motion_command({}));
+}
+
+void BaseDriver::command(const BodyVelocity& velocity) {
+  if (state_ != BaseState::ready) return;
+  commanded_ = within_limits(velocity);
+  commanded_at_ = now_;
+  if (send(agilex::encode_motion_command(commanded_))) return;
+  if (failed_sends_in_a_row_ >= options_.max_failed_sends) latch(BaseFault::send_failed);
+}
+
+BodyVelocity BaseDriver::within_limits(const BodyVelocity& velocity) {
+  if (!std::isfinite(velocity.forward_mps) || !std::isfinite(velocity.turn_radps)) {
+    ++counts_.non_finite_commands;
+    return {};
+  }
+  const double excess = std::max(std::abs(velocity.forward_mps) / options_.max_forward_mps,
+                                 std::abs(velocity.turn_radps) / options_.max_turn_radps);
+  if (excess <= 1.0) return velocity;
+  ++counts_.saturated_commands;
+  return {velocity.forward_mps / excess, velocity.turn_radps / excess};
+}
+
+bool BaseDriver::send(const CanFrame& frame) {
+  const bool sent = bus_.send(frame);
+  failed_sends_in_a_row_ = sent ? 0 : failed_sends_in_a_row_ + 1;
+  if (!sent) ++counts_.failed_sends;
+  return sent;
+}
+
+bool BaseDriver::resume(Stamp now) {
+  if (state_ != BaseState::fault) return true;
+  if (!hears_base(now)) return false;
+  const auto still = complaint(*system_);
+  const bool offers_itself =
+      still == BaseFault::left_can_mode && system_->mode == agilex::ControlMode::standby;
+  if (still && !offers_itself) return false;
+  state_ = BaseState::waiting_for_base;
+  fault_.reset();
+  failed_sends_in_a_row_ = 0;
+  return true;
+}
+
+bool BaseDriver::is_alive(Stamp now) const {
+  return !is_older(last_alive_, now, options_.max_system_state_age);
+}
+
+bool BaseDriver::hears_base(Stamp now) const {
+  return is_alive(now) && !is_older(last_motion_state_, now, options_.max_feedback_age) &&
+         !is_older(last_odometer_, now, options_.max_feedback_age);
+}
+
+std::optional<BaseFault> BaseDriver::complaint(const agilex::SystemState& state) const {
+  if (state.vehicle == agilex::VehicleState::emergency_stop) return BaseFault::emergency_stop;
+  if (state.vehicle != agilex::VehicleState::normal) return BaseFault::vehicle_exception;
+  if ((state.fault_bits & ~options_.ignored_fault_bits) != 0) return BaseFault::fault_bits;
+  if (state.mode != agilex::ControlMode::can) return BaseFault::left_can_mode;
+  return std::nullopt;
+}
+
+}  // namespace lodestar

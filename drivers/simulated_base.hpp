@@ -1,5 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
+#include "drivers/agilex_v2.hpp"
+#include "drivers/can_bus.hpp"
 #include "maps/motion.hpp"
 
 namespace lodestar {
@@ -14,10 +19,59 @@ struct SimulatedBaseOptions {
       0.002;                  ///< random loss or gain of ground per square root of metre rolled, each wheel
   double motor_lag_s = 0.08;  ///< first-order lag of the wheel speed loop
   double max_wheel_acceleration_mps2 = 2.0;
-  double encoder_step_m = 0.0005;  ///< quantization of the wheel encoders
+  double max_wheel_mps = 1.6;          ///< of the motors; a command beyond keeps its curve
+  double encoder_step_m = 0.0005;      ///< quantization of the wheel encoders
+  double speed_filter_s = 0.03;        ///< smoothing of the measured speed in the motion state
+  std::int32_t odometer_start_mm = 0;  ///< what both counters show at power-up
+  double battery_v = 26.0;
   Duration command_timeout = std::chrono::milliseconds(500);
   Duration feedback_period = std::chrono::milliseconds(20);
   Duration can_latency = std::chrono::milliseconds(1);
+};
+
+class SimulatedMotion;
+
+/// The firmware of an AgileX V2 base over the simulated wheels. It reads their encoders and drives their
+/// motors; where the robot is on the floor it knows no better than a real one does. After power-up it
+/// stands by until it is asked for CAN mode; without motion commands it comes to rest.
+class SimulatedBase {
+ public:
+  SimulatedBase(CanBus& bus, SimulatedMotion& motion, const SimulatedBaseOptions& options = {});
+
+  /// One pass of the firmware's loop; to be called often, at a steady rate.
+  void step(Stamp now);
+
+  // What people, wear and the shop floor do to a base.
+  void press_emergency_stop(bool pressed);
+  void take_over_by_remote(bool taken);  ///< given back, the base stands by
+  void set_fault_bits(std::uint16_t bits);
+
+ private:
+  void take_in(const CanFrame& frame, Stamp now);
+  void drive_wheels(Stamp now);
+  void send_feedback();
+  [[nodiscard]] agilex::VehicleState vehicle_state() const;
+  [[nodiscard]] bool takes_commands() const;
+  [[nodiscard]] BodyVelocity wanted_velocity(Stamp now) const;
+  void measure_speed();
+
+  struct Command {
+    Stamp stamp;
+    BodyVelocity velocity;
+  };
+
+  CanBus& bus_;
+  SimulatedMotion& motion_;
+  SimulatedBaseOptions options_;
+  agilex::ControlMode mode_ = agilex::ControlMode::standby;
+  bool emergency_stop_ = false;
+  std::uint16_t fault_bits_ = 0;
+  std::uint8_t counter_ = 0;
+  std::optional<Command> command_;
+  std::optional<Stamp> next_feedback_;
+  double last_left_m_ = 0.0;
+  double last_right_m_ = 0.0;
+  BodyVelocity measured_;
 };
 
 }  // namespace lodestar

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "drivers/camera.hpp"
 #include "drivers/can_bus.hpp"
@@ -21,8 +19,11 @@ namespace lodestar {
 struct SimulationOptions {
   SimulatedBaseOptions base;
   SimulatedCameraOptions camera;
-  Pose2 start;  ///< true pose of the base at time 0
+  Pose2 start;                   ///< true pose of the base at time 0
+  double robot_radius_m = 0.25;  ///< of the disc that runs into obstacles
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  Duration physics_step = std::chrono::milliseconds(1);
+  Duration scoring_period = std::chrono::milliseconds(20);  ///< between records of the true pose
   std::uint64_t seed = 1;
 };
 
@@ -34,8 +35,10 @@ class Simulation {
              const SimulationOptions& options);
   ~Simulation();
 
-  /// Moves time on in fixed small steps: wheels turn, frames are exposed, CAN frames travel.
+  /// Moves time on in fixed small steps: wheels turn, frames are exposed, CAN frames travel. What is left of
+  /// the last step waits for the next call.
   void advance(Duration by);
+  /// Starts at Stamp{}.
   [[nodiscard]] Stamp now() const;
 
   Camera& camera();
