@@ -1,1 +1,204 @@
-#include "localization/detected_marker.hpp"
+#include "localization/marker_decoder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+constexpr double radii_per_pitch = marker_pitch_m / marker_dot_radius_m;
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool nearly_equal(double a, double b, double tolerance) {
+  return a > 0.0 && b > 0.0 && std::max(a, b) <= (1.0 + tolerance) * std::min(a, b);
+}
+
+std::pair<std::size_t, std::size_t> farthest_pair(std::span<const Dot> dots) {
+  std::pair<std::size_t, std::size_t> best;
+  double longest = -1.0;
+  for (std::size_t a = 0; a < dots.size(); ++a) {
+    for (std::size_t b = a + 1; b < dots.size(); ++b) {
+      const double distance = (dots[a].center_px - dots[b].center_px).squaredNorm();
+      if (distance > longest) {
+        longest = distance;
+        best = {a, b};
+      }
+    }
+  }
+  return best;
+}
+
+/// Eq. (4) and (5) with the rotation's sign mended: turning OX a quarter clockwise takes it away from OY. The
+/// printed face shows Y a quarter counter-clockwise of X, which in an image with v down is a negative
+/// product.
+DirectionDots with_axes_named(std::span<const Dot> dots, std::size_t o, std::size_t a, std::size_t b) {
+  const Vec2 oa = dots[a].center_px - dots[o].center_px;
+  const Vec2 ob = dots[b].center_px - dots[o].center_px;
+  return cross(oa, ob) < 0.0 ? DirectionDots{o, a, b} : DirectionDots{o, b, a};
+}
+
+/// OX and OY about equal and at right angles, X and Y on their sides, and the dots' size that of the pitch:
+/// an L of other dots (2 by 2 pitches, or 1 by 2 steps aslant) would have a pitch too small for them.
+bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
+                  const MarkerDecoderOptions& options) {
+  const Vec2 ox = dots[direction.x].center_px - dots[direction.o].center_px;
+  const Vec2 oy = dots[direction.y].center_px - dots[direction.o].center_px;
+  const double length_x = ox.norm();
+  const double length_y = oy.norm();
+  if (std::min(length_x, length_y) < options.axis_ratio_min * std::max(length_x, length_y)) return false;
+  if (!(-cross(ox, oy) >= std::cos(options.axis_angle_tolerance_rad) * length_x * length_y)) return false;
+  const double radius_px =
+      (dots[direction.o].radius_px + dots[direction.x].radius_px + dots[direction.y].radius_px) / 3.0;
+  const double pitch_px = std::sqrt(-cross(ox, oy)) / (marker_grid_size - 1);
+  return nearly_equal(pitch_px, radii_per_pitch * radius_px, options.size_tolerance);
+}
+
+bool sizes_are_alike(std::span<const Dot> dots, double tolerance) {
+  const auto [small, large] = std::ranges::minmax(dots, {}, &Dot::radius_px);
+  return nearly_equal(small.radius_px, large.radius_px, tolerance);
+}
+
+/// One cell for each dot; nothing when a dot has none, or another dot's, or the corner that is always empty.
+std::vector<MarkerDot> dots_in_cells(std::span<const Dot> dots, const MarkerGrid& grid, double tolerance) {
+  std::array<bool, marker_grid_size * marker_grid_size> taken{};
+  std::vector<MarkerDot> result;
+  result.reserve(dots.size());
+  for (const Dot& dot : dots) {
+    const std::optional<GridCell> cell = grid.cell_at(dot.center_px, tolerance);
+    if (!cell || *cell == cell_always_empty) return {};
+    bool& cell_taken = taken[static_cast<std::size_t>(cell->row * marker_grid_size + cell->column)];
+    if (cell_taken) return {};
+    cell_taken = true;
+    result.push_back({*cell, dot.center_px});
+  }
+  return result;
+}
+
+bool fits(const MarkerGrid& grid, std::span<const MarkerDot> dots, double tolerance_px) {
+  return std::ranges::all_of(dots, [&](const MarkerDot& dot) {
+    return (grid.center_px(dot.cell) - dot.center_px).norm() <= tolerance_px;
+  });
+}
+
+/// The dots of the square that the direction dots span, with a margin that must be clear around it.
+std::vector<std::size_t> dots_about(std::span<const Dot> dots, const DirectionDots& direction, double guard) {
+  const Vec2 o = dots[direction.o].center_px;
+  Eigen::Matrix2d px_from_pitches;
+  px_from_pitches << dots[direction.x].center_px - o, dots[direction.y].center_px - o;
+  px_from_pitches /= marker_grid_size - 1;
+  const Eigen::Matrix2d pitches_from_px = px_from_pitches.inverse();
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    const Vec2 q = pitches_from_px * (dots[i].center_px - o);
+    if (q.minCoeff() > -guard && q.maxCoeff() < marker_grid_size - 1 + guard) indices.push_back(i);
+  }
+  return indices;
+}
+
+/// Reads the marker that these three would be the direction dots of.
+std::optional<MarkerReading> read_marker_among(std::span<const Dot> dots, const DirectionDots& direction,
+                                               const MarkerDecoderOptions& options) {
+  if (!spans_a_grid(dots, direction, options)) return std::nullopt;
+  const std::vector<std::size_t> indices = dots_about(dots, direction, options.guard_pitches);
+  std::vector<Dot> members;
+  for (const std::size_t i : indices) members.push_back(dots[i]);
+  const auto among_members = [&](std::size_t i) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(indices, i) - indices.begin());
+  };
+  const DirectionDots own{among_members(direction.o), among_members(direction.x), among_members(direction.y)};
+  std::optional<MarkerReading> reading = read_marker(members, own, options);
+  if (reading) reading->indices = indices;
+  return reading;
+}
+
+bool share_a_dot(const MarkerReading& a, const MarkerReading& b) {
+  return std::ranges::find_first_of(a.indices, b.indices) != a.indices.end();
+}
+
+std::vector<MarkerReading> without_conflicts(const std::vector<MarkerReading>& readings) {
+  std::vector<MarkerReading> result;
+  for (const MarkerReading& reading : readings) {
+    const auto conflicts = [&](const MarkerReading& other) {
+      return &other != &reading && share_a_dot(reading, other);
+    };
+    if (std::ranges::none_of(readings, conflicts)) result.push_back(reading);
+  }
+  return result;
+}
+
+/// May these two be the ends of an axis, by the dots' size? Tilt shortens an axis more than it narrows dots.
+bool may_span_an_axis(const Dot& a, const Dot& b) {
+  const double pitches = (a.center_px - b.center_px).norm() / (radii_per_pitch * a.radius_px);
+  return std::abs(pitches - (marker_grid_size - 1)) < 1.5;
+}
+
+std::vector<MarkerReading> read_every_corner(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
+  std::vector<MarkerReading> readings;
+  std::vector<std::size_t> ends;  // of axes from o
+  for (std::size_t o = 0; o < dots.size(); ++o) {
+    ends.clear();
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+      if (i != o && may_span_an_axis(dots[o], dots[i])) ends.push_back(i);
+    }
+    for (const std::size_t x : ends) {
+      for (const std::size_t y : ends) {
+        std::optional<MarkerReading> reading = read_marker_among(dots, {o, x, y}, options);
+        if (reading) readings.push_back(*std::move(reading));
+      }
+    }
+  }
+  return without_conflicts(readings);
+}
+
+}  // namespace
+
+std::optional<DirectionDots> direction_dots(std::span<const Dot> dots) {
+  if (dots.size() < 3) return std::nullopt;
+  const auto [a, b] = farthest_pair(dots);
+  const Vec2 middle = 0.5 * (dots[a].center_px + dots[b].center_px);
+  std::size_t o = dots.size();
+  double longest = -1.0;
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    const double distance = (dots[i].center_px - middle).squaredNorm();
+    if (i == a || i == b || distance <= longest) continue;
+    longest = distance;
+    o = i;
+  }
+  return with_axes_named(dots, o, a, b);
+}
+
+int id_of(std::span<const MarkerDot> dots) {
+  int id = 0;
+  for (const MarkerDot& dot : dots) id += id_bit(dot.cell);  // (9): W is 1 where a coded dot may be
+  return id;
+}
+
+std::optional<MarkerReading> read_marker(std::span<const Dot> dots, const DirectionDots& direction,
+                                         const MarkerDecoderOptions& options) {
+  if (!spans_a_grid(dots, direction, options) || !sizes_are_alike(dots, options.size_tolerance)) {
+    return std::nullopt;
+  }
+  const MarkerGrid through_direction_dots(dots[direction.o].center_px, dots[direction.x].center_px,
+                                          dots[direction.y].center_px);
+  std::vector<MarkerDot> in_cells = dots_in_cells(dots, through_direction_dots, options.cell_tolerance);
+  if (in_cells.empty()) return std::nullopt;
+  const MarkerGrid grid = MarkerGrid::fitted(in_cells, through_direction_dots);
+  if (!fits(grid, in_cells, options.fit_tolerance * grid.pitch_px())) return std::nullopt;
+  std::vector<std::size_t> indices(dots.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = i;
+  return MarkerReading{id_of(in_cells), grid, std::move(in_cells), std::move(indices)};
+}
+
+std::vector<MarkerReading> read_area(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
+  if (dots.size() < 3 || dots.size() > options.most_dots) return {};
+  if (const auto direction = direction_dots(dots)) {
+    if (std::optional<MarkerReading> reading = read_marker(dots, *direction, options)) return {*reading};
+  }
+  return read_every_corner(dots, options);
+}
+
+}  // namespace lodestar

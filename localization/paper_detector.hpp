@@ -1,27 +1,28 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
-#include <optional>
 #include <vector>
 
 #include "localization/detected_marker.hpp"
+#include "localization/dots.hpp"
+#include "localization/marker_areas.hpp"
+#include "localization/marker_decoder.hpp"
 
 // The paper's own way from a frame to decoded markers (sections 4.1 and 4.2), step by step.
 namespace lodestar {
 
 struct PaperDetectorOptions {
-  int threshold = 200;             ///< gray value from which a pixel is bright (Fig. 2b)
-  double min_dot_area_px = 4.0;    ///< smaller bright areas are noise
-  double max_dot_area_px = 400.0;  ///< larger ones are tubes and lamps
-  double max_aspect_ratio = 2.5;   ///< longer ones are tubes
-  int erosion_px = 3;              ///< side of the structuring element that parts dots which touch
-  int dilation_px = 0;  ///< side of the one that joins a marker's dots; 0: from the dots' own spacing
-  double ratio_tolerance = 0.12;               ///< how near lambda of Eq. (8) must be to 1/3, 2/3 or 1
-  double angle_tolerance_rad = radians(12.0);  ///< how near alpha of Eq. (7) must be to 90 degrees
+  DotOptions dots;
+  MarkerAreaOptions areas;
+  MarkerDecoderOptions decoder;
+  /// A cell without a dot must be darker than this share of the dots' contrast: a dot that the threshold lost
+  /// would change the ID.
+  double empty_cell_contrast = 0.35;
 };
 
-/// Every marker that could be decoded, the optimal one (nearest to the image centre, Eq. (1)) first.
-/// `gray` is CV_8UC1.
+/// Every marker that could be decoded, the optimal one (nearest to the image centre, Eq. (1)) first. A marker
+/// of which any cell, empty or not, is cut by the frame's border is refused. `gray` is CV_8UC1, of any size,
+/// and may be a part of a larger frame; any other type throws std::invalid_argument.
 std::vector<DetectedMarker> detect_markers(const cv::Mat& gray, const PaperDetectorOptions& options = {});
 
 }  // namespace lodestar

@@ -1,0 +1,87 @@
+#include <benchmark/benchmark.h>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "localization/bright_areas.hpp"
+#include "localization/paper_detector.hpp"
+#include "maps/marker.hpp"
+#include "maps/random.hpp"
+
+// A 640 x 480 frame with three markers and noise through the detector, beside cv::threshold alone on the same
+// frame in the same run, which is the yardstick.
+namespace {
+
+using namespace lodestar;
+
+/// Light of a blurred disc's edge, `distance` from its middle.
+double edge(double distance_px, double radius_px) {
+  constexpr double blur_sigma_px = 0.67;
+  return 0.5 * std::erfc((distance_px - radius_px) / (std::sqrt(2.0) * blur_sigma_px));
+}
+
+void draw_marker(cv::Mat& frame, int id, const Vec2& o_px, double turn_rad, double pitch_px) {
+  const Eigen::Rotation2Dd turn(turn_rad);
+  for (const GridCell cell : dots_of(id)) {
+    const Vec2 center = o_px + turn * Vec2(cell.column * pitch_px, (cell.row - 3) * pitch_px);
+    for (int v = 0; v < frame.rows; ++v) {
+      for (int u = 0; u < frame.cols; ++u) {
+        const double distance = (Vec2(u, v) - center).norm();
+        if (distance < pitch_px)
+          frame.at<float>(v, u) += static_cast<float>(211.0 * edge(distance, 0.25 * pitch_px));
+      }
+    }
+  }
+}
+
+cv::Mat frame_of_three_markers() {
+  Random random(1);
+  cv::Mat frame(480, 640, CV_32FC1, cv::Scalar(35.0));
+  draw_marker(frame, 1782, {300.0, 250.0}, 0.3, 11.6);
+  draw_marker(frame, 447, {120.0, 140.0}, 2.0, 11.6);
+  draw_marker(frame, 3003, {500.0, 350.0}, 4.0, 11.6);
+  cv::Mat gray(frame.size(), CV_8UC1);
+  for (int v = 0; v < gray.rows; ++v) {
+    for (int u = 0; u < gray.cols; ++u) {
+      gray.at<std::uint8_t>(v, u) =
+          cv::saturate_cast<std::uint8_t>(frame.at<float>(v, u) + 4.0 * random.normal());
+    }
+  }
+  return gray;
+}
+
+void threshold_alone(benchmark::State& state) {
+  cv::setNumThreads(1);
+  const cv::Mat frame = frame_of_three_markers();
+  cv::Mat binary;
+  for ([[maybe_unused]] auto _ : state) {
+    cv::threshold(frame, binary, 199.0, 255.0, cv::THRESH_BINARY);
+    benchmark::DoNotOptimize(binary.data);
+  }
+}
+BENCHMARK(threshold_alone)->Unit(benchmark::kMicrosecond);
+
+void threshold_as_runs(benchmark::State& state) {
+  const cv::Mat frame = frame_of_three_markers();
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(bright_runs(frame, 200));
+}
+BENCHMARK(threshold_as_runs)->Unit(benchmark::kMicrosecond);
+
+void dots_of_a_frame(benchmark::State& state) {
+  const cv::Mat frame = frame_of_three_markers();
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(find_dots(frame, {}));
+}
+BENCHMARK(dots_of_a_frame)->Unit(benchmark::kMicrosecond);
+
+void markers_of_a_frame(benchmark::State& state) {
+  const cv::Mat frame = frame_of_three_markers();
+  for ([[maybe_unused]] auto _ : state) {
+    const std::vector<DetectedMarker> markers = detect_markers(frame);
+    if (markers.size() != 3) state.SkipWithError("a marker was not read");
+    benchmark::DoNotOptimize(markers.data());
+  }
+}
+BENCHMARK(markers_of_a_frame)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,197 @@
+#include "localization/bright_areas.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core/hal/intrin.hpp>
+#include <utility>
+
+#include "localization/disjoint_sets.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr int block = 64;  // pixels looked at in one go: one bit each
+
+/// Bit i is set when pixel i is bright.
+std::uint64_t bright_bits(const std::uint8_t* pixels, int count, std::uint8_t threshold) {
+  std::uint64_t bits = 0;
+#if CV_SIMD128
+  if (count == block) {
+    const cv::v_uint8x16 limit = cv::v_setall_u8(threshold);
+    const cv::v_uint8x16 a = cv::v_load(pixels);
+    const cv::v_uint8x16 b = cv::v_load(pixels + 16);
+    const cv::v_uint8x16 c = cv::v_load(pixels + 32);
+    const cv::v_uint8x16 d = cv::v_load(pixels + 48);
+    if (!cv::v_check_any(cv::v_max(cv::v_max(a, b), cv::v_max(c, d)) >= limit)) return 0;
+    const auto part = [&](const cv::v_uint8x16& v) {
+      return static_cast<std::uint64_t>(static_cast<std::uint32_t>(cv::v_signmask(v >= limit)));
+    };
+    return part(a) | part(b) << 16U | part(c) << 32U | part(d) << 48U;
+  }
+#endif
+  for (int i = 0; i < count; ++i) bits |= static_cast<std::uint64_t>(pixels[i] >= threshold) << i;
+  return bits;
+}
+
+void append_runs_of_row(const std::uint8_t* pixels, int width, int row, std::uint8_t threshold,
+                        std::vector<Run>& runs) {
+  std::uint64_t last = 0;  // was the pixel before this block bright?
+  for (int u = 0; u < width; u += block) {
+    const std::uint64_t bits = bright_bits(pixels + u, std::min(block, width - u), threshold);
+    std::uint64_t changes = bits ^ ((bits << 1U) | last);
+    bool bright = last != 0;
+    last = bits >> 63U;
+    for (; changes != 0; changes &= changes - 1) {
+      const int where = u + std::countr_zero(changes);
+      if (bright) {
+        runs.back().end = where;
+      } else {
+        runs.push_back({row, where, width});
+      }
+      bright = !bright;
+    }
+  }
+}
+
+/// Joins the runs of two neighbouring rows that touch, corners included.
+void join_rows(std::span<const Run> runs, std::size_t above, std::size_t above_end, std::size_t here,
+               std::size_t here_end, DisjointSets& sets) {
+  while (above < above_end && here < here_end) {
+    const bool touching = runs[above].begin <= runs[here].end && runs[here].begin <= runs[above].end;
+    if (touching) sets.join(above, here);
+    if (runs[above].end < runs[here].end) {
+      ++above;
+    } else {
+      ++here;
+    }
+  }
+}
+
+std::size_t end_of_row(std::span<const Run> runs, std::size_t first) {
+  std::size_t i = first;
+  while (i < runs.size() && runs[i].row == runs[first].row) ++i;
+  return i;
+}
+
+DisjointSets touching_runs(std::span<const Run> runs) {
+  DisjointSets sets(runs.size());
+  std::size_t above = 0;
+  std::size_t here = 0;
+  while (here < runs.size()) {
+    const std::size_t here_end = end_of_row(runs, here);
+    if (above < here && runs[above].row + 1 == runs[here].row) {
+      join_rows(runs, above, here, here, here_end, sets);
+    }
+    above = here;
+    here = here_end;
+  }
+  return sets;
+}
+
+/// Area, box and second moments of one area's runs. A run of n pixels from u has the sums n, n * mean and
+/// n * (mean^2 + (n^2 - 1) / 12); each pixel is a square, which adds 1/12.
+void measure(std::span<const Run> runs, BrightArea& area) {
+  area.left = runs.front().begin;
+  area.right = runs.front().end - 1;
+  area.top = runs.front().row;
+  area.bottom = runs.back().row;
+  double sum_u = 0.0, sum_v = 0.0, sum_uu = 0.0, sum_uv = 0.0, sum_vv = 0.0;
+  for (const Run& run : runs) {
+    const int length = run.end - run.begin;
+    area.left = std::min(area.left, run.begin);
+    area.right = std::max(area.right, run.end - 1);
+    area.area_px += length;
+    const double n = length;
+    const double u = 0.5 * (run.begin + run.end - 1) - runs.front().begin;
+    const double v = run.row - area.top;
+    sum_u += n * u;
+    sum_v += n * v;
+    sum_uu += n * (u * u + n * n / 12.0);
+    sum_uv += n * u * v;
+    sum_vv += n * (v * v + 1.0 / 12.0);
+  }
+  const double n = area.area_px;
+  const double u = sum_u / n;
+  const double v = sum_v / n;
+  area.mean_u_px = runs.front().begin + u;
+  area.mean_v_px = area.top + v;
+  const double uu = sum_uu / n - u * u;
+  const double uv = sum_uv / n - u * v;
+  const double vv = sum_vv / n - v * v;
+  const double half_difference = std::hypot(0.5 * (uu - vv), uv);
+  const double half_sum = 0.5 * (uu + vv);
+  area.aspect_ratio = std::sqrt((half_sum + half_difference) / std::max(half_sum - half_difference, 1e-9));
+}
+
+/// Runs that lie in `a` and, moved down by `rows`, in `b`. Both sorted, as is the result.
+std::vector<Run> intersection(std::span<const Run> a, std::span<const Run> b, int rows) {
+  std::vector<Run> both;
+  both.reserve(a.size());
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    const int row = b[j].row + rows;
+    if (a[i].row == row) {
+      const int begin = std::max(a[i].begin, b[j].begin);
+      const int end = std::min(a[i].end, b[j].end);
+      if (begin < end) both.push_back({row, begin, end});
+    }
+    if (std::pair(a[i].row, a[i].end) < std::pair(row, b[j].end)) {
+      ++i;
+    } else {
+      ++j;
+    }
+  }
+  return both;
+}
+
+}  // namespace
+
+std::vector<Run> bright_runs(const cv::Mat& gray, int threshold) {
+  std::vector<Run> runs;
+  if (threshold > 255) return runs;
+  const auto limit = static_cast<std::uint8_t>(std::max(threshold, 0));
+  constexpr std::size_t usual = 1024;
+  runs.reserve(usual);
+  for (int v = 0; v < gray.rows; ++v) {
+    append_runs_of_row(gray.ptr<std::uint8_t>(v), gray.cols, v, limit, runs);
+  }
+  return runs;
+}
+
+BrightAreas connected_areas(std::span<const Run> runs) {
+  const std::vector<std::size_t> number = touching_runs(runs).numbers();
+  BrightAreas result;
+  for (const std::size_t n : number) {
+    if (n == result.areas.size()) result.areas.emplace_back();
+    ++result.areas[n].run_count;
+  }
+  std::size_t next = 0;
+  for (BrightArea& area : result.areas) {
+    area.first_run = next;
+    next += std::exchange(area.run_count, 0);
+  }
+  result.runs.resize(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    BrightArea& area = result.areas[number[i]];
+    result.runs[area.first_run + area.run_count++] = runs[i];
+  }
+  for (BrightArea& area : result.areas) measure(result.runs_of(area), area);
+  return result;
+}
+
+std::vector<Run> eroded(std::span<const Run> runs, int side) {
+  const int reach = side / 2;
+  std::vector<Run> left;
+  left.reserve(runs.size());
+  for (const Run& run : runs) {
+    if (run.end - run.begin > 2 * reach) left.push_back({run.row, run.begin + reach, run.end - reach});
+  }
+  for (int rows = 1; rows <= reach; ++rows) {
+    left = intersection(left, runs, rows);
+    left = intersection(left, runs, -rows);
+  }
+  return left;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace lodestar {
+
+/// Which of `count` things belong together, told pair by pair (union-find with path halving; Tarjan 1975).
+/// The root of a set is its first member.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  void join(std::size_t a, std::size_t b) {
+    const std::size_t root_a = root(a);
+    const std::size_t root_b = root(b);
+    if (root_a < root_b) {
+      parent_[root_b] = root_a;
+    } else {
+      parent_[root_a] = root_b;
+    }
+  }
+
+  /// The number of each thing's set; sets are numbered by their first members.
+  std::vector<std::size_t> numbers() {
+    std::vector<std::size_t> number(parent_.size());
+    std::size_t sets = 0;
+    for (std::size_t i = 0; i < parent_.size(); ++i) {
+      const std::size_t first = root(i);
+      number[i] = first == i ? sets++ : number[first];
+    }
+    return number;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+}  // namespace lodestar

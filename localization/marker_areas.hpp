@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "localization/dots.hpp"
+
+namespace lodestar {
+
+struct MarkerAreaOptions {
+  double dilation_px = 0.0;  ///< diameter of the disc that joins a marker's dots; 0: from the dots' spacing
+  double join_pitches =
+      3.6;  ///< dots nearer than this, in the pitch that their radius tells, become one area
+  double max_size_ratio = 1.5;  ///< dots whose radii differ by more do not join
+};
+
+/// Dilation (paper, section 4.1, Fig. 2c): which dots grow together into one area. Two dots dilated by a disc
+/// touch when their centres are nearer than its diameter, so no image has to be dilated. The disc comes from
+/// the dots themselves, whose radius is a quarter of the pitch: dots of one marker are at most 3 pitches from
+/// the next (O and X of ID 0), those of markers 30 cm apart at least 4.5. Areas of indices into `dots`,
+/// ordered by their first dot.
+std::vector<std::vector<std::size_t>> dilated_areas(std::span<const Dot> dots,
+                                                    const MarkerAreaOptions& options);
+
+}  // namespace lodestar

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "localization/detected_marker.hpp"
+#include "localization/dots.hpp"
+#include "localization/marker_grid.hpp"
+
+namespace lodestar {
+
+/// How much tilt, perspective and noise a marker may show. The code has no redundancy: whatever does not fit
+/// is refused, for a marker not read costs a frame and a marker misread costs the pose.
+struct MarkerDecoderOptions {
+  double axis_ratio_min = 0.7;                      ///< shorter over longer of OX and OY
+  double axis_angle_tolerance_rad = radians(20.0);  ///< how near the angle XOY must be to 90 degrees
+  double cell_tolerance =
+      0.2;  ///< how far a dot may be from its cell, in pitches, before perspective is known
+  double fit_tolerance = 0.08;  ///< and after
+  double size_tolerance = 0.2;  ///< how alike the dots' radii must be, and 4 radii to a pitch
+  double guard_pitches = 1.0;   ///< about a marker that shares its area with others, so much must be clear
+  std::size_t most_dots = 48;   ///< an area with more holds no markers
+};
+
+/// The direction dots, as indices.
+struct DirectionDots {
+  std::size_t o = 0;
+  std::size_t x = 0;
+  std::size_t y = 0;
+};
+
+/// The paper's rule (4.2.1): A and B are the two dots farthest apart, O is the one farthest from their middle
+/// (A and B, as far from it as O, are out of the question). Right for every ID while the tilt is below 32
+/// degrees, because the corner opposite O is always empty. Which of A and B is X is told by the turn from OX
+/// to OY, Eq. (4) and (5): counter-clockwise on the face as printed. Nothing for fewer than three dots.
+std::optional<DirectionDots> direction_dots(std::span<const Dot> dots);
+
+/// The ID that these cells' dots stand for, Eq. (9).
+int id_of(std::span<const MarkerDot> dots);
+
+/// A marker read from dots.
+struct MarkerReading {
+  int id = 0;
+  MarkerGrid grid;
+  std::vector<MarkerDot> dots;
+  std::vector<std::size_t> indices;  ///< of the same dots among those given
+};
+
+/// Reads dots that are all of one marker: each must stand in a cell of its own, and none in the corner
+/// opposite O. Nothing when any of them does not fit. A mirrored print shows exactly the dots of another
+/// marker, the one whose ID is transposed (Q mirrored about the diagonal through O), and is read as that one:
+/// no reader of dots can tell.
+std::optional<MarkerReading> read_marker(std::span<const Dot> dots, const DirectionDots& direction,
+                                         const MarkerDecoderOptions& options = {});
+
+/// All markers of one dilated area. As a rule it holds one, which the paper's rule reads; when that fails
+/// (markers too near each other, a glint beside one, a steep view) every dot is tried as O. Two readings that
+/// share a dot are both refused.
+std::vector<MarkerReading> read_area(std::span<const Dot> dots, const MarkerDecoderOptions& options = {});
+
+}  // namespace lodestar
