@@ -1,3 +1,47 @@
-int main() {
-  return 0;
+#include <fmt/core.h>
+#include <opencv2/core/utility.hpp>
+
+#include "app/commands/command.hpp"
+#include "maps/input_error.hpp"
+
+namespace {
+
+using namespace lodestar;
+
+std::vector<Command> all_commands(CLI::App& app) {
+  std::vector<Command> all;
+  for (const auto make : {replay_commands, localize_commands, detect_commands, plan_commands, map_commands,
+                          markers_commands, bench_commands}) {
+    for (Command& command : make(app)) all.push_back(std::move(command));
+  }
+  return all;
+}
+
+ExitCode run_chosen(const std::vector<Command>& commands) {
+  for (const Command& command : commands) {
+    if (command.arguments->parsed()) return command.run();
+  }
+  return unusable_input;  // unreachable: a subcommand is required
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);  // no hidden threads: runs side by side are ours to arrange
+  CLI::App app{"Indoor navigation for mobile robots under a ceiling of infrared dot markers", "lodestar"};
+  app.set_version_flag("--version", LODESTAR_VERSION);
+  app.require_subcommand(1);
+  const std::vector<Command> commands = all_commands(app);
+  try {
+    app.parse(argc, argv);
+    return run_chosen(commands);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : unusable_input;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "lodestar: {}\n", error.what());
+    return unusable_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "lodestar: internal error: {}\n", error.what());
+    return job_failed;
+  }
 }

@@ -67,6 +67,9 @@ class Navigation {
   /// followed when planning fails, or when the robot does not know where it is (then nothing is returned).
   std::optional<PlanResult> go_to(const Goal& goal);
 
+  /// Follows nothing any more: the next command is zero.
+  void halt() { drive_.reset(); }
+
   [[nodiscard]] bool arrived() const { return drive_ && drive_->arrived(); }
 
  private:

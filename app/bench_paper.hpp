@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "localization/pose_fix.hpp"
+
+// The paper's three experiments, done again with rendered frames of the paper's camera.
+namespace lodestar {
+
+struct BenchPaperOptions {
+  std::uint64_t seed = 1;
+  double tilt_sigma_rad =
+      radians(0.05);  ///< of the camera on its stand, truly so, and the prior of the pose estimate
+  std::optional<PosePrior> prior;  ///< instead of that one
+};
+
+/// Table 1: 200 trials with 100 different IDs, varied angle, light and number of markers.
+struct IdentificationResult {
+  int trials = 0;
+  int correct = 0;  ///< the optimal marker was found and its ID was right
+  int wrong = 0;    ///< an ID was given, but not the right one
+  double mean_ms = 0.0;
+};
+
+/// Table 2: one heading of the turned camera.
+struct AngleTrial {
+  double real_deg = 0.0;
+  double output_deg = 0.0;
+  double confidence = 0.0;
+  bool fixed = false;                          ///< a pose was found
+  [[nodiscard]] double deviation_deg() const;  ///< real minus output, wrapped
+};
+
+/// Table 3: one position of the camera in the marker's frame (X along O->X, Y along O->Y, Z away from the
+/// ceiling).
+struct PositionTrial {
+  Vec3 real_m = Vec3::Zero();
+  Vec3 output_m = Vec3::Zero();
+  double confidence = 0.0;
+  bool fixed = false;
+};
+
+struct BenchPaperResult {
+  IdentificationResult identification;
+  std::vector<AngleTrial> angles;
+  std::vector<PositionTrial> positions;
+
+  [[nodiscard]] double mean_angle_deviation_deg()
+      const;  ///< mean absolute, as in the paper; infinite without a pose
+  [[nodiscard]] double mean_position_deviation_m() const;  ///< mean 3-D distance, as in the paper
+};
+
+BenchPaperResult bench_paper(const BenchPaperOptions& options);
+
+}  // namespace lodestar

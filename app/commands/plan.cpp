@@ -1,0 +1,139 @@
+#include <chrono>
+#include <fmt/core.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/arguments.hpp"
+#include "app/commands/command.hpp"
+#include "app/figure.hpp"
+#include "control/travel_time.hpp"
+#include "maps/input_error.hpp"
+#include "maps/map_file.hpp"
+#include "maps/marker_registry.hpp"
+#include "planning/grid_planner.hpp"
+
+namespace lodestar {
+namespace {
+
+struct PlanArguments {
+  std::string map;
+  std::string markers;
+  std::string start;
+  std::string goal;
+  std::string planner = "astar";
+  std::string format = "text";
+  std::string draw;
+  GridPlannerOptions options{.radius_m = 0.25, .preferred_clearance_m = 0.15, .clearance_weight = 0.0};
+};
+
+struct TimedPlan {
+  PlanResult result;
+  double microseconds = 0.0;
+};
+
+TimedPlan timed_plan(const GridPlanner& planner, const Vec2& start, const Vec2& goal) {
+  const auto before = std::chrono::steady_clock::now();
+  PlanResult result = planner.plan(start, goal);
+  const auto after = std::chrono::steady_clock::now();
+  return {std::move(result), std::chrono::duration<double, std::micro>(after - before).count()};
+}
+
+std::size_t turns_in(const Path& path) {
+  return path.waypoints_m.size() < 2 ? 0 : path.waypoints_m.size() - 2;
+}
+
+nlohmann::ordered_json as_json(const TimedPlan& timed, const std::string& planner) {
+  if (const auto* failure = std::get_if<PlanFailure>(&timed.result)) {
+    return {{"status", to_string(*failure)}, {"planner", planner},
+            {"length_m", nullptr},           {"turns", nullptr},
+            {"travel_time_s", nullptr},      {"plan_us", timed.microseconds},
+            {"expanded", nullptr},           {"waypoints", nlohmann::ordered_json::array()}};
+  }
+  const Plan& plan = std::get<Plan>(timed.result);
+  nlohmann::ordered_json waypoints = nlohmann::ordered_json::array();
+  for (const Vec2& point : plan.path.waypoints_m) waypoints.push_back({point.x(), point.y()});
+  return {{"status", "ok"},
+          {"planner", planner},
+          {"length_m", length_m(plan.path)},
+          {"turns", turns_in(plan.path)},
+          {"travel_time_s", ideal_travel_time_s(plan.path, std::nullopt, std::nullopt, DriveOptions{})},
+          {"plan_us", timed.microseconds},
+          {"expanded", plan.expanded},
+          {"waypoints", waypoints}};
+}
+
+void print_text(const TimedPlan& timed, const nlohmann::ordered_json& summary) {
+  if (std::holds_alternative<PlanFailure>(timed.result)) {
+    fmt::print("no plan: {}\n", summary["status"].get<std::string>());
+    return;
+  }
+  fmt::print("{:.3f} m, {} turns, {:.1f} s to drive; planned in {:.0f} us, {} nodes expanded\n",
+             summary["length_m"].get<double>(), summary["turns"].get<int>(),
+             summary["travel_time_s"].get<double>(), timed.microseconds,
+             summary["expanded"].get<std::size_t>());
+  for (const Vec2& point : std::get<Plan>(timed.result).path.waypoints_m) {
+    fmt::print("  {:.3f}, {:.3f}\n", point.x(), point.y());
+  }
+}
+
+void warn(const LoadedMap& map) {
+  for (const std::string& warning : map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
+}
+
+ExitCode plan(const PlanArguments& arguments) {
+  const Vec2 start = parse_point("--start", arguments.start);
+  const Vec2 goal = parse_point("--goal", arguments.goal);
+  const LoadedMap loaded = load_map(arguments.map);
+  warn(loaded);
+  MarkerRegistry registry;
+  if (!arguments.markers.empty()) registry = load_registry(arguments.markers);
+
+  const GridPlanner planner(loaded.map, arguments.options);
+  const TimedPlan timed = timed_plan(planner, start, goal);
+  const nlohmann::ordered_json summary = as_json(timed, arguments.planner);
+  if (arguments.format == "json") {
+    fmt::print("{}\n", summary.dump(2));
+  } else {
+    print_text(timed, summary);
+  }
+  const auto* found = std::get_if<Plan>(&timed.result);
+  if (!arguments.draw.empty()) {
+    write_png(arguments.draw, draw_plan(loaded.map, registry, start, goal, found ? found->path : Path{}));
+  }
+  return found ? done : job_failed;
+}
+
+}  // namespace
+
+std::vector<Command> plan_commands(CLI::App& lodestar) {
+  const auto arguments = std::make_shared<PlanArguments>();
+  CLI::App* command = lodestar.add_subcommand("plan", "Plan a drive over a map; exit 1 when there is no way");
+  command->add_option("--map", arguments->map, "Occupancy map, ROS map_server YAML")->required();
+  command->add_option("--markers", arguments->markers, "Marker registry, for the picture");
+  command->add_option("--start", arguments->start, "X,Y in metres in the map frame")->required();
+  command->add_option("--goal", arguments->goal, "X,Y in metres in the map frame")->required();
+  command->add_option("--planner", arguments->planner, "astar")
+      ->check(CLI::IsMember({"astar"}))
+      ->capture_default_str();
+  command->add_option("--radius", arguments->options.radius_m, "Robot radius in metres")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option("--clearance-weight", arguments->options.clearance_weight,
+                   "How much more a way close to obstacles costs; 0 finds the shortest")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command
+      ->add_option("--clearance", arguments->options.preferred_clearance_m,
+                   "What counts as close, metres beyond the radius")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--format", arguments->format, "text or json")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  command->add_option("--draw", arguments->draw, "PNG file for a picture of map and path");
+  return {{command, [arguments] { return plan(*arguments); }}};
+}
+
+}  // namespace lodestar

@@ -1,0 +1,199 @@
+#include "app/replay.hpp"
+
+#include <filesystem>
+#include <fmt/core.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/arguments.hpp"
+#include "app/commands/command.hpp"
+#include "app/progress.hpp"
+#include "app/replay_runs.hpp"
+#include "app/run_folder.hpp"
+#include "maps/atomic_file.hpp"
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReplayArguments {
+  std::string site;
+  std::uint64_t seed = 1;
+  int runs = 1;
+  std::string camera;
+  std::string planner = "astar";
+  std::vector<std::string> goals;
+  bool realtime = false;
+  bool quiet = false;
+  bool json = false;
+  std::string output;
+};
+
+/// The lab, wherever the program is started from.
+fs::path default_site() {
+  const fs::path here = fs::path("sites") / "lab";
+  return fs::exists(here / "site.yaml") ? here : fs::path(LODESTAR_SITES_DIR) / "lab";
+}
+
+ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site) {
+  ReplayOptions options{.camera = arguments.camera.empty() ? site.default_camera : arguments.camera,
+                        .seed = arguments.seed,
+                        .goals = site.goals,
+                        .realtime = arguments.realtime};
+  if (!site.cameras.contains(options.camera)) {
+    throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
+                     "--camera to name one of its cameras");
+  }
+  if (arguments.goals.empty()) return options;
+  options.goals.clear();
+  for (const std::string& text : arguments.goals) options.goals.push_back(parse_goal("--goal", text));
+  return options;
+}
+
+nlohmann::ordered_json as_json(const RunSummary& run) {
+  return {{"seed", run.seed},
+          {"goals", run.goals},
+          {"arrivals", run.arrivals},
+          {"worst_position_m", run.worst_position_m},
+          {"worst_heading_deg", degrees(run.worst_heading_rad)},
+          {"path_p95_m", run.path_p95_m},
+          {"contacts", run.contacts},
+          {"drive_s", run.drive_s},
+          {"failure", run.failure}};
+}
+
+bool succeeded(const RunSummary& run) {
+  return run.arrivals == run.goals && run.contacts == 0;
+}
+
+void print_row(const RunSummary& run) {
+  fmt::print("{:>6} {:>5}/{:<2} {:>11.1f} {:>12.2f} {:>12.1f} {:>9} {:>9.1f}  {}\n", run.seed, run.arrivals,
+             run.goals, 1000.0 * run.worst_position_m, degrees(run.worst_heading_rad),
+             1000.0 * run.path_p95_m, run.contacts, run.drive_s, run.failure);
+}
+
+/// The worst of all runs.
+RunSummary worst_of(const std::vector<RunSummary>& runs) {
+  RunSummary worst;
+  for (const RunSummary& run : runs) {
+    worst.goals += run.goals;
+    worst.arrivals += run.arrivals;
+    worst.worst_position_m = std::max(worst.worst_position_m, run.worst_position_m);
+    worst.worst_heading_rad = std::max(worst.worst_heading_rad, run.worst_heading_rad);
+    worst.path_p95_m = std::max(worst.path_p95_m, run.path_p95_m);
+    worst.contacts += run.contacts;
+    worst.drive_s += run.drive_s;
+    worst.wall_s += run.wall_s;
+  }
+  return worst;
+}
+
+void print_table(const std::vector<RunSummary>& runs) {
+  fmt::print("  seed  arrived  error (mm)  error (deg)  path95 (mm)  contacts  time (s)\n");
+  for (const RunSummary& run : runs) print_row(run);
+  const RunSummary worst = worst_of(runs);
+  fmt::print(
+      "all {} runs: {} of {} goals reached, {} contacts; worst: {:.1f} mm and {:.2f} deg from a goal, "
+      "95 % of the track within {:.1f} mm of the path\n",
+      runs.size(), worst.arrivals, worst.goals, worst.contacts, 1000.0 * worst.worst_position_m,
+      degrees(worst.worst_heading_rad), 1000.0 * worst.path_p95_m);
+  fmt::print(stderr, "{:.0f} x real time on one core\n", worst.drive_s / worst.wall_s);
+}
+
+ExitCode replay_many(const Site& site, const ReplayOptions& options, const ReplayArguments& arguments) {
+  std::vector<RunSummary> runs;
+  {
+    Progress progress("replay", arguments.quiet);
+    runs = replay_runs(site, options, arguments.runs,
+                       [&](int finished) { progress.show(static_cast<double>(finished) / arguments.runs); });
+  }
+  nlohmann::ordered_json report = nlohmann::ordered_json::array();
+  for (const RunSummary& run : runs) report.push_back(as_json(run));
+  if (arguments.json) {
+    fmt::print("{}\n", report.dump(2));
+  } else {
+    print_table(runs);
+  }
+  if (!arguments.output.empty()) {
+    fs::create_directories(arguments.output);
+    write_file_atomically(fs::path(arguments.output) / "runs.json", report.dump(2) + "\n");
+  }
+  return std::ranges::all_of(runs, succeeded) ? done : job_failed;
+}
+
+void print_goals(const RunRecord& record) {
+  for (const GoalRecord& goal : record.goals) {
+    const Vec2& at = goal.goal.position_m;
+    if (!goal.arrived) {
+      fmt::print("({:.2f}, {:.2f}): not reached: {}\n", at.x(), at.y(), goal.failure);
+      continue;
+    }
+    fmt::print("({:.2f}, {:.2f}): reached after {:.1f} s and {:.2f} m, {:.1f} mm", at.x(), at.y(),
+               seconds(goal.travel_time), length_m(goal.planned), 1000.0 * goal.score->position_error_m);
+    if (goal.score->heading_error_rad) fmt::print(" and {:.2f} deg", degrees(*goal.score->heading_error_rad));
+    fmt::print(" off by the truth\n");
+  }
+}
+
+ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArguments& arguments) {
+  const fs::path folder = arguments.output.empty()
+                              ? fs::path("runs") / fmt::format("{}-{}", site.name, options.seed)
+                              : fs::path(arguments.output);
+  RunRecord record;
+  {
+    Progress progress("replay", arguments.quiet);
+    options.progress = [&progress](double share) { progress.show(share); };
+    record = replay(site, options);
+  }
+  write_run_folder(folder, record, site.map.map, site.registry);
+  const RunSummary summary = summarize(record);
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(summary).dump(2));
+  } else {
+    print_goals(record);
+    fmt::print("seed {}: {} contacts, 95 % of the track within {:.1f} mm of the path; run folder: {}\n",
+               record.seed, record.contacts, 1000.0 * summary.path_p95_m, folder.string());
+  }
+  fmt::print(stderr, "{:.1f} s driven in {:.1f} s\n", summary.drive_s, summary.wall_s);
+  return succeeded(summary) ? done : job_failed;
+}
+
+ExitCode replay_command(const ReplayArguments& arguments) {
+  const Site site = load_site(arguments.site.empty() ? default_site() : fs::path(arguments.site));
+  for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
+  const ReplayOptions options = replay_options(arguments, site);
+  return arguments.runs > 1 ? replay_many(site, options, arguments) : replay_once(site, options, arguments);
+}
+
+}  // namespace
+
+std::vector<Command> replay_commands(CLI::App& lodestar) {
+  const auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App* command =
+      lodestar.add_subcommand("replay", "Drive the simulated robot through a site; exit 1 unless it arrives");
+  command->add_option("site", arguments->site, "Site folder; the lab when left out");
+  command->add_option("--seed", arguments->seed, "Of all randomness; the same seed gives the same bytes")
+      ->capture_default_str();
+  command->add_option("--runs", arguments->runs, "So many runs, with this seed and the following, as a table")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--camera", arguments->camera, "wide or paper; the site's default when left out")
+      ->check(CLI::IsMember({"wide", "paper"}));
+  command->add_option("--planner", arguments->planner, "astar")
+      ->check(CLI::IsMember({"astar"}))
+      ->capture_default_str();
+  command
+      ->add_option("--goal", arguments->goals,
+                   "X,Y[,DEG] in metres and degrees; repeat for more; the site's when left out")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
+  command->add_flag("--quiet", arguments->quiet, "No progress bar");
+  command->add_flag("--json", arguments->json, "Results as JSON");
+  command->add_option("-o,--output", arguments->output, "Run folder; runs/SITE-SEED when left out");
+  return {{command, [arguments] { return replay_command(*arguments); }}};
+}
+
+}  // namespace lodestar

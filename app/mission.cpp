@@ -1,0 +1,95 @@
+#include "app/mission.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace lodestar {
+namespace {
+
+bool at_rest(const BaseFeedback& base) {
+  constexpr double still_mps = 0.003;
+  constexpr double still_radps = 0.01;
+  return base.measured && std::abs(base.measured->forward_mps) <= still_mps &&
+         std::abs(base.measured->turn_radps) <= still_radps;
+}
+
+}  // namespace
+
+Mission::Mission(const KnownWorld& world, const NavigationOptions& navigation, std::vector<Goal> goals,
+                 const MissionOptions& options)
+    : navigation_(world, navigation), goals_(std::move(goals)), options_(options) {}
+
+MissionStep Mission::step(const SensorInput& input) {
+  NavigationStep step = navigation_.step(input);
+  const MissionEvent event = finished() ? MissionEvent::none : advance(input, step);
+  return {.navigation = std::move(step), .event = event};
+}
+
+MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& step) {
+  switch (state_) {
+    case State::starting:
+      return start_goal(input, step);
+    case State::driving:
+      return watch_drive(input, step);
+    case State::settling:
+      return settle(input);
+  }
+  return MissionEvent::none;
+}
+
+MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep& step) {
+  if (!since_) since_ = input.now;
+  const bool may_start = !step.stop && input.base.state == BaseState::ready && at_rest(input.base);
+  if (!may_start) {
+    if (input.now - *since_ < options_.max_wait_for_start) return MissionEvent::none;
+    if (input.base.state != BaseState::ready) return fail(input.now, "the base is not ready");
+    return fail(input.now,
+                fmt::format("cannot start: {}", step.stop ? to_string(*step.stop) : "not at rest"));
+  }
+  const std::optional<PlanResult> result = navigation_.go_to(goals_[current_]);
+  if (!result) return fail(input.now, "the pose is not known");
+  if (const auto* failure = std::get_if<PlanFailure>(&*result)) {
+    return fail(input.now, std::string(to_string(*failure)));
+  }
+  path_ = std::get<Plan>(*result).path;
+  state_ = State::driving;
+  since_.reset();
+  return MissionEvent::path_planned;
+}
+
+MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep& step) {
+  if (input.base.state == BaseState::fault) return fail(input.now, "the base reports a fault");
+  if (navigation_.arrived()) {
+    state_ = State::settling;
+    since_.reset();
+    return MissionEvent::none;
+  }
+  if (!step.stop) {
+    since_.reset();
+    return MissionEvent::none;
+  }
+  if (!since_) since_ = input.now;
+  if (input.now - *since_ < options_.max_stop) return MissionEvent::none;
+  return fail(input.now, fmt::format("stopped for too long: {}", to_string(*step.stop)));
+}
+
+MissionEvent Mission::settle(const SensorInput& input) {
+  if (!since_ || !at_rest(input.base)) since_ = input.now;
+  if (input.now - *since_ < options_.settle) return MissionEvent::none;
+  return end_goal(input.now, MissionEvent::goal_arrived);
+}
+
+MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
+  ++current_;
+  state_ = State::starting;
+  since_ = now;
+  return event;
+}
+
+MissionEvent Mission::fail(Stamp now, std::string why) {
+  failure_ = std::move(why);
+  navigation_.halt();
+  return end_goal(now, MissionEvent::goal_failed);
+}
+
+}  // namespace lodestar

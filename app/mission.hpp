@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/navigation.hpp"
+
+namespace lodestar {
+
+struct MissionOptions {
+  Duration max_wait_for_start = std::chrono::seconds(15);  ///< for a first pose and a base that obeys
+  Duration max_stop = std::chrono::seconds(20);            ///< a safety stop that lasts longer fails the goal
+  Duration settle = std::chrono::milliseconds(400);        ///< at rest for so long before arrival is claimed
+};
+
+enum class MissionEvent { none, path_planned, goal_arrived, goal_failed };
+
+struct MissionStep {
+  NavigationStep navigation;
+  MissionEvent event = MissionEvent::none;
+};
+
+/// Drives to one goal after the other. Time arrives with the data.
+class Mission {
+ public:
+  Mission(const KnownWorld& world, const NavigationOptions& navigation, std::vector<Goal> goals,
+          const MissionOptions& options = {});
+
+  MissionStep step(const SensorInput& input);
+
+  [[nodiscard]] bool finished() const { return current_ >= goals_.size(); }
+  [[nodiscard]] std::size_t current() const { return current_; }
+  /// The path being followed; valid from path_planned on.
+  [[nodiscard]] const Path& path() const { return path_; }
+  /// Why the last goal failed, in words.
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+
+ private:
+  enum class State { starting, driving, settling };
+
+  MissionEvent advance(const SensorInput& input, const NavigationStep& step);
+  MissionEvent start_goal(const SensorInput& input, const NavigationStep& step);
+  MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
+  MissionEvent settle(const SensorInput& input);
+  MissionEvent end_goal(Stamp now, MissionEvent event);
+  MissionEvent fail(Stamp now, std::string why);
+
+  Navigation navigation_;
+  std::vector<Goal> goals_;
+  MissionOptions options_;
+  State state_ = State::starting;
+  std::size_t current_ = 0;
+  std::optional<Stamp> since_;  ///< of the present state, or of the present stop while driving
+  Path path_;
+  std::string failure_;
+};
+
+}  // namespace lodestar

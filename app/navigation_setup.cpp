@@ -1,0 +1,42 @@
+#include "app/navigation_setup.hpp"
+
+namespace lodestar {
+namespace {
+
+/// Flat floor and calibrated mount: the camera's tilt and height are nearly known before looking.
+PosePrior prior_of(const Robot& robot) {
+  PosePrior prior;
+  prior.tilt = rotation_from({robot.camera_mount.roll_rad, robot.camera_mount.pitch_rad, 0.0});
+  prior.tilt_sigma_rad = robot.mount_tilt_sigma_rad;
+  prior.height_m = robot.base_from_camera.translation().z();
+  prior.height_sigma_m = robot.mount_height_sigma_m;
+  return prior;
+}
+
+}  // namespace
+
+KnownWorld known_world(const Site& site, const std::string& camera) {
+  return {.map = site.map.map,
+          .registry = site.registry,
+          .camera = site.cameras.at(camera),
+          .base_from_camera = site.robot.base_from_camera};
+}
+
+NavigationOptions navigation_options(const Robot& robot) {
+  NavigationOptions options;
+  options.fix.prior = prior_of(robot);
+  options.filter.track_width_m = robot.track_width_m;
+  options.planner.radius_m = robot.radius_m;
+  options.planner.preferred_clearance_m = robot.preferred_clearance_m;
+  options.drive.max_forward_mps = robot.max_forward_mps;
+  options.drive.max_turn_radps = robot.max_turn_radps;
+  options.drive.max_acceleration_mps2 = robot.max_acceleration_mps2;
+  options.drive.max_turn_acceleration_radps2 = robot.max_turn_acceleration_radps2;
+  options.drive.max_wheel_mps = robot.max_wheel_mps;
+  options.drive.track_width_m = robot.track_width_m;
+  options.drive.arrival_distance_m = robot.arrival_distance_m;
+  options.drive.arrival_heading_rad = robot.arrival_heading_rad;
+  return options;
+}
+
+}  // namespace lodestar

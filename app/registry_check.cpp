@@ -1,0 +1,114 @@
+#include "app/registry_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <fmt/format.h>
+
+#include "maps/marker.hpp"
+
+namespace lodestar {
+namespace {
+
+/// Of the printed square: the outermost dots with their radius.
+constexpr double half_side_m = 0.5 * (marker_grid_size - 1) * marker_pitch_m + marker_dot_radius_m;
+
+/// The marker's square on the ceiling, its frame at the centre.
+Pose2 center_of(const MarkerRegistry& registry, const RegisteredMarker& marker) {
+  constexpr double to_center_m = 0.5 * (marker_grid_size - 1) * marker_pitch_m;
+  const Eigen::Isometry3d pose = map_from_marker(registry, marker);
+  const Vec3 center = pose * Vec3(to_center_m, to_center_m, 0.0);
+  return {center.head<2>(), flattened(pose).yaw_rad};
+}
+
+std::array<Vec2, 4> corners_of(const Pose2& square) {
+  return {square * Vec2(-half_side_m, -half_side_m), square * Vec2(half_side_m, -half_side_m),
+          square * Vec2(half_side_m, half_side_m), square * Vec2(-half_side_m, half_side_m)};
+}
+
+/// Is there a gap between the squares along one of the axes of `a`? (separating axis theorem)
+bool parted_by_axes_of(const Pose2& a, const Pose2& b) {
+  const Pose2 a_from_map = inverse(a);
+  Vec2 low = Vec2::Constant(1e300);
+  Vec2 high = -low;
+  for (const Vec2& corner : corners_of(b)) {
+    const Vec2 in_a = a_from_map * corner;
+    low = low.cwiseMin(in_a);
+    high = high.cwiseMax(in_a);
+  }
+  return (low.array() >= half_side_m).any() || (high.array() <= -half_side_m).any();
+}
+
+int hamming(int a, int b) {
+  return std::popcount(static_cast<unsigned>(a) ^ static_cast<unsigned>(b));
+}
+
+void find_overlaps(const MarkerRegistry& registry, std::vector<RegistryIssue>& issues) {
+  for (std::size_t i = 0; i < registry.markers.size(); ++i) {
+    for (std::size_t j = i + 1; j < registry.markers.size(); ++j) {
+      const RegisteredMarker& a = registry.markers[i];
+      const RegisteredMarker& b = registry.markers[j];
+      const Pose2 square_a = center_of(registry, a);
+      const Pose2 square_b = center_of(registry, b);
+      if (parted_by_axes_of(square_a, square_b) || parted_by_axes_of(square_b, square_a)) continue;
+      issues.push_back({IssueKind::overlapping,
+                        true,
+                        {a.id, b.id},
+                        a.line,
+                        fmt::format("markers {} and {} overlap", a.id, b.id)});
+    }
+  }
+}
+
+void find_outsiders(const MarkerRegistry& registry, const OccupancyMap& map,
+                    std::vector<RegistryIssue>& issues) {
+  for (const RegisteredMarker& marker : registry.markers) {
+    const Vec2 center = center_of(registry, marker).position_m;
+    if (map.contains(map.cell_at(center))) continue;
+    issues.push_back({IssueKind::outside_map,
+                      true,
+                      {marker.id},
+                      marker.line,
+                      fmt::format("marker {} at {:.2f}, {:.2f} m lies outside the map", marker.id, center.x(),
+                                  center.y())});
+  }
+}
+
+}  // namespace
+
+HammingReport hamming_report(const MarkerRegistry& registry) {
+  HammingReport report;
+  for (std::size_t i = 0; i < registry.markers.size(); ++i) {
+    for (std::size_t j = i + 1; j < registry.markers.size(); ++j) {
+      const std::pair pair(registry.markers[i].id, registry.markers[j].id);
+      const int distance = hamming(pair.first, pair.second);
+      if (report.closest_pairs.empty() || distance < report.smallest) {
+        report.smallest = distance;
+        report.closest_pairs.clear();
+      }
+      if (distance == report.smallest) report.closest_pairs.push_back(pair);
+    }
+  }
+  return report;
+}
+
+std::vector<RegistryIssue> check_registry(const MarkerRegistry& registry,
+                                          const std::optional<OccupancyMap>& map) {
+  std::vector<RegistryIssue> issues;
+  find_overlaps(registry, issues);
+  if (map) find_outsiders(registry, *map, issues);
+  const HammingReport report = hamming_report(registry);
+  if (report.smallest == 1) {
+    for (const auto& [a, b] : report.closest_pairs) {
+      const RegisteredMarker* first = registry.find(a);
+      issues.push_back({IssueKind::similar_ids,
+                        false,
+                        {a, b},
+                        first ? first->line : 0,
+                        fmt::format("IDs {} and {} differ in one dot", a, b)});
+    }
+  }
+  return issues;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+
+#include "app/run_record.hpp"
+#include "app/site.hpp"
+
+namespace lodestar {
+
+struct ReplayOptions {
+  std::string camera;  ///< a profile of the site
+  std::uint64_t seed = 1;
+  std::vector<Goal> goals;
+  bool realtime = false;                 ///< no faster than the world's own time
+  std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
+};
+
+/// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.
+RunRecord replay(const Site& site, const ReplayOptions& options);
+
+}  // namespace lodestar

@@ -1,0 +1,65 @@
+#include "app/replay_runs.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+
+namespace lodestar {
+
+RunSummary summarize(const RunRecord& record) {
+  RunSummary summary;
+  summary.seed = record.seed;
+  summary.goals = static_cast<int>(record.goals.size());
+  for (const GoalRecord& goal : record.goals) {
+    summary.arrivals += goal.arrived ? 1 : 0;
+    if (goal.score) {
+      summary.worst_position_m = std::max(summary.worst_position_m, goal.score->position_error_m);
+      summary.worst_heading_rad =
+          std::max(summary.worst_heading_rad, goal.score->heading_error_rad.value_or(0.0));
+    }
+    if (summary.failure.empty()) summary.failure = goal.failure;
+  }
+  summary.path_p95_m = percentile(record.path_distances_m, 0.95).value_or(0.0);
+  summary.contacts = record.contacts;
+  summary.drive_s = record.truth.empty() ? 0.0 : seconds(record.truth.back().stamp);
+  summary.wall_s = record.wall_time_s;
+  return summary;
+}
+
+std::vector<RunSummary> replay_runs(const Site& site, const ReplayOptions& options, int runs,
+                                    const std::function<void(int)>& done) {
+  std::vector<RunSummary> summaries(static_cast<std::size_t>(runs));
+  std::atomic<int> next = 0;
+  std::atomic<int> finished = 0;
+  std::mutex failure_mutex;
+  std::exception_ptr failure;
+
+  const auto work = [&] {
+    try {
+      for (int i = next++; i < runs; i = next++) {
+        ReplayOptions run = options;
+        run.seed = options.seed + static_cast<std::uint64_t>(i);
+        run.progress = nullptr;
+        summaries[static_cast<std::size_t>(i)] = summarize(replay(site, run));
+        done(++finished);
+      }
+    } catch (...) {
+      const std::lock_guard lock(failure_mutex);
+      failure = std::current_exception();
+      next = runs;
+    }
+  };
+
+  {
+    std::vector<std::jthread> workers;
+    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    for (int i = 0; i < std::min(cores, runs); ++i) workers.emplace_back(work);
+  }
+  if (failure) std::rethrow_exception(failure);
+  return summaries;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,166 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "drivers/image_former.hpp"
+
+#include "tests/scenarios/command_line.hpp"
+
+// The commands that work on files, as a user meets them: images of a known world in, rows out.
+namespace lodestar {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> row;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// A folder with a registry, a camera and frames taken straight up at known places.
+class ReadImages : public ::testing::Test {
+ protected:
+  ReadImages() {
+    write_text(scratch_.path() / "markers.yaml",
+               "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
+               "  - {id: 447, x_m: 1.0, y_m: 2.0, z_m: 2.6, yaw_deg: 30}\n"
+               "  - {id: 1782, x_m: 1.5, y_m: 2.0, z_m: 2.6, yaw_deg: -110}\n");
+    write_text(
+        scratch_.path() / "camera.yaml",
+        "image_width: 640\nimage_height: 480\ncamera_name: ceiling\n"
+        "camera_matrix: {rows: 3, cols: 3, data: [755.139, 0, 320.252, 0, 753.926, 239.661, 0, 0, 1]}\n"
+        "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n");
+    fs::create_directories(scratch_.path() / "frames");
+    take("0.5", Pose2{{1.2, 2.1}, radians(75.0)});
+    take("1.5", Pose2{{1.3, 1.9}, radians(-160.0)});
+  }
+
+  void take(const std::string& name, const Pose2& camera) {
+    const ImageFormer former(load_registry(scratch_.path() / "markers.yaml"),
+                             load_camera(scratch_.path() / "camera.yaml"), SimulatedCameraOptions{}, 1);
+    const Eigen::Isometry3d view = lifted(camera, 0.6);
+    cv::imwrite((scratch_.path() / "frames" / (name + ".png")).string(), former.expose(view, view, frame_++));
+  }
+
+  ScratchFolder scratch_;
+  std::uint64_t frame_ = 0;
+};
+
+TEST_F(ReadImages, localize_prints_a_row_for_each_image) {
+  const Ran ran =
+      run_lodestar("localize --markers markers.yaml --camera camera.yaml --upright frames", scratch_.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto rows = rows_of(ran.out);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_THAT(
+      ran.out,
+      StartsWith(
+          "file,stamp,ids,x,y,z,yaw_deg,roll_deg,pitch_deg,sigma_x,sigma_y,sigma_yaw_deg,confidence,dots\n"));
+  EXPECT_EQ(std::stod(rows[1][1]), 0.5);
+  EXPECT_NEAR(std::stod(rows[1][3]), 1.2, 0.003);
+  EXPECT_NEAR(std::stod(rows[1][4]), 2.1, 0.003);
+  EXPECT_NEAR(std::stod(rows[1][5]), 0.6, 0.01);
+  EXPECT_NEAR(std::stod(rows[1][6]), 75.0, 0.2);
+  EXPECT_NEAR(std::stod(rows[2][3]), 1.3, 0.003);
+  EXPECT_NEAR(std::stod(rows[2][6]), -160.0, 0.2);
+  EXPECT_THAT(rows[1][2], HasSubstr("+")) << "both markers are in view and used together";
+}
+
+TEST_F(ReadImages, localize_prints_tum_with_eight_columns) {
+  const Ran ran = run_lodestar(
+      "localize --markers markers.yaml --camera camera.yaml --upright --format tum frames", scratch_.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  std::istringstream lines(ran.out);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    const std::vector<std::string> columns{std::istream_iterator<std::string>(words), {}};
+    EXPECT_EQ(columns.size(), 8U) << line;
+  }
+}
+
+TEST_F(ReadImages, localize_has_exit_code_1_when_no_marker_is_registered) {
+  write_text(scratch_.path() / "others.yaml",
+             "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
+             "  - {id: 5, x_m: 1.0, y_m: 2.0, z_m: 2.6, yaw_deg: 30}\n");
+  EXPECT_EQ(
+      run_lodestar("localize --markers others.yaml --camera camera.yaml frames", scratch_.path()).exit_code,
+      1);
+}
+
+TEST_F(ReadImages, detect_puts_the_marker_nearest_to_the_centre_first) {
+  const Ran ran = run_lodestar("detect --draw seen frames/0.5.png", scratch_.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, StartsWith("file,id,confidence,o_u,o_v,x_u,x_v,y_u,y_v,dots\n"));
+  const auto rows = rows_of(ran.out);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[1][1], "447");
+  EXPECT_EQ(rows[2][1], "1782");
+  EXPECT_FALSE(cv::imread((scratch_.path() / "seen" / "0.5.png").string()).empty());
+}
+
+TEST_F(ReadImages, detect_has_exit_code_1_when_there_is_no_marker) {
+  cv::imwrite((scratch_.path() / "dark.png").string(), cv::Mat::zeros(480, 640, CV_8UC1));
+  EXPECT_EQ(run_lodestar("detect dark.png", scratch_.path()).exit_code, 1);
+}
+
+TEST(Plan, prints_a_path_as_json_and_a_picture) {
+  const ScratchFolder scratch;
+  const std::string map = std::string(LODESTAR_SOURCE_DIR) + "/sites/lab/map.yaml";
+  const Ran info = run_lodestar("map info --json " + map, scratch.path());
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_EQ(nlohmann::json::parse(info.out)["columns"], 306);
+
+  const Ran ran = run_lodestar(
+      "plan --map " + map + " --start 1,1 --goal 14.3,6.5 --format json --draw plan.png", scratch.path());
+  const auto plan = nlohmann::json::parse(ran.out);
+  for (const char* key :
+       {"status", "planner", "length_m", "turns", "travel_time_s", "plan_us", "expanded", "waypoints"}) {
+    EXPECT_TRUE(plan.contains(key)) << key;
+  }
+  EXPECT_FALSE(cv::imread((scratch.path() / "plan.png").string()).empty());
+}
+
+TEST(Plan, has_exit_code_1_and_a_reason_when_the_goal_is_in_a_wall) {
+  const ScratchFolder scratch;
+  const std::string map = std::string(LODESTAR_SOURCE_DIR) + "/sites/lab/map.yaml";
+  const Ran ran =
+      run_lodestar("plan --map " + map + " --start 1,1 --goal 0.01,0.01 --format json", scratch.path());
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_THAT(nlohmann::json::parse(ran.out)["status"].get<std::string>(), HasSubstr("goal"));
+}
+
+TEST(Markers, check_names_overlapping_markers_with_their_line) {
+  const ScratchFolder scratch;
+  write_text(scratch.path() / "markers.yaml",
+             "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
+             "  - {id: 447, x_m: 1.0, y_m: 2.0, z_m: 2.6, yaw_deg: 0}\n"
+             "  - {id: 446, x_m: 1.05, y_m: 2.0, z_m: 2.6, yaw_deg: 45}\n");
+  const Ran ran = run_lodestar("markers check markers.yaml", scratch.path());
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_THAT(ran.out, HasSubstr("markers.yaml:5: error: markers 447 and 446 overlap"));
+  EXPECT_THAT(ran.out, HasSubstr("differ in one dot"));
+}
+
+TEST(Markers, of_the_lab_are_in_order) {
+  const ScratchFolder scratch;
+  const std::string lab = std::string(LODESTAR_SOURCE_DIR) + "/sites/lab/";
+  EXPECT_EQ(run_lodestar("markers check " + lab + "markers.yaml --map " + lab + "map.yaml", scratch.path())
+                .exit_code,
+            0);
+  const Ran list = run_lodestar("markers list --format csv " + lab + "markers.yaml", scratch.path());
+  EXPECT_THAT(list.out, StartsWith("id,x_m,y_m,z_m,yaw_deg,dots\n"));
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,96 @@
+#include "app/replay.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/replay_runs.hpp"
+
+#include "tests/scenarios/command_line.hpp"
+
+// Whole drives: from the image to the wheels and back, judged by the truth.
+namespace lodestar {
+namespace {
+
+namespace fs = std::filesystem;
+
+Site lab() {
+  return load_site(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab");
+}
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
+  }
+  return files;
+}
+
+TEST(Replay, drives_from_s_to_e_and_back) {
+  const Site site = lab();
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const RunRecord record = replay(site, {.camera = site.default_camera, .seed = seed, .goals = site.goals});
+    const RunSummary run = summarize(record);
+
+    EXPECT_EQ(run.arrivals, 2) << "seed " << seed << ": " << run.failure;
+    EXPECT_EQ(run.contacts, 0) << "seed " << seed;
+    EXPECT_LT(run.worst_position_m, 0.05) << "seed " << seed;
+    EXPECT_LT(run.worst_heading_rad, radians(3.0)) << "seed " << seed;
+    EXPECT_LT(run.path_p95_m, 0.05) << "seed " << seed;
+  }
+}
+
+TEST(Replay, writes_the_same_bytes_for_the_same_seed_and_others_for_another) {
+  const ScratchFolder scratch;
+  const std::string lab_folder = std::string(LODESTAR_SOURCE_DIR) + "/sites/lab";
+  const Site site = lab();
+  const Vec2 ahead = site.start * Vec2(0.6, 0.0);
+  const std::string command =
+      "replay " + lab_folder + " --goal " + std::to_string(ahead.x()) + "," + std::to_string(ahead.y());
+  ASSERT_EQ(run_lodestar(command + " --seed 7 -o first", scratch.path()).exit_code, 0);
+  ASSERT_EQ(run_lodestar(command + " --seed 7 -o second", scratch.path()).exit_code, 0);
+  ASSERT_EQ(run_lodestar(command + " --seed 8 -o other", scratch.path()).exit_code, 0);
+
+  const auto first = files_in(scratch.path() / "first");
+  for (const char* name :
+       {"summary.json", "map.png", "estimate.tum", "truth.tum", "can.log", "report.html"}) {
+    EXPECT_TRUE(first.contains(name)) << name;
+  }
+  EXPECT_EQ(first, files_in(scratch.path() / "second"));
+  EXPECT_NE(first.at("truth.tum"), files_in(scratch.path() / "other").at("truth.tum"));
+}
+
+TEST(Replay, fails_with_a_reason_when_the_goal_is_in_a_wall) {
+  const Site site = lab();
+  const RunRecord record =
+      replay(site, {.camera = site.default_camera, .seed = 1, .goals = {{Vec2(0.0, 0.0), std::nullopt}}});
+  ASSERT_EQ(record.goals.size(), 1U);
+  EXPECT_FALSE(record.goals[0].arrived);
+  EXPECT_THAT(record.goals[0].failure, ::testing::HasSubstr("goal"));
+}
+
+TEST(Replay, does_not_move_without_markers) {
+  Site site = lab();
+  site.registry.markers.clear();
+  const RunRecord record = replay(site, {.camera = site.default_camera, .seed = 1, .goals = site.goals});
+  for (const GoalRecord& goal : record.goals) EXPECT_FALSE(goal.arrived);
+  for (const TruePose& pose : record.truth) EXPECT_EQ(pose.map_from_base.position_m, site.start.position_m);
+}
+
+TEST(Replay, of_many_runs_gives_what_single_runs_give) {
+  const Site site = lab();
+  const Vec2 ahead = site.start * Vec2(0.4, 0.0);
+  const ReplayOptions options{.camera = site.default_camera, .seed = 5, .goals = {{ahead, std::nullopt}}};
+  const std::vector<RunSummary> runs = replay_runs(site, options, 3, [](int) {});
+  ReplayOptions last = options;
+  last.seed = 7;
+  const RunSummary alone = summarize(replay(site, last));
+  ASSERT_EQ(runs.size(), 3U);
+  EXPECT_EQ(runs[2].seed, 7U);
+  EXPECT_EQ(runs[2].worst_position_m, alone.worst_position_m);
+  EXPECT_EQ(runs[2].path_p95_m, alone.path_p95_m);
+}
+
+}  // namespace
+}  // namespace lodestar
