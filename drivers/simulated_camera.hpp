@@ -1,27 +1,63 @@
 #pragma once
 
-#include "maps/stamp.hpp"
+#include <cstdint>
+#include <deque>
+
+#include "drivers/camera.hpp"
+#include "drivers/image_former.hpp"
+#include "drivers/simulated_camera_options.hpp"
+#include "drivers/tilt_wobble.hpp"
+#include "maps/camera_model.hpp"
+#include "maps/geometry.hpp"
+#include "maps/marker_registry.hpp"
 
 namespace lodestar {
 
-/// How the simulated camera forms images.
-struct SimulatedCameraOptions {
-  Duration period = std::chrono::milliseconds(50);
-  Duration latency = std::chrono::milliseconds(45);  ///< from mid-exposure to arrival
-  Duration exposure = std::chrono::milliseconds(4);  ///< motion blur while the robot moves
-  double dot_gray = 246.0;                           ///< of a dot's middle, in ordinary light, before noise
-  double dot_gray_sigma = 3.0;                       ///< from dot to dot
-  double background_gray = 35.0;
-  double blur_sigma_px = 0.6;  ///< point spread of lens and sensor
-  double read_noise_gray = 2.0;
-  double shot_noise_gray_at_255 = 4.0;  ///< grows with the square root of the signal
-  double vignetting = 0.3;              ///< loss of background light in the corners
-  double texture_gray = 6.0;            ///< amplitude of the ceiling's texture
-  double tilt_sigma_rad = 0.002;        ///< wobble of the body on the floor
-  bool tubes = true;                    ///< fluorescent tubes on the ceiling, as in Fig. 2
-  bool lamps = true;
-  bool glints = true;
-  double lost_frame_probability = 0.01;
+/// A camera on the simulated robot. The world tells it at every step where the base truly is; frame number k
+/// opens at k periods after time 0, is stamped with the middle of its exposure and arrives `latency` later,
+/// unless it is lost. The body wobbles a little about the floor point. Equal seeds and equal drives give
+/// equal bytes.
+class SimulatedCamera : public Camera {
+ public:
+  /// Throws InputError unless 0 <= exposure < period, latency >= exposure / 2 and the probability is in
+  /// [0, 1].
+  SimulatedCamera(const MarkerRegistry& registry, const CameraModel& camera,
+                  const Eigen::Isometry3d& base_from_camera, const SimulatedCameraOptions& options,
+                  std::uint64_t seed);
+
+  /// The base's true pose at `now`. Stamps ascend; between two of them the base is taken to move evenly.
+  void observe(Stamp now, const Pose2& true_map_from_base);
+
+  /// A frame is formed when it is asked for, so one that nobody polls costs nothing.
+  std::optional<Frame> poll() override;
+
+ private:
+  struct Observation {
+    Stamp stamp;
+    Pose2 map_from_base;
+  };
+  struct Exposure {
+    std::uint64_t number = 0;
+    Stamp opening;
+    Eigen::Isometry3d map_from_camera_at_opening;
+    Eigen::Isometry3d map_from_camera_at_closing;
+  };
+
+  [[nodiscard]] Stamp opening_of(std::uint64_t number) const;
+  [[nodiscard]] Stamp arrival_of(const Exposure& exposure) const;
+  [[nodiscard]] bool is_lost(std::uint64_t number) const;
+  [[nodiscard]] Eigen::Isometry3d map_from_camera_at(Stamp stamp, const Observation& before,
+                                                     const Observation& after) const;
+
+  Eigen::Isometry3d base_from_camera_;
+  SimulatedCameraOptions options_;
+  std::uint64_t seed_;
+  TiltWobble wobble_;
+  ImageFormer image_former_;
+  std::optional<Observation> last_;
+  std::optional<Exposure> open_;       ///< begun, not yet closed
+  std::uint64_t next_number_ = 0;      ///< of the frame that opens next
+  std::deque<Exposure> on_their_way_;  ///< closed, not yet polled
 };
 
 }  // namespace lodestar

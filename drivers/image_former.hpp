@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+
+#include "drivers/ceiling.hpp"
+#include "drivers/ceiling_background.hpp"
+#include "drivers/disc_profile.hpp"
+#include "drivers/light_image.hpp"
+#include "drivers/sensor_noise.hpp"
+#include "drivers/simulated_camera_options.hpp"
+#include "drivers/vignetting.hpp"
+#include "maps/camera_model.hpp"
+#include "maps/marker_registry.hpp"
+
+namespace lodestar {
+
+/// Forms the image of the ceiling that a camera would take: background with texture and lights, marker dots
+/// as blurred ellipses with motion smear, then noise and 8-bit quantization. Seed, poses and frame number
+/// decide every byte, whatever was formed before. Not for two threads at once.
+class ImageFormer {
+ public:
+  ImageFormer(const MarkerRegistry& registry, const CameraModel& camera,
+              const SimulatedCameraOptions& options, std::uint64_t seed);
+
+  /// One frame (CV_8UC1) of a shutter that opens at the first pose and closes at the second; equal poses
+  /// give a still picture. The frame number decides the noise.
+  cv::Mat expose(const Eigen::Isometry3d& map_from_camera_at_opening,
+                 const Eigen::Isometry3d& map_from_camera_at_closing, std::uint64_t frame_number);
+
+ private:
+  struct Shutter;  ///< the camera's poses during one exposure
+
+  void paint_tube(const CeilingTube& tube, const Shutter& shutter);
+  void paint_disc(const CeilingDisc& disc, double gray, const Shutter& shutter);
+  void paint_markers(const Shutter& shutter);
+
+  /// Is the point in the camera frame within the cone of rays that the image shows?
+  [[nodiscard]] bool may_show(const Vec3& point_in_camera, double reach_m) const;
+  /// Gray of a dot's middle: light of the ring that comes back from there, through the sensor's shoulder.
+  [[nodiscard]] double dot_gray(const CeilingDisc& dot, const Shutter& shutter) const;
+
+  CameraModel camera_;
+  SimulatedCameraOptions options_;
+  std::uint64_t seed_;
+  Ceiling ceiling_;
+  Vignetting vignetting_;
+  double blur_sigma_px_;  ///< lens and pixel together
+  double widest_ray_;     ///< largest hypot(x, y) of the rays (x, y, 1) in the image
+  DiscProfile profile_;
+  CeilingBackground background_;
+  SensorNoise noise_;
+  LightImage light_;  ///< kept between frames for its memory only
+};
+
+}  // namespace lodestar

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/disc_profile.hpp"
+#include "drivers/projected_disc.hpp"
+#include "maps/geometry.hpp"
+
+namespace lodestar {
+
+/// Light on the sensor before noise, in fixed point: 16 bits are enough, and eight pixels fit one register.
+class LightImage {
+ public:
+  static constexpr int units_per_gray = 64;
+  static constexpr double brightest_gray = 400.0;  ///< far into saturation; leaves room for noise in 16 bits
+
+  LightImage(int width_px, int height_px);
+
+  [[nodiscard]] int width_px() const { return width_px_; }
+  [[nodiscard]] int height_px() const { return height_px_; }
+  [[nodiscard]] std::int16_t* row(int v) { return values_.data() + offset_of(v); }
+  [[nodiscard]] const std::int16_t* row(int v) const { return values_.data() + offset_of(v); }
+
+  /// Lays a blurred ellipse over the picture, smeared evenly along `motion_px` about its centre.
+  void paint(const ProjectedDisc& disc, const Vec2& motion_px, double gray, double sigma_px,
+             const DiscProfile& profile);
+
+  /// Lays a blurred band over the picture: what lies between the ends of `from_px` -> `to_px`, at most
+  /// half_width_px aside. An end that is `round` has a half disc beyond it; else the band ends sharply, so
+  /// that the next piece joins it.
+  struct Band {
+    Vec2 from_px = Vec2::Zero();
+    Vec2 to_px = Vec2::Zero();
+    double half_width_px = 0.0;
+    bool round_from = false;
+    bool round_to = false;
+  };
+  void paint(const Band& band, double gray, double sigma_px, const DiscProfile& profile);
+
+ private:
+  [[nodiscard]] std::size_t offset_of(int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px_);
+  }
+
+  int width_px_;
+  int height_px_;
+  std::vector<std::int16_t> values_;
+};
+
+}  // namespace lodestar
