@@ -109,7 +109,7 @@ void BaseDriver::take_in_odometer(Stamp stamp, const agilex::Odometer& reading,
 
 /// What only time can tell of a ready base; what its frames tell is latched as they come.
 void BaseDriver::watch(Stamp now) {
-  if (!hears_base(now)) return latch(BaseFault::feedback_lost);
+  if (!hears_everything(now)) return latch(BaseFault::feedback_lost);
   const bool base_obeys_us = !is_older(commanded_at_, now, options_.base_command_timeout);
   const BodyVelocity expected = base_obeys_us ? commanded_ : BodyVelocity{};
   if (following_.strays(now, expected, *measured_)) latch(BaseFault::not_following);
@@ -117,8 +117,8 @@ void BaseDriver::watch(Stamp now) {
 
 void BaseDriver::shake_hands(Stamp now) {
   state_ = BaseState::waiting_for_base;
-  fault_ = is_alive(now) ? complaint(*system_) : BaseFault::feedback_lost;
-  if (!fault_ && !hears_base(now)) fault_ = BaseFault::feedback_lost;
+  fault_ = hears_state(now) ? complaint(*system_) : BaseFault::feedback_lost;
+  if (!fault_ && !hears_everything(now)) fault_ = BaseFault::feedback_lost;
   if (!fault_) {
     state_ = BaseState::ready;
     commanded_at_.reset();
@@ -168,7 +168,7 @@ bool BaseDriver::send(const CanFrame& frame) {
 
 bool BaseDriver::resume(Stamp now) {
   if (state_ != BaseState::fault) return true;
-  if (!hears_base(now)) return false;
+  if (!hears_everything(now)) return false;
   const auto still = complaint(*system_);
   const bool offers_itself =
       still == BaseFault::left_can_mode && system_->mode == agilex::ControlMode::standby;
@@ -179,13 +179,14 @@ bool BaseDriver::resume(Stamp now) {
   return true;
 }
 
-bool BaseDriver::is_alive(Stamp now) const {
-  return !is_older(last_alive_, now, options_.max_system_state_age);
+bool BaseDriver::hears_state(Stamp now) const {
+  return !is_older(last_heard_, now, options_.max_feedback_age) &&
+         !is_older(last_alive_, now, options_.max_kind_age);
 }
 
-bool BaseDriver::hears_base(Stamp now) const {
-  return is_alive(now) && !is_older(last_motion_state_, now, options_.max_feedback_age) &&
-         !is_older(last_odometer_, now, options_.max_feedback_age);
+bool BaseDriver::hears_everything(Stamp now) const {
+  return hears_state(now) && !is_older(last_motion_state_, now, options_.max_kind_age) &&
+         !is_older(last_odometer_, now, options_.max_kind_age);
 }
 
 std::optional<BaseFault> BaseDriver::complaint(const agilex::SystemState& state) const {

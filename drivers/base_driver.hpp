@@ -18,8 +18,9 @@ struct BaseDriverOptions {
   double max_turn_radps = 2.0;
   Duration handshake_period =
       std::chrono::milliseconds(100);  ///< how often CAN mode is asked for until granted
-  Duration max_feedback_age = std::chrono::milliseconds(100);      ///< of motion state and odometer (20 ms)
-  Duration max_system_state_age = std::chrono::milliseconds(300);  ///< 20 to 100 ms by model
+  Duration max_feedback_age = std::chrono::milliseconds(100);  ///< of the newest frame of any kind
+  Duration max_kind_age =
+      std::chrono::milliseconds(300);  ///< of system state, motion state and odometer, each for itself
   Duration base_command_timeout = std::chrono::milliseconds(500);  ///< after which the base stops by itself
   std::uint16_t ignored_fault_bits = 0;  ///< that may be set on this model without being a fault
   double max_plausible_wheel_mps = 5.0;  ///< an odometer faster than this is not believed
@@ -101,8 +102,8 @@ class BaseDriver {
   void shake_hands(Stamp now);
   void latch(BaseFault fault);
   bool send(const CanFrame& frame);
-  [[nodiscard]] bool is_alive(Stamp now) const;    ///< tells its state
-  [[nodiscard]] bool hears_base(Stamp now) const;  ///< and its motion
+  [[nodiscard]] bool hears_state(Stamp now) const;
+  [[nodiscard]] bool hears_everything(Stamp now) const;
   [[nodiscard]] std::optional<BaseFault> complaint(const agilex::SystemState& state) const;
   [[nodiscard]] BodyVelocity within_limits(const BodyVelocity& velocity);
 

@@ -8,7 +8,7 @@
 #include "drivers/can_bus.hpp"
 #include "drivers/scoring.hpp"
 #include "drivers/simulated_base.hpp"
-#include "drivers/simulated_camera.hpp"
+#include "drivers/simulated_camera_options.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
@@ -31,6 +31,7 @@ struct SimulationOptions {
 /// here tells where the robot really is; that is for the Scorer alone.
 class Simulation {
  public:
+  /// Throws InputError when the physics step is not positive or the camera's options are not possible.
   Simulation(const OccupancyMap& map, const MarkerRegistry& registry, const CameraModel& camera,
              const SimulationOptions& options);
   ~Simulation();
@@ -43,6 +44,9 @@ class Simulation {
 
   Camera& camera();
   CanBus& can();
+
+  /// The base, for what people and wear do to it; it does not know where it is.
+  SimulatedBase& base();
 
   /// Called with every CAN frame on the bus, either way, when it is on the wire (for the run's can.log).
   void on_can_frame(std::function<void(const StampedCanFrame&)> listener);

@@ -193,6 +193,21 @@ TEST_F(BaseDriverTest, latches_silence_within_100_ms_and_says_stop) {
   EXPECT_EQ(periods(50).state, BaseState::fault) << "a fault stays until somebody resumes";
 }
 
+TEST_F(BaseDriverTest, latches_when_one_kind_of_feedback_stays_away) {
+  make_ready();
+  base_silent = true;
+  BaseFeedback feedback;
+  for (int i = 0; i < 16; ++i) {
+    now += milliseconds(20);
+    hear(agilex::encode_system_state(system));
+    ++system.counter;
+    hear(agilex::encode_motion_state(measured));
+    ASSERT_NE(feedback.state, BaseState::fault) << "at 300 ms it may still come";
+    feedback = driver.poll(now);
+  }
+  expect_latched(BaseFault::feedback_lost, feedback);
+}
+
 TEST_F(BaseDriverTest, takes_a_counter_that_stands_still_for_silence) {
   make_ready();
   counter_runs = false;

@@ -27,11 +27,30 @@ SimulatedBaseOptions perfect_base() {
   return options;
 }
 
+/// Loses frames at random, either way.
+class LossyBus final : public CanBus {
+ public:
+  LossyBus(CanBus& bus, double loss) : bus_(bus), loss_(loss) {}
+  bool send(const CanFrame& frame) override { return random_.uniform() < loss_ || bus_.send(frame); }
+  std::optional<StampedCanFrame> poll() override {
+    auto frame = bus_.poll();
+    while (frame && random_.uniform() < loss_) frame = bus_.poll();
+    return frame;
+  }
+
+ private:
+  CanBus& bus_;
+  double loss_;
+  Random random_{9};
+};
+
 /// The base on one end of a bus, the navigator's driver on the other: they know each other by frames only.
 struct World {
   explicit World(const SimulatedBaseOptions& options = {}, std::uint64_t seed = 1,
-                 std::optional<SimulatedMotion::Surroundings> surroundings = std::nullopt)
-      : motion(options, {}, seed, std::move(surroundings)), base(bus.attach(), motion, options) {
+                 std::optional<SimulatedMotion::Surroundings> surroundings = std::nullopt, double loss = 0.0)
+      : navigator_end(bus.attach(), loss),
+        motion(options, {}, seed, std::move(surroundings)),
+        base(bus.attach(), motion, options) {
     bus.on_frame([this](const StampedCanFrame& frame) { log.write(frame); });
   }
 
@@ -60,7 +79,8 @@ struct World {
   std::ostringstream log_text;
   CandumpWriter log{log_text};
   InProcessBus bus;
-  BaseDriver driver{bus.attach()};
+  LossyBus navigator_end;
+  BaseDriver driver{navigator_end};
   SimulatedMotion motion;
   SimulatedBase base;
   Stamp now;
@@ -78,17 +98,28 @@ TEST(SimulatedBase, is_handed_over_by_the_handshake) {
   EXPECT_NE(world.log_text.str().find(" can0 421#01\n"), std::string::npos);
 }
 
-TEST(SimulatedBase, does_not_move_before_can_mode) {
-  World world;
-  CanBus& stranger = world.bus.attach();
-  world.run(seconds(1), [&] {
-    EXPECT_TRUE(stranger.send(agilex::encode_motion_command({0.5, 0.0})));
-    return world.now < Stamp(milliseconds(40)) ? std::optional<BodyVelocity>() : std::nullopt;
-  });
-  World standing;
-  EXPECT_TRUE(standing.bus.attach().send(agilex::encode_motion_command({0.5, 0.0})));
-  standing.wait(seconds(1));
-  EXPECT_EQ(standing.truth().position_m.norm(), 0.0);
+TEST(SimulatedBase, takes_no_command_while_it_stands_by) {
+  InProcessBus bus;
+  CanBus& stranger = bus.attach();
+  SimulatedMotion motion({}, {}, 1);
+  SimulatedBase base(bus.attach(), motion);
+  auto drive_for_a_second = [&, now = Stamp{}]() mutable {
+    for (int ms = 0; ms < 1000; ++ms) {
+      now += milliseconds(1);
+      if (ms % 20 == 0) {
+        EXPECT_TRUE(stranger.send(agilex::encode_motion_command({0.5, 0.0})));
+      }
+      motion.step(milliseconds(1));
+      bus.advance(now);
+      base.step(now);
+    }
+    return motion.true_map_from_base().position_m.x();
+  };
+  EXPECT_EQ(drive_for_a_second(), 0.0);
+  EXPECT_TRUE(stranger.send(agilex::encode_control_mode(agilex::ControlMode::remote)));
+  EXPECT_EQ(drive_for_a_second(), 0.0) << "nobody is handed the base in the remote control's name";
+  EXPECT_TRUE(stranger.send(agilex::encode_control_mode(agilex::ControlMode::can)));
+  EXPECT_GT(drive_for_a_second(), 0.3);
 }
 
 TEST(SimulatedBase, drives_as_commanded_over_the_bus) {
@@ -102,6 +133,18 @@ TEST(SimulatedBase, drives_as_commanded_over_the_bus) {
   EXPECT_NEAR(world.truth().position_m.y(), 0.0, 1e-9);
   EXPECT_NEAR(world.travel.left_m, world.truth().position_m.x(), 0.002);
   EXPECT_EQ(world.feedback.state, BaseState::ready);
+}
+
+TEST(SimulatedBase, drives_on_when_a_third_of_all_frames_is_lost) {
+  World world(perfect_base(), 1, std::nullopt, 0.3);
+  world.wait(milliseconds(500));
+  for (int i = 0; i < 30; ++i) {
+    world.drive({0.6, 0.3}, seconds(1));
+    world.drive({-0.6, -0.3}, seconds(1));
+  }
+  EXPECT_EQ(world.feedback.state, BaseState::ready);
+  EXPECT_GT(world.driver.counts().counter_jumps, 500U);
+  EXPECT_NEAR(world.travel.left_m, world.motion.left_encoder_m(), 0.1) << "no travel is lost with the frames";
 }
 
 TEST(SimulatedBase, turns_on_the_spot_as_commanded) {
