@@ -28,8 +28,8 @@ class InProcessBus::End final : public CanBus {
     return waiting_.empty() ? nullptr : &waiting_.front();
   }
 
-  CanFrame take_next_to_send() {
-    const CanFrame frame = waiting_.front().frame;
+  StampedCanFrame take_next_to_send() {
+    const StampedCanFrame frame = waiting_.front();
     waiting_.pop_front();
     return frame;
   }
@@ -64,26 +64,20 @@ void InProcessBus::advance(Stamp now) {
   }
 }
 
-/// Arbitration: the bus takes up its work as soon as a frame waits, and of all that wait by then the lowest
-/// identifier wins.
+/// Arbitration: of all frames that wait, the lowest identifier wins. All of them were sent before time moved
+/// on, hence before the bus takes up its work, so that none competes too early.
 std::optional<InProcessBus::Sending> InProcessBus::begin_next() {
-  std::optional<Stamp> first_wish;
-  for (const auto& end : ends_) {
-    const StampedCanFrame* wish = end->next_to_send();
-    if (wish != nullptr && (!first_wish || wish->stamp < *first_wish)) first_wish = wish->stamp;
-  }
-  if (!first_wish) return std::nullopt;
-
-  const Stamp begin = std::max(idle_since_, *first_wish);
   End* winner = nullptr;
   for (const auto& end : ends_) {
     const StampedCanFrame* wish = end->next_to_send();
-    if (wish == nullptr || wish->stamp > begin) continue;
+    if (wish == nullptr) continue;
     if (winner == nullptr || wish->frame.id < winner->next_to_send()->frame.id) winner = end.get();
   }
-  const CanFrame frame = winner->take_next_to_send();
-  const Duration on_wire = from_seconds(bits_on_wire(frame) / options_.bit_rate_bps);
-  return Sending{winner, {begin + on_wire, frame}};
+  if (winner == nullptr) return std::nullopt;
+  const StampedCanFrame wish = winner->take_next_to_send();
+  const Stamp begin = std::max(idle_since_, wish.stamp);
+  const Duration on_wire = from_seconds(bits_on_wire(wish.frame) / options_.bit_rate_bps);
+  return Sending{winner, {begin + on_wire, wish.frame}};
 }
 
 void InProcessBus::deliver(const Sending& sent) {

@@ -14,8 +14,7 @@ Pose2 arc(double left_m, double right_m, double track_width_m) {
   const double length_m = (left_m + right_m) / 2.0;
   const double turn_rad = (right_m - left_m) / track_width_m;
   const double half_rad = turn_rad / 2.0;
-  const double chord_over_arc =
-      std::abs(half_rad) < 1e-4 ? 1.0 - half_rad * half_rad / 6.0 : std::sin(half_rad) / half_rad;
+  const double chord_over_arc = half_rad == 0.0 ? 1.0 : std::sin(half_rad) / half_rad;
   const double chord_m = length_m * chord_over_arc;
   return {Vec2(chord_m * std::cos(half_rad), chord_m * std::sin(half_rad)), turn_rad};
 }

@@ -181,6 +181,14 @@ TEST_F(BaseDriverTest, takes_no_leap_when_the_base_restarts_its_odometer) {
   EXPECT_DOUBLE_EQ(feedback.travel[0].left_m, 0.010);
 }
 
+TEST_F(BaseDriverTest, does_not_believe_a_reading_from_the_past) {
+  period();
+  odometer = {10, 10};
+  bus.arriving.push_back({now - milliseconds(1), agilex::encode_odometer(odometer)});
+  EXPECT_TRUE(driver.poll(now).travel.empty());
+  EXPECT_EQ(driver.counts().odd_frames, 1U);
+}
+
 TEST_F(BaseDriverTest, latches_silence_within_100_ms_and_says_stop) {
   make_ready();
   base_silent = true;
@@ -189,6 +197,7 @@ TEST_F(BaseDriverTest, latches_silence_within_100_ms_and_says_stop) {
   ASSERT_EQ(bus.sent.size(), 1U);
   EXPECT_EQ(bus.sent[0], agilex::encode_motion_command({}));
   expect_latched(BaseFault::feedback_lost, feedback);
+  EXPECT_FALSE(driver.resume(now)) << "nobody is there to resume";
   base_silent = false;
   EXPECT_EQ(periods(50).state, BaseState::fault) << "a fault stays until somebody resumes";
 }
@@ -349,6 +358,13 @@ TEST_F(BaseDriverTest, latches_when_somebody_else_commands_the_base) {
   make_ready();
   hear(agilex::encode_motion_command({0.5, 0.0}));
   expect_latched(BaseFault::second_master, period());
+}
+
+TEST_F(BaseDriverTest, counts_states_that_it_does_not_know) {
+  hear({agilex::system_state_id, 8, {0, 9}});
+  hear({agilex::system_state_id, 8, {9, 1}});
+  driver.poll(now);
+  EXPECT_EQ(driver.counts().odd_frames, 2U);
 }
 
 TEST_F(BaseDriverTest, counts_odd_frames_and_drives_on) {

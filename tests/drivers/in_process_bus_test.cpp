@@ -25,11 +25,13 @@ std::vector<std::uint32_t> ids_heard(CanBus& bus) {
   return ids;
 }
 
-// Computed by hand with long division of the polynomial, outside this program.
+// Computed outside this program, with the polynomial divided at length.
 TEST(CanWire, counts_stuff_bits_exactly) {
   EXPECT_EQ(bits_on_wire({0x111, 8, {0x00, 0x96}}), 124);
   EXPECT_EQ(bits_on_wire({0x211, 8, {0, 1, 1, 4, 0, 0, 0, 0x7F}}), 123);
   EXPECT_EQ(bits_on_wire({0x000, 8, {}}), 127);
+  // Runs of four, each made five by the stuff bit before.
+  EXPECT_EQ(bits_on_wire({0x078, 8, {0x3C, 0x3C, 0x3C, 0x3C, 0x3C, 0x3C, 0x3C, 0x3C}}), 131);
   EXPECT_EQ(bits_on_wire({0x555, 8, {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55}}), 112);
   EXPECT_EQ(bits_on_wire({0x421, 1, {1}}), 57);
   EXPECT_EQ(bits_on_wire({0x7FF, 0, {}}), 50);

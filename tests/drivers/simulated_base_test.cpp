@@ -98,28 +98,61 @@ TEST(SimulatedBase, is_handed_over_by_the_handshake) {
   EXPECT_NE(world.log_text.str().find(" can0 421#01\n"), std::string::npos);
 }
 
-TEST(SimulatedBase, takes_no_command_while_it_stands_by) {
-  InProcessBus bus;
-  CanBus& stranger = bus.attach();
-  SimulatedMotion motion({}, {}, 1);
-  SimulatedBase base(bus.attach(), motion);
-  auto drive_for_a_second = [&, now = Stamp{}]() mutable {
-    for (int ms = 0; ms < 1000; ++ms) {
+/// A base without a navigator; the test says every frame.
+struct BareBase {
+  /// Commands every 20 ms, if there is a velocity, and returns how far x has come.
+  double run(Duration time, const std::optional<BodyVelocity>& velocity) {
+    const double before_m = motion.true_map_from_base().position_m.x();
+    for (const Stamp end = now + time; now < end;) {
       now += milliseconds(1);
-      if (ms % 20 == 0) {
-        EXPECT_TRUE(stranger.send(agilex::encode_motion_command({0.5, 0.0})));
+      if (velocity && now.time_since_epoch() % milliseconds(20) == Duration::zero()) {
+        EXPECT_TRUE(stranger.send(agilex::encode_motion_command(*velocity)));
       }
       motion.step(milliseconds(1));
       bus.advance(now);
       base.step(now);
     }
-    return motion.true_map_from_base().position_m.x();
-  };
-  EXPECT_EQ(drive_for_a_second(), 0.0);
-  EXPECT_TRUE(stranger.send(agilex::encode_control_mode(agilex::ControlMode::remote)));
-  EXPECT_EQ(drive_for_a_second(), 0.0) << "nobody is handed the base in the remote control's name";
-  EXPECT_TRUE(stranger.send(agilex::encode_control_mode(agilex::ControlMode::can)));
-  EXPECT_GT(drive_for_a_second(), 0.3);
+    return motion.true_map_from_base().position_m.x() - before_m;
+  }
+  void ask_for(agilex::ControlMode mode) { EXPECT_TRUE(stranger.send(agilex::encode_control_mode(mode))); }
+
+  InProcessBus bus;
+  CanBus& stranger = bus.attach();
+  SimulatedMotion motion{perfect_base(), {}, 1};
+  SimulatedBase base{bus.attach(), motion, perfect_base()};
+  Stamp now;
+};
+
+TEST(SimulatedBase, takes_no_command_while_it_stands_by) {
+  BareBase bare;
+  EXPECT_EQ(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.0);
+  bare.ask_for(agilex::ControlMode::remote);
+  EXPECT_EQ(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.0)
+      << "nobody is handed the base in the remote control's name";
+  bare.ask_for(agilex::ControlMode::can);
+  EXPECT_GT(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.3);
+}
+
+TEST(SimulatedBase, forgets_its_command_when_it_is_stopped) {
+  BareBase bare;
+  bare.ask_for(agilex::ControlMode::can);
+  bare.run(seconds(2), BodyVelocity{0.5, 0.0});
+  bare.base.press_emergency_stop(true);
+  bare.run(milliseconds(20), std::nullopt);
+  bare.base.press_emergency_stop(false);
+  EXPECT_LT(bare.run(milliseconds(400), std::nullopt), 0.15) << "the command is young, but it is void";
+}
+
+TEST(SimulatedBase, keeps_the_curve_of_a_command_beyond_its_motors) {
+  BareBase bare;
+  bare.ask_for(agilex::ControlMode::can);
+  bare.run(seconds(3), BodyVelocity{6.0, 3.0});
+  const Pose2 before = bare.motion.true_map_from_base();
+  bare.run(milliseconds(100), BodyVelocity{6.0, 3.0});
+  const Pose2 moved = inverse(before) * bare.motion.true_map_from_base();
+  // Wheels at 5.4 and 6.6 m/s become 1.309 and 1.6 m/s: the centre of the circle stays 2 m to the left.
+  EXPECT_NEAR(moved.position_m.norm(), 0.1454, 0.001);
+  EXPECT_NEAR(moved.position_m.norm() / moved.yaw_rad, 2.0, 0.01);
 }
 
 TEST(SimulatedBase, drives_as_commanded_over_the_bus) {
@@ -309,6 +342,9 @@ TEST(SimulatedBase, remote_control_takes_it_without_a_fight) {
   const std::string since = world.log_text.str().substr(log_length);
   EXPECT_EQ(since.find(" 111#"), std::string::npos);
   EXPECT_EQ(since.find(" 421#"), std::string::npos);
+  ASSERT_TRUE(world.bus.attach().send(agilex::encode_control_mode(agilex::ControlMode::can)));
+  world.wait(milliseconds(100));
+  EXPECT_EQ(world.feedback.system->mode, agilex::ControlMode::remote) << "it has the highest right";
 
   world.base.take_over_by_remote(false);
   world.drive({0.5, 0.0}, milliseconds(100));
