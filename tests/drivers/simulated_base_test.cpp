@@ -48,7 +48,8 @@ class LossyBus final : public CanBus {
 struct World {
   explicit World(const SimulatedBaseOptions& options = {}, std::uint64_t seed = 1,
                  std::optional<SimulatedMotion::Surroundings> surroundings = std::nullopt, double loss = 0.0)
-      : navigator_end(bus.attach(), loss),
+      : bus({.latency = options.can_latency}),
+        navigator_end(bus.attach(), loss),
         motion(options, {}, seed, std::move(surroundings)),
         base(bus.attach(), motion, options) {
     bus.on_frame([this](const StampedCanFrame& frame) { log.write(frame); });
@@ -178,6 +179,18 @@ TEST(SimulatedBase, drives_on_when_a_third_of_all_frames_is_lost) {
   EXPECT_EQ(world.feedback.state, BaseState::ready);
   EXPECT_GT(world.driver.counts().counter_jumps, 500U);
   EXPECT_NEAR(world.travel.left_m, world.motion.left_encoder_m(), 0.1) << "no travel is lost with the frames";
+}
+
+TEST(SimulatedBase, drives_on_when_every_frame_comes_50_ms_late) {
+  SimulatedBaseOptions options = perfect_base();
+  options.can_latency = milliseconds(50);
+  World world(options);
+  world.wait(milliseconds(500));
+  for (int i = 0; i < 5; ++i) {
+    world.drive({0.6, 0.0}, seconds(2));
+    world.drive({-0.6, 0.5}, seconds(2));
+  }
+  EXPECT_EQ(world.feedback.state, BaseState::ready);
 }
 
 TEST(SimulatedBase, turns_on_the_spot_as_commanded) {
