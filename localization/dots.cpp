@@ -113,7 +113,7 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
   if (!(all.mass > 0.0 && dot.contrast_gray > 0.0)) return std::nullopt;
   dot.radius_px = std::sqrt(all.mass / (std::numbers::pi * dot.contrast_gray));
   const double disc_px = dot.radius_px + options.center_margin_px;
-  if (!is_inside(gray, all.center_px, disc_px)) return std::nullopt;
+  if (dot.radius_px < options.min_radius_px || !is_inside(gray, all.center_px, disc_px)) return std::nullopt;
   const Light near = light_within(gray, all.center_px, disc_px, dot.background_gray);
   if (!(near.mass > 0.0)) return std::nullopt;
   dot.center_px = near.center_px;

@@ -18,8 +18,10 @@ struct Dot {
 };
 
 struct DotOptions {
-  int threshold = 200;            ///< gray value from which a pixel is bright (Fig. 2b)
-  double min_area_px = 1.0;       ///< smaller bright areas are noise; faint small dots are a pixel or two
+  int threshold = 200;       ///< gray value from which a pixel is bright (Fig. 2b)
+  double min_area_px = 1.0;  ///< smaller bright areas are noise; faint small dots are a pixel or two
+  double min_radius_px =
+      1.3;  ///< of the light, not of the bright pixels: smaller dots are hot pixels and glints
   double max_area_px = 400.0;     ///< larger ones are tubes and lamps
   double max_aspect_ratio = 2.2;  ///< longer ones are tubes
   int erosion_px = 3;             ///< arm to arm of the cross that parts dots which touch; odd

@@ -18,8 +18,8 @@ struct MarkerAreaOptions {
 /// Dilation (paper, section 4.1, Fig. 2c): which dots grow together into one area. Two dots dilated by a disc
 /// touch when their centres are nearer than its diameter, so no image has to be dilated. The disc comes from
 /// the dots themselves, whose radius is a quarter of the pitch: dots of one marker are at most 3 pitches from
-/// the next (O and X of ID 0), those of markers 30 cm apart at least 4.5. Areas of indices into `dots`,
-/// ordered by their first dot.
+/// the next (O and X of ID 0), those of markers whose middles are 30 cm apart rarely as near. Areas of
+/// indices into `dots`, ordered by their first dot.
 std::vector<std::vector<std::size_t>> dilated_areas(std::span<const Dot> dots,
                                                     const MarkerAreaOptions& options);
 

@@ -41,20 +41,22 @@ DirectionDots with_axes_named(std::span<const Dot> dots, std::size_t o, std::siz
   return cross(oa, ob) < 0.0 ? DirectionDots{o, a, b} : DirectionDots{o, b, a};
 }
 
-/// OX and OY about equal and at right angles, X and Y on their sides, and the dots' size that of the pitch:
-/// an L of other dots (2 by 2 pitches, or 1 by 2 steps aslant) would have a pitch too small for them.
+/// Are these three the corners of a square, seen tilted, and of the size that their dots tell? An L of other
+/// dots (2 by 2 or 2 by 3 pitches, or aslant) has too long a side or a pitch too small for its dots.
 bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
                   const MarkerDecoderOptions& options) {
   const Vec2 ox = dots[direction.x].center_px - dots[direction.o].center_px;
   const Vec2 oy = dots[direction.y].center_px - dots[direction.o].center_px;
-  const double length_x = ox.norm();
-  const double length_y = oy.norm();
-  if (std::min(length_x, length_y) < options.axis_ratio_min * std::max(length_x, length_y)) return false;
-  if (!(-cross(ox, oy) >= std::cos(options.axis_angle_tolerance_rad) * length_x * length_y)) return false;
+  const double area = -cross(ox, oy);
+  if (!(area > 0.0)) return false;
+  // Singular values s >= t of the columns OX, OY: s t = area, s^2 + t^2 = |OX|^2 + |OY|^2. A tilt makes t / s
+  // its cosine c, so (s^2 + t^2) / (s t) = c + 1 / c.
+  const double least_cosine = std::cos(options.most_tilt_rad);
+  if (ox.squaredNorm() + oy.squaredNorm() > (least_cosine + 1.0 / least_cosine) * area) return false;
   const double radius_px =
       (dots[direction.o].radius_px + dots[direction.x].radius_px + dots[direction.y].radius_px) / 3.0;
-  const double pitch_px = std::sqrt(-cross(ox, oy)) / (marker_grid_size - 1);
-  return nearly_equal(pitch_px, radii_per_pitch * radius_px, options.size_tolerance);
+  return nearly_equal(std::sqrt(area) / (marker_grid_size - 1), radii_per_pitch * radius_px,
+                      options.size_tolerance);
 }
 
 bool sizes_are_alike(std::span<const Dot> dots, double tolerance) {
@@ -104,6 +106,7 @@ std::optional<MarkerReading> read_marker_among(std::span<const Dot> dots, const 
                                                const MarkerDecoderOptions& options) {
   if (!spans_a_grid(dots, direction, options)) return std::nullopt;
   const std::vector<std::size_t> indices = dots_about(dots, direction, options.guard_pitches);
+  if (indices.size() < options.least_dots_in_a_crowd) return std::nullopt;
   std::vector<Dot> members;
   for (const std::size_t i : indices) members.push_back(dots[i]);
   const auto among_members = [&](std::size_t i) {
@@ -134,6 +137,27 @@ std::vector<MarkerReading> without_conflicts(const std::vector<MarkerReading>& r
 bool may_span_an_axis(const Dot& a, const Dot& b) {
   const double pitches = (a.center_px - b.center_px).norm() / (radii_per_pitch * a.radius_px);
   return std::abs(pitches - (marker_grid_size - 1)) < 1.5;
+}
+
+/// What the other readings leave over may be one marker more, with too few dots to be found in a crowd.
+void read_the_rest(std::span<const Dot> dots, const MarkerDecoderOptions& options,
+                   std::vector<MarkerReading>& readings) {
+  std::vector<Dot> rest;
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    if (std::ranges::any_of(readings, [i](const MarkerReading& reading) {
+          return std::ranges::find(reading.indices, i) != reading.indices.end();
+        })) {
+      continue;
+    }
+    rest.push_back(dots[i]);
+    indices.push_back(i);
+  }
+  const std::optional<DirectionDots> direction = direction_dots(rest);
+  std::optional<MarkerReading> reading = direction ? read_marker(rest, *direction, options) : std::nullopt;
+  if (!reading) return;
+  reading->indices = std::move(indices);
+  readings.push_back(*std::move(reading));
 }
 
 std::vector<MarkerReading> read_every_corner(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
@@ -198,7 +222,9 @@ std::vector<MarkerReading> read_area(std::span<const Dot> dots, const MarkerDeco
   if (const auto direction = direction_dots(dots)) {
     if (std::optional<MarkerReading> reading = read_marker(dots, *direction, options)) return {*reading};
   }
-  return read_every_corner(dots, options);
+  std::vector<MarkerReading> readings = read_every_corner(dots, options);
+  if (!readings.empty()) read_the_rest(dots, options, readings);
+  return readings;
 }
 
 }  // namespace lodestar

@@ -14,14 +14,14 @@ namespace lodestar {
 /// How much tilt, perspective and noise a marker may show. The code has no redundancy: whatever does not fit
 /// is refused, for a marker not read costs a frame and a marker misread costs the pose.
 struct MarkerDecoderOptions {
-  double axis_ratio_min = 0.7;                      ///< shorter over longer of OX and OY
-  double axis_angle_tolerance_rad = radians(20.0);  ///< how near the angle XOY must be to 90 degrees
+  double most_tilt_rad = radians(36.0);  ///< of the marker to the image, by how much it is foreshortened
   double cell_tolerance =
       0.2;  ///< how far a dot may be from its cell, in pitches, before perspective is known
   double fit_tolerance = 0.08;  ///< and after
   double size_tolerance = 0.2;  ///< how alike the dots' radii must be, and 4 radii to a pitch
   double guard_pitches = 1.0;   ///< about a marker that shares its area with others, so much must be clear
-  std::size_t most_dots = 48;   ///< an area with more holds no markers
+  std::size_t least_dots_in_a_crowd = 5;  ///< and so many dots agree: three always fit some grid
+  std::size_t most_dots = 48;             ///< an area with more holds no markers
 };
 
 /// The direction dots, as indices.
@@ -32,9 +32,10 @@ struct DirectionDots {
 };
 
 /// The paper's rule (4.2.1): A and B are the two dots farthest apart, O is the one farthest from their middle
-/// (A and B, as far from it as O, are out of the question). Right for every ID while the tilt is below 32
-/// degrees, because the corner opposite O is always empty. Which of A and B is X is told by the turn from OX
-/// to OY, Eq. (4) and (5): counter-clockwise on the face as printed. Nothing for fewer than three dots.
+/// (A and B, as far from it as O, are out of the question). Right for every ID that is tilted by less than 32
+/// degrees in the middle of the image, because the corner opposite O is always empty. Which of A and B is X
+/// is told by the turn from OX to OY, Eq. (4) and (5): counter-clockwise on the face as printed. Nothing for
+/// fewer than three dots.
 std::optional<DirectionDots> direction_dots(std::span<const Dot> dots);
 
 /// The ID that these cells' dots stand for, Eq. (9).
