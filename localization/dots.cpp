@@ -76,7 +76,9 @@ Light light_within(const cv::Mat& gray, const Vec2& center_px, double radius_px,
   const int top = std::max(static_cast<int>(std::ceil(center_px.y() - radius_px - 0.5)), 0);
   const int bottom = std::min(static_cast<int>(center_px.y() + radius_px + 0.5), gray.rows - 1);
   const auto background_gray = static_cast<float>(background);
-  const auto reach = static_cast<float>(radius_px + 0.5);
+  const double reach = radius_px + 0.5;
+  const auto slope = static_cast<float>(0.5 / radius_px);  // weight 1 at radius - 1/2 and 0 at reach, by d^2
+  const auto edge = static_cast<float>(reach * reach * 0.5 / radius_px);
   const auto first_x = static_cast<float>(left - center_px.x());
   Light light;
   for (int v = top; v <= bottom; ++v) {
@@ -86,7 +88,7 @@ Light light_within(const cv::Mat& gray, const Vec2& center_px, double radius_px,
     float moment = 0.0F;
     for (int i = 0; i <= right - left; ++i) {
       const float x = first_x + static_cast<float>(i);
-      const float weight = std::clamp(reach - std::sqrt(x * x + y * y), 0.0F, 1.0F);
+      const float weight = std::clamp(edge - (x * x + y * y) * slope, 0.0F, 1.0F);
       const float part = weight * (static_cast<float>(row[left + i]) - background_gray);
       mass += part;
       moment += part * x;
@@ -156,12 +158,21 @@ Run brightest_pixel(const cv::Mat& gray, std::span<const Run> runs) {
   return brightest;
 }
 
+/// One run a row, each touching the next: so nearly all dots look after erosion, and need no search for
+/// parts.
+bool is_plainly_one_piece(std::span<const Run> runs) {
+  return std::ranges::adjacent_find(runs, [](const Run& above, const Run& below) {
+           return below.row != above.row + 1 || below.begin > above.end || above.begin > below.end;
+         }) == runs.end();
+}
+
 /// Erosion parts an area into the dots that touched in it. It never takes or tears a dot: of one that is too
 /// small for the element its brightest pixel is left.
 void append_dots_of_area(const cv::Mat& gray, std::span<const Run> runs, const BrightArea& area,
                          const DotOptions& options, DotImage& found) {
   std::vector<Run> left = eroded(runs, options.erosion_px);
   if (left.empty()) left.push_back(brightest_pixel(gray, runs));
+  if (is_plainly_one_piece(left)) return append_dot(gray, area, left, options, found);
   const BrightAreas parts = connected_areas(left);
   const bool several = parts.areas.size() > 1 && std::ranges::all_of(parts.areas, [](const BrightArea& part) {
                          return part.area_px >= smallest_part_px;
