@@ -45,13 +45,14 @@ DirectionDots with_axes_named(std::span<const Dot> dots, std::size_t o, std::siz
 /// dots (2 by 2 or 2 by 3 pitches, or aslant) has too long a side or a pitch too small for its dots.
 bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
                   const MarkerDecoderOptions& options) {
+  const bool few = dots.size() < options.least_dots_for_tilt;
   const Vec2 ox = dots[direction.x].center_px - dots[direction.o].center_px;
   const Vec2 oy = dots[direction.y].center_px - dots[direction.o].center_px;
   const double area = -cross(ox, oy);
   if (!(area > 0.0)) return false;
   // Singular values s >= t of the columns OX, OY: s t = area, s^2 + t^2 = |OX|^2 + |OY|^2. A tilt makes t / s
   // its cosine c, so (s^2 + t^2) / (s t) = c + 1 / c.
-  const double least_cosine = std::cos(options.most_tilt_rad);
+  const double least_cosine = std::cos(few ? options.most_tilt_of_few_rad : options.most_tilt_rad);
   if (ox.squaredNorm() + oy.squaredNorm() > (least_cosine + 1.0 / least_cosine) * area) return false;
   const double radius_px =
       (dots[direction.o].radius_px + dots[direction.x].radius_px + dots[direction.y].radius_px) / 3.0;
@@ -203,7 +204,7 @@ int id_of(std::span<const MarkerDot> dots) {
 
 std::optional<MarkerReading> read_marker(std::span<const Dot> dots, const DirectionDots& direction,
                                          const MarkerDecoderOptions& options) {
-  if (!spans_a_grid(dots, direction, options) || !sizes_are_alike(dots, options.size_tolerance)) {
+  if (!spans_a_grid(dots, direction, options) || !sizes_are_alike(dots, options.alike_tolerance)) {
     return std::nullopt;
   }
   const MarkerGrid through_direction_dots(dots[direction.o].center_px, dots[direction.x].center_px,

@@ -15,10 +15,13 @@ namespace lodestar {
 /// is refused, for a marker not read costs a frame and a marker misread costs the pose.
 struct MarkerDecoderOptions {
   double most_tilt_rad = radians(36.0);  ///< of the marker to the image, by how much it is foreshortened
+  std::size_t least_dots_for_tilt = 5;   ///< fewer would fit too many grids, and must look upright
+  double most_tilt_of_few_rad = radians(14.0);
+  double alike_tolerance = 0.12;  ///< how alike the dots' radii must be
   double cell_tolerance =
       0.2;  ///< how far a dot may be from its cell, in pitches, before perspective is known
   double fit_tolerance = 0.08;  ///< and after
-  double size_tolerance = 0.2;  ///< how alike the dots' radii must be, and 4 radii to a pitch
+  double size_tolerance = 0.2;  ///< how near 4 radii must be to a pitch
   double guard_pitches = 1.0;   ///< about a marker that shares its area with others, so much must be clear
   std::size_t least_dots_in_a_crowd = 5;  ///< and so many dots agree: three always fit some grid
   std::size_t most_dots = 48;             ///< an area with more holds no markers
