@@ -6,7 +6,8 @@
 namespace lodestar {
 namespace {
 
-constexpr int cell = 8;        // side of a coarse cell, in samples of the half-size image
+constexpr int cell_bits = 3;
+constexpr int cell = 1 << cell_bits;  // side of a coarse cell, in samples of the half-size image
 constexpr int light_bits = 8;  // nodes hold light in 1/256 of LightImage's unit, to be stepped along rows
 constexpr double light_scale = LightImage::units_per_gray << light_bits;
 
@@ -30,47 +31,46 @@ Vec2 meet_ceiling(const Vec3& from, const Vec3& ray, double height_m) {
   return from.head<2>() + distance * ray.head<2>();
 }
 
-double distance_to_m(const CeilingTube& tube, const Vec2& point) {
+double squared_distance_m2(const CeilingTube& tube, const Vec2& point) {
   const Vec2 from = tube.from_m.head<2>();
   const Vec2 piece = tube.to_m.head<2>() - from;
   const double fraction = std::clamp((point - from).dot(piece) / piece.squaredNorm(), 0.0, 1.0);
-  return (from + fraction * piece - point).norm();
+  return (from + fraction * piece - point).squaredNorm();
 }
 
-double glow_at(double distance_m) {
-  const double ratio = distance_m / glow_reach_m;
-  const double fall = 1.0 / (1.0 + ratio * ratio);
+double squared_distance_m2(const CeilingDisc& lamp, const Vec2& point) {
+  return std::max((lamp.center_m.head<2>() - point).squaredNorm() - lamp.radius_m * lamp.radius_m, 0.0);
+}
+
+double glow_at(double squared_distance_m2) {
+  const double fall = 1.0 / (1.0 + squared_distance_m2 / (glow_reach_m * glow_reach_m));
   return glow_gray * fall * fall;
 }
 
 double glow_of_lights(const Ceiling& ceiling, const Vec2& point) {
   double gray = 0.0;
-  for (const CeilingTube& tube : ceiling.tubes) gray += glow_at(distance_to_m(tube, point));
-  for (const CeilingDisc& lamp : ceiling.lamps) {
-    gray += glow_at(std::max((lamp.center_m.head<2>() - point).norm() - lamp.radius_m, 0.0));
-  }
+  for (const CeilingTube& tube : ceiling.tubes) gray += glow_at(squared_distance_m2(tube, point));
+  for (const CeilingDisc& lamp : ceiling.lamps) gray += glow_at(squared_distance_m2(lamp, point));
   return gray;
 }
 
 /// The lights whose glow the picture may show.
 Ceiling lights_near(const Ceiling& ceiling, const Vec2& middle, double radius_m) {
   constexpr double farthest_glow_m = 0.8;
-  const double near = radius_m + farthest_glow_m;
+  const double near = (radius_m + farthest_glow_m) * (radius_m + farthest_glow_m);
+  const auto is_near = [&](const auto& light) { return squared_distance_m2(light, middle) < near; };
   Ceiling result;
-  std::ranges::copy_if(ceiling.tubes, std::back_inserter(result.tubes),
-                       [&](const CeilingTube& tube) { return distance_to_m(tube, middle) < near; });
-  std::ranges::copy_if(ceiling.lamps, std::back_inserter(result.lamps), [&](const CeilingDisc& lamp) {
-    return (lamp.center_m.head<2>() - middle).norm() < near;
-  });
+  std::ranges::copy_if(ceiling.tubes, std::back_inserter(result.tubes), is_near);
+  std::ranges::copy_if(ceiling.lamps, std::back_inserter(result.lamps), is_near);
   return result;
 }
 
 /// Steps of 1/8 from one end to the other; coordinates wrap, so their difference is taken as signed.
 std::int32_t eighth(std::uint32_t from, std::uint32_t to) {
-  return static_cast<std::int32_t>(to - from) / cell;
+  return static_cast<std::int32_t>(to - from) >> cell_bits;
 }
 std::int32_t eighth(std::int32_t from, std::int32_t to) {
-  return (to - from) / cell;
+  return (to - from) >> cell_bits;
 }
 
 /// A quarter of the way from a to b, in 16 bits.
@@ -87,7 +87,8 @@ CeilingBackground::CeilingBackground(const CameraModel& camera, const Vignetting
       texture_(seed),
       half_width_((camera.width_px + 1) / 2),
       half_height_((camera.height_px + 1) / 2),
-      node_columns_((half_width_ + cell - 1) / cell + 1) {
+      node_columns_((half_width_ + cell - 1) / cell + 1),
+      half_stride_(cell * (node_columns_ - 1)) {
   const int node_rows = (half_height_ + cell - 1) / cell + 1;
   for (int row = 0; row < node_rows; ++row) {
     for (int column = 0; column < node_columns_; ++column) {
@@ -98,7 +99,7 @@ CeilingBackground::CeilingBackground(const CameraModel& camera, const Vignetting
     }
   }
   nodes_.resize(rays_.size());
-  half_.resize(index(half_width_) * index(half_height_));
+  half_.resize(index(half_stride_) * index(half_height_));
 }
 
 void CeilingBackground::paint(const Ceiling& ceiling, const Eigen::Isometry3d& map_from_camera,
@@ -141,16 +142,15 @@ void CeilingBackground::sample_half_row(int row) {
                 a.y + static_cast<std::uint32_t>(eighth(a.y, b.y) * down),
                 a.light + eighth(a.light, b.light) * down, a.texture + eighth(a.texture, b.texture) * down};
   };
-  std::int16_t* out = half_.data() + index(row) * index(half_width_);
+  std::int16_t* out = half_.data() + index(row) * index(half_stride_);
   Node right = node_at(0);
-  for (int begin = 0; begin < half_width_; begin += cell) {
+  for (int column = 1; column < node_columns_; ++column, out += cell) {
     Node here = right;
-    right = node_at(begin / cell + 1);
+    right = node_at(column);
     const auto step_x = static_cast<std::uint32_t>(eighth(here.x, right.x));
     const auto step_y = static_cast<std::uint32_t>(eighth(here.y, right.y));
     const std::int32_t step_light = eighth(here.light, right.light);
-    const int end = std::min(begin + cell, half_width_);
-    for (int i = begin; i < end; ++i) {
+    for (int i = 0; i < cell; ++i) {
       const std::int32_t light = here.light + here.texture * texture_.at(here.x, here.y);
       out[i] = static_cast<std::int16_t>(std::max(light, 0) >> light_bits);
       here.x += step_x;
@@ -164,22 +164,20 @@ void CeilingBackground::enlarge(LightImage& image) const {
   // A pixel lies a quarter of a sample's step from the nearest sample: three parts of that one, one part of
   // the next, down and across.
   std::vector<std::int16_t> mixed(index(half_width_) + 2);  // one row, with a repeated sample at either end
-  std::vector<std::int16_t> doubled(2 * index(half_width_));
+  std::int16_t* mix = mixed.data() + 1;
   for (int v = 0; v < image.height_px(); ++v) {
     const int nearest = v / 2;
     const int next = std::clamp(v % 2 == 0 ? nearest - 1 : nearest + 1, 0, half_height_ - 1);
-    const std::int16_t* a = half_.data() + index(nearest) * index(half_width_);
-    const std::int16_t* b = half_.data() + index(next) * index(half_width_);
-    std::int16_t* mix = mixed.data() + 1;
+    const std::int16_t* a = half_.data() + index(nearest) * index(half_stride_);
+    const std::int16_t* b = half_.data() + index(next) * index(half_stride_);
     for (int i = 0; i < half_width_; ++i) mix[i] = quarter_towards(a[i], b[i]);
     mix[-1] = mix[0];
     mix[half_width_] = mix[half_width_ - 1];
-    std::int16_t* two = doubled.data();
+    std::int16_t* out = image.row(v);
     for (int i = 0; i < half_width_; ++i) {
-      two[2 * i] = quarter_towards(mix[i], mix[i - 1]);
-      two[2 * i + 1] = quarter_towards(mix[i], mix[i + 1]);
+      out[2 * i] = quarter_towards(mix[i], mix[i - 1]);
+      out[2 * i + 1] = quarter_towards(mix[i], mix[i + 1]);
     }
-    std::copy_n(two, image.width_px(), image.row(v));
   }
 }
 

@@ -42,6 +42,7 @@ class CeilingBackground {
   int half_width_;  ///< of the image at every other pixel
   int half_height_;
   int node_columns_;
+  int half_stride_;              ///< whole cells
   std::vector<Vec3> rays_;       ///< of the nodes, in the camera frame
   std::vector<double> falloff_;  ///< of the nodes
   std::vector<Node> nodes_;

@@ -49,7 +49,7 @@ cv::Mat1f draw_stains(Random random) {
 /// A joint is a dark groove a few millimetres wide with soft flanks.
 double joint_at(int texel) {
   const int from_joint = std::min(texel % tile, tile - texel % tile);
-  constexpr double half_width = 1.1;
+  constexpr double half_width = 1.3;
   return std::exp(-0.5 * std::pow(from_joint / half_width, 2));
 }
 
@@ -58,7 +58,7 @@ double joint_at(int texel) {
 CeilingTexture::CeilingTexture(std::uint64_t seed) : texels_(static_cast<std::size_t>(side) * side) {
   const Random random(seed);
   const cv::Mat1f stain = draw_stains(random.stream(stains));
-  const cv::Mat1f speck = smooth_noise(side, 1.0, random.stream(specks));
+  const cv::Mat1f speck = smooth_noise(side, 1.2, random.stream(specks));
   const cv::Mat1f tone = white_noise(tiles, random.stream(tones_of_tiles));
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {

@@ -13,7 +13,7 @@ inline constexpr double ceiling_tile_m = 0.6;  ///< side of a mineral-fibre tile
 /// that wraps by itself.
 class CeilingTexture {
  public:
-  static constexpr int side = 1024;  ///< texels
+  static constexpr int side = 1024;  ///< texels; small enough to stay in the processor's cache
   static constexpr double period_m = 8 * ceiling_tile_m;
   static constexpr int units_per_amplitude = 32;
 

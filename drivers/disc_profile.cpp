@@ -7,8 +7,6 @@
 namespace lodestar {
 namespace {
 
-constexpr int steps_per_sigma = 16;
-constexpr int columns = 2 * static_cast<int>(DiscProfile::reach) * steps_per_sigma + 1;
 constexpr int rows_per_octave = 8;
 constexpr double smallest_radius = 0.25;
 constexpr int octaves = 8;
@@ -48,15 +46,6 @@ DiscProfile::DiscProfile() {
       values_.push_back(static_cast<float>(blurred_disc(radius, from_middle)));
     }
   }
-}
-
-double DiscProfile::Row::at(double inside) const {
-  const double place = (inside + reach) * steps_per_sigma;
-  if (!(place > 0.0)) return 0.0;
-  const auto left = static_cast<int>(place);
-  if (left >= columns - 1) return values_[columns - 1];
-  const float* value = values_ + left;
-  return value[0] + (place - left) * (value[1] - value[0]);
 }
 
 DiscProfile::Row DiscProfile::of_radius(double radius) const {

@@ -10,11 +10,20 @@ class DiscProfile {
  public:
   DiscProfile();
 
+  /// Beyond this distance from the rim the profile is constant, to a few parts in ten thousand.
+  static constexpr double reach = 3.5;
+
   /// The profile of one radius.
   class Row {
    public:
     /// At a point `inside` of the rim (negative: outside).
-    [[nodiscard]] double at(double inside) const;
+    [[nodiscard]] double at(double inside) const {
+      const double place = (inside + reach) * steps_per_sigma;
+      if (!(place > 0.0)) return 0.0;
+      const auto left = static_cast<int>(place);
+      if (left >= columns - 1) return values_[columns - 1];
+      return values_[left] + (place - left) * (values_[left + 1] - values_[left]);
+    }
 
    private:
     friend class DiscProfile;
@@ -25,10 +34,10 @@ class DiscProfile {
   [[nodiscard]] Row of_radius(double radius) const;
   [[nodiscard]] Row of_straight_edge() const;
 
-  /// Beyond this distance from the rim the profile is constant.
-  static constexpr double reach = 4.0;
-
  private:
+  static constexpr int steps_per_sigma = 16;
+  static constexpr int columns = static_cast<int>(2 * reach * steps_per_sigma) + 1;
+
   std::vector<float> values_;
 };
 

@@ -41,7 +41,7 @@ Eigen::Isometry3d halfway(const Eigen::Isometry3d& from, const Eigen::Isometry3d
 /// The sensor's answer to light of up to its full scale: linear in the dark, flat near the top, which is why
 /// dots look alike from near and far.
 double shoulder(double light) {
-  constexpr double steepness = 6.0;
+  constexpr double steepness = 7.0;
   static const double at_full_scale = 1.0 - std::exp(-steepness);
   return (1.0 - std::exp(-steepness * light)) / at_full_scale;
 }
@@ -94,24 +94,31 @@ cv::Mat ImageFormer::expose(const Eigen::Isometry3d& map_from_camera_at_opening,
 
 void ImageFormer::paint_tube(const CeilingTube& tube, const Shutter& shutter) {
   // Straight pieces follow the curve that the lens makes of a straight tube.
-  constexpr int pieces = 12;
-  const Vec3 step = (tube.to_m - tube.from_m) / pieces;
-  const Vec3 aside = tube.radius_m * Vec3(-step.y(), step.x(), 0.0).normalized();
-  const auto in_camera = [&](double piece) -> Vec3 {
-    return shutter.camera_from_map * (tube.from_m + piece * step);
+  constexpr std::size_t pieces = 12;
+  const Vec3 step = (tube.to_m - tube.from_m) / static_cast<double>(pieces);
+  std::array<std::optional<Vec2>, pieces + 1> joints;
+  for (std::size_t i = 0; i <= pieces; ++i) {
+    const Vec3 in_camera = shutter.camera_from_map * (tube.from_m + static_cast<double>(i) * step);
+    if (may_show(in_camera, step.norm())) joints[i] = camera_.project(in_camera);
+  }
+  const auto cut_at = [&](std::size_t i) -> std::optional<Vec2> {
+    if (i == 0 || i == pieces) return std::nullopt;
+    const Vec2 before = joints[i - 1].value_or(*joints[i]);
+    const Vec2 after = joints[i + 1].value_or(*joints[i]);
+    return (after - before).normalized();
   };
-  for (int i = 0; i < pieces; ++i) {
-    if (!may_show(in_camera(i), step.norm()) || !may_show(in_camera(i + 1), step.norm())) continue;
-    const Vec3 middle = tube.from_m + (i + 0.5) * step;
-    const std::optional<Vec2> from = camera_.project(in_camera(i));
-    const std::optional<Vec2> to = camera_.project(in_camera(i + 1));
+  const Vec3 aside = tube.radius_m * Vec3(-step.y(), step.x(), 0.0).normalized();
+  for (std::size_t i = 0; i < pieces; ++i) {
+    if (!joints[i] || !joints[i + 1]) continue;
+    const Vec3 middle = tube.from_m + (static_cast<double>(i) + 0.5) * step;
     const std::optional<Vec2> left = camera_.project(shutter.camera_from_map * (middle + aside));
     const std::optional<Vec2> right = camera_.project(shutter.camera_from_map * (middle - aside));
-    if (!from || !to || !left || !right) continue;
+    if (!left || !right) continue;
     // A saturated tube shows motion at its edges only; there the smear adds to the blur's variance.
     const double smear_variance_px2 = shutter.motion_px(middle, camera_).squaredNorm() / 12.0;
     const double sigma_px = std::sqrt(blur_sigma_px_ * blur_sigma_px_ + smear_variance_px2);
-    light_.paint(LightImage::Band{*from, *to, 0.5 * (*left - *right).norm(), i == 0, i == pieces - 1},
+    const double half_width_px = 0.5 * (*left - *right).norm();
+    light_.paint(LightImage::Band{*joints[i], *joints[i + 1], half_width_px, cut_at(i), cut_at(i + 1)},
                  tube.gray, sigma_px, profile_);
   }
 }

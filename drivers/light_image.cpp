@@ -20,7 +20,7 @@ Span pixels_between(double low, double high, int count) {
 
 /// Puts light of so many units over what is there, `share` of it opaque.
 void lay_over(std::int16_t& pixel, double units, double share) {
-  pixel = static_cast<std::int16_t>(std::lrint(pixel + share * (units - pixel)));
+  pixel = static_cast<std::int16_t>(pixel + share * (units - pixel) + 0.5);  // never negative
 }
 
 double units_of(double gray) {
@@ -55,12 +55,13 @@ void narrow(double& low, double& high, double slope, double offset, double low_v
 LightImage::LightImage(int width_px, int height_px)
     : width_px_(width_px),
       height_px_(height_px),
-      values_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {}
+      stride_(width_px + width_px % 2),
+      values_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_px)) {}
 
 void LightImage::paint(const ProjectedDisc& disc, const Vec2& motion_px, double gray, double sigma_px,
                        const DiscProfile& profile) {
-  // The smear is the mean of copies at most half a sigma apart, too dense to be told from a continuous one.
-  const int copies = 1 + static_cast<int>(std::ceil(motion_px.norm() / (0.5 * sigma_px)));
+  // The smear is the mean of copies less than a sigma apart, too dense to be told from a continuous one.
+  const int copies = 1 + static_cast<int>(std::ceil(motion_px.norm() / sigma_px));
   const DiscProfile::Row row_profile = profile.of_radius(disc.radius_px / sigma_px);
   const Vec2 reach =
       disc.half_size_px + 0.5 * motion_px.cwiseAbs() + Vec2::Constant(DiscProfile::reach * sigma_px);
@@ -88,29 +89,36 @@ void LightImage::paint(const Band& band, double gray, double sigma_px, const Dis
   const double length = chord.norm();
   if (length < 1e-6) return;
   const Vec2 direction = chord / length;
+  constexpr double far = 1e6;
+  constexpr double just_before = -1e-9;  // a pixel right on a cut belongs to the piece that begins there
   const double reach = band.half_width_px + DiscProfile::reach * sigma_px;
-  const double before = band.round_from ? -reach : 0.0;
-  // A piece owns its far end's half-open edge not: a pixel just on the joint is painted once.
-  const double after = band.round_to ? length + reach : std::nextafter(length, 0.0);
   const DiscProfile::Row edge = profile.of_straight_edge();
   const double units = units_of(gray);
   const Span rows = pixels_between(std::min(band.from_px.y(), band.to_px.y()) - reach,
                                    std::max(band.from_px.y(), band.to_px.y()) + reach, height_px_);
   for (int v = rows.first; v <= rows.last; ++v) {
-    // Along and across the band, as linear functions of u in this row.
+    // Along, across and beyond the cuts: all linear in u within a row.
     const double dv = v - band.from_px.y();
     const double along_0 = direction.y() * dv - direction.x() * band.from_px.x();
     const double across_0 = direction.x() * dv + direction.y() * band.from_px.x();
     double low = 0.0;
     double high = width_px_ - 1.0;
-    narrow(low, high, direction.x(), along_0, before, after);
     narrow(low, high, -direction.y(), across_0, -reach, reach);
+    narrow(low, high, direction.x(), along_0, -reach, length + reach);
+    if (band.cut_from) {
+      narrow(low, high, band.cut_from->x(), band.cut_from->dot(Vec2(0.0, v) - band.from_px), 0.0, far);
+    }
+    if (band.cut_to) {
+      narrow(low, high, band.cut_to->x(), band.cut_to->dot(Vec2(0.0, v) - band.to_px), -far, just_before);
+    }
     const Span columns = pixels_between(low, high, width_px_);
     std::int16_t* pixels = row(v);
     for (int u = columns.first; u <= columns.last; ++u) {
       const double along = along_0 + direction.x() * u;
       const double across = across_0 - direction.y() * u;
-      const double beyond = std::max({-along, along - length, 0.0});
+      const double before = band.cut_from ? 0.0 : -along;
+      const double after = band.cut_to ? 0.0 : along - length;
+      const double beyond = std::max({before, after, 0.0});
       const double distance = std::sqrt(across * across + beyond * beyond);
       lay_over(pixels[u], units, edge.at((band.half_width_px - distance) / sigma_px));
     }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "drivers/disc_profile.hpp"
@@ -27,25 +28,27 @@ class LightImage {
   void paint(const ProjectedDisc& disc, const Vec2& motion_px, double gray, double sigma_px,
              const DiscProfile& profile);
 
-  /// Lays a blurred band over the picture: what lies between the ends of `from_px` -> `to_px`, at most
-  /// half_width_px aside. An end that is `round` has a half disc beyond it; else the band ends sharply, so
-  /// that the next piece joins it.
+  /// A straight piece of a tube. Each end is either round, with a half disc beyond it, or cut straight across
+  /// the direction given, so that two pieces with the same cut join without gap or overlap.
   struct Band {
     Vec2 from_px = Vec2::Zero();
     Vec2 to_px = Vec2::Zero();
     double half_width_px = 0.0;
-    bool round_from = false;
-    bool round_to = false;
+    std::optional<Vec2> cut_from;  ///< nothing: round
+    std::optional<Vec2> cut_to;
   };
+
+  /// Lays a blurred band over the picture.
   void paint(const Band& band, double gray, double sigma_px, const DiscProfile& profile);
 
  private:
   [[nodiscard]] std::size_t offset_of(int v) const {
-    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px_);
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(stride_);
   }
 
   int width_px_;
   int height_px_;
+  int stride_;  ///< even, so that whoever fills a row two by two may write one pixel beyond it
   std::vector<std::int16_t> values_;
 };
 

@@ -13,8 +13,8 @@ struct SimulatedCameraOptions {
   double dot_gray = 246.0;        ///< of a dot's middle on the axis; 246 is ordinary light, 120..200 is hard
   double dot_gray_sigma = 2.0;    ///< from dot to dot
   double background_gray = 35.0;  ///< of the plain ceiling on the axis; ambient light makes it brighter
-  double blur_sigma_px = 0.6;     ///< point spread of the lens, besides the pixel's own area
-  double read_noise_gray = 2.0;   ///< standard deviation in the dark
+  double blur_sigma_px = 0.5;     ///< point spread of the lens, besides the pixel's own area
+  double read_noise_gray = 1.5;   ///< standard deviation in the dark
   double shot_noise_gray_at_255 = 4.0;  ///< grows with the square root of the signal
   double vignetting = 0.3;              ///< loss of light in the corners
   double texture_gray = 6.0;            ///< amplitude of the ceiling's texture
