@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace lodestar {
 namespace {
@@ -10,6 +11,8 @@ constexpr int cell_bits = 3;
 constexpr int cell = 1 << cell_bits;  // side of a coarse cell, in samples of the half-size image
 constexpr int light_bits = 8;  // nodes hold light in 1/256 of LightImage's unit, to be stepped along rows
 constexpr double light_scale = LightImage::units_per_gray << light_bits;
+
+constexpr double strongest_texture_gray = 30.0;  // so that texture on white still fits 16 bits
 
 constexpr double glow_gray = 28.0;     // of the ceiling right beside a light
 constexpr double glow_reach_m = 0.13;  // at which it has fallen to a quarter
@@ -73,9 +76,11 @@ std::int32_t eighth(std::int32_t from, std::int32_t to) {
   return (to - from) >> cell_bits;
 }
 
-/// A quarter of the way from a to b, in 16 bits.
+/// A quarter of the way from a to b. The background stays below 400 gray, so that the difference fits 16
+/// bits too; saying so keeps eight pixels in one register.
 std::int16_t quarter_towards(std::int16_t a, std::int16_t b) {
-  return static_cast<std::int16_t>(a + ((b - a) >> 2));
+  const auto difference = static_cast<std::int16_t>(b - a);
+  return static_cast<std::int16_t>(a + static_cast<std::int16_t>(difference >> 2));
 }
 
 }  // namespace
@@ -83,7 +88,7 @@ std::int16_t quarter_towards(std::int16_t a, std::int16_t b) {
 CeilingBackground::CeilingBackground(const CameraModel& camera, const Vignetting& vignetting,
                                      double background_gray, double texture_gray, std::uint64_t seed)
     : background_gray_(background_gray),
-      texture_gray_(texture_gray),
+      texture_gray_(std::min(texture_gray, strongest_texture_gray)),
       texture_(seed),
       half_width_((camera.width_px + 1) / 2),
       half_height_((camera.height_px + 1) / 2),
