@@ -1,1 +1,67 @@
 #include "maps/atomic_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <string>
+#include <unistd.h>
+
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+namespace {
+
+/// Closes a file descriptor at the end of its scope.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  [[nodiscard]] int get() const { return number_; }
+  [[nodiscard]] bool is_open() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+bool write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& temporary) {
+  const std::string reason = std::strerror(errno);
+  ::unlink(temporary.c_str());
+  throw InputError(file, 0, "a file that could not be written (" + reason + ")",
+                   "a folder that can be written");
+}
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::string temporary =
+      (folder / fmt::format(".{}.{}", file.filename().string(), ::getpid())).string();
+  {
+    constexpr mode_t readable_by_all = 0644;
+    const Descriptor out(
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, readable_by_all));
+    if (!out.is_open() || !write_all(out.get(), content) || ::fsync(out.get()) != 0) fail(file, temporary);
+  }
+  if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(file, temporary);
+  // The rename itself must outlive a power cut; a file system that cannot sync folders has none to offer.
+  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (directory.is_open()) ::fsync(directory.get());
+}
+
+}  // namespace lodestar

@@ -1,1 +1,78 @@
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "maps/atomic_file.hpp"
+#include "maps/input_error.hpp"
+#include "maps/marker.hpp"
 #include "maps/marker_registry.hpp"
+#include "maps/strict_yaml.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr const char* format_name = "lodestar-markers";
+
+Pose2 read_alignment(StrictYaml yaml) {
+  const double x_m = yaml.number("x_m");
+  const double y_m = yaml.number("y_m");
+  const double yaw_deg = yaml.number("yaw_deg");
+  yaml.finish();
+  return {{x_m, y_m}, wrap_angle(radians(yaw_deg))};
+}
+
+RegisteredMarker read_marker(StrictYaml& yaml) {
+  RegisteredMarker marker;
+  marker.id = yaml.integer("id", 0, marker_id_count - 1);
+  marker.position_m = {yaml.number("x_m"), yaml.number("y_m"), yaml.number("z_m")};
+  marker.yaw_rad = wrap_angle(radians(yaml.number("yaw_deg")));
+  marker.line = yaml.line();
+  yaml.finish();
+  return marker;
+}
+
+/// Degrees without the dust of conversion: 90, not 90.00000000000001.
+double tidy_degrees(double angle_rad) {
+  constexpr double per_degree = 1e9;
+  return std::round(degrees(angle_rad) * per_degree) / per_degree;
+}
+
+}  // namespace
+
+MarkerRegistry load_registry(const std::filesystem::path& file) {
+  StrictYaml yaml = StrictYaml::load(file);
+  const std::string format = yaml.text("format");
+  if (format != format_name) yaml.refuse("format", "'" + format + "'", fmt::format("'{}'", format_name));
+  (void)yaml.integer("version", 1, 1);
+
+  MarkerRegistry registry;
+  registry.map_from_registry = read_alignment(yaml.mapping("alignment"));
+  std::map<int, int> line_of_id;
+  for (StrictYaml& entry : yaml.list_of_mappings("markers")) {
+    const RegisteredMarker marker = read_marker(entry);
+    const auto [first, is_new] = line_of_id.emplace(marker.id, marker.line);
+    if (!is_new) {
+      throw InputError(file, marker.line, fmt::format("marker {} again", marker.id),
+                       fmt::format("each ID once (it stands in line {})", first->second));
+    }
+    registry.markers.push_back(marker);
+  }
+  yaml.finish();
+  return registry;
+}
+
+void save_registry(const MarkerRegistry& registry, const std::filesystem::path& file) {
+  const Pose2& alignment = registry.map_from_registry;
+  std::string text =
+      fmt::format("format: {}\nversion: 1\nalignment: {{x_m: {}, y_m: {}, yaw_deg: {}}}\nmarkers:{}\n",
+                  format_name, alignment.position_m.x(), alignment.position_m.y(),
+                  tidy_degrees(alignment.yaw_rad), registry.markers.empty() ? " []" : "");
+  for (const RegisteredMarker& marker : registry.markers) {
+    text += fmt::format("  - {{id: {}, x_m: {}, y_m: {}, z_m: {}, yaw_deg: {}}}\n", marker.id,
+                        marker.position_m.x(), marker.position_m.y(), marker.position_m.z(),
+                        tidy_degrees(marker.yaw_rad));
+  }
+  write_file_atomically(file, text);
+}
+
+}  // namespace lodestar

@@ -1,1 +1,188 @@
 #include "maps/strict_yaml.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+namespace {
+
+int line_of(const YAML::Node& node) {
+  return node.Mark().is_null() ? 0 : node.Mark().line + 1;
+}
+
+std::string kind_of(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Map:
+      return "a mapping";
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Scalar:
+      return "'" + node.Scalar() + "'";
+    default:
+      return "nothing";
+  }
+}
+
+std::string read_whole(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) throw InputError(file, 0, "a folder", "a YAML file");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file, 0, "no file that can be read", "a YAML file");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// yaml-cpp keeps both of two equal keys; here the second is refused.
+void refuse_repeated_keys(const std::filesystem::path& file, const YAML::Node& mapping) {
+  std::set<std::string> seen;
+  for (const auto& entry : mapping) {
+    if (!entry.first.IsScalar()) {
+      throw InputError(file, line_of(entry.first), kind_of(entry.first) + " as a key", "a word");
+    }
+    if (!seen.insert(entry.first.Scalar()).second) {
+      throw InputError(file, line_of(entry.first), "a second key '" + entry.first.Scalar() + "'",
+                       "each key once");
+    }
+  }
+}
+
+/// A finite decimal number and nothing else: no units, no words, no quotes.
+std::optional<double> as_number(const YAML::Node& node) {
+  if (!node.IsScalar() || node.Tag() == "!") return std::nullopt;
+  const std::string& text = node.Scalar();
+  const std::size_t skip = !text.empty() && text.front() == '+' ? 1 : 0;
+  double value = 0.0;
+  const auto [rest, error] = std::from_chars(text.data() + skip, text.data() + text.size(), value);
+  if (error != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+StrictYaml::StrictYaml(std::filesystem::path file, YAML::Node node, std::string where)
+    : file_(std::move(file)), node_(std::move(node)), where_(std::move(where)) {
+  if (!node_.IsMap()) {
+    const std::string what = where_.empty() ? "a mapping of keys" : "a mapping for " + where_;
+    throw InputError(file_, line_of(node_), kind_of(node_), what);
+  }
+  refuse_repeated_keys(file_, node_);
+}
+
+StrictYaml StrictYaml::load(const std::filesystem::path& file) {
+  const std::string text = read_whole(file);
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) throw InputError(file, line_of(documents[1]), "a second document", "one");
+    if (documents.empty() || documents.front().IsNull())
+      throw InputError(file, 1, "nothing", "a mapping of keys");
+    return {file, documents.front(), ""};
+  } catch (const YAML::Exception& error) {
+    throw InputError(file, error.mark.is_null() ? 0 : error.mark.line + 1, "broken YAML (" + error.msg + ")",
+                     "YAML");
+  }
+}
+
+bool StrictYaml::has(const std::string& key) const {
+  return node_[key].IsDefined();
+}
+
+YAML::Node StrictYaml::node(const std::string& key) {
+  asked_.insert(key);
+  const YAML::Node& mapping = node_;  // the const operator[] does not insert
+  YAML::Node value = mapping[key];
+  if (!value.IsDefined()) {
+    throw InputError(file_, line(), "no key '" + key + "'" + (where_.empty() ? "" : " in " + where_), "one");
+  }
+  return value;
+}
+
+double StrictYaml::number(const std::string& key) {
+  const YAML::Node value = node(key);
+  const std::optional<double> number = as_number(value);
+  if (!number) refuse(key, kind_of(value), "a finite number");
+  return *number;
+}
+
+double StrictYaml::number(const std::string& key, double low, double high) {
+  const double value = number(key);
+  if (value < low || value > high) refuse(key, fmt::format("{}", value), fmt::format("{} to {}", low, high));
+  return value;
+}
+
+int StrictYaml::integer(const std::string& key, int low, int high) {
+  const YAML::Node value = node(key);
+  const std::optional<double> number = as_number(value);
+  if (!number || *number != std::floor(*number) || *number < low || *number > high) {
+    refuse(key, kind_of(value), fmt::format("a whole number, {} to {}", low, high));
+  }
+  return static_cast<int>(*number);
+}
+
+bool StrictYaml::boolean(const std::string& key) {
+  const YAML::Node value = node(key);
+  const std::string text = value.IsScalar() ? value.Scalar() : "";
+  if (text == "true" || text == "1") return true;
+  if (text == "false" || text == "0") return false;
+  refuse(key, kind_of(value), "true or false");
+}
+
+std::string StrictYaml::text(const std::string& key) {
+  const YAML::Node value = node(key);
+  if (!value.IsScalar() || value.Scalar().empty()) refuse(key, kind_of(value), "a word");
+  return value.Scalar();
+}
+
+std::vector<double> StrictYaml::numbers(const std::string& key, std::size_t count) {
+  const YAML::Node list = node(key);
+  const std::string wanted = fmt::format("a list of {} finite numbers", count);
+  if (!list.IsSequence()) refuse(key, kind_of(list), wanted);
+  if (list.size() != count) refuse(key, fmt::format("{} values", list.size()), wanted);
+  std::vector<double> numbers;
+  for (const YAML::Node& item : list) {
+    const std::optional<double> number = as_number(item);
+    if (!number) throw InputError(file_, line_of(item), kind_of(item) + " in '" + key + "'", wanted);
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+StrictYaml StrictYaml::mapping(const std::string& key) {
+  return {file_, node(key), where_.empty() ? key : where_ + "." + key};
+}
+
+std::vector<StrictYaml> StrictYaml::list_of_mappings(const std::string& key) {
+  const YAML::Node list = node(key);
+  if (!list.IsSequence() && !list.IsNull()) refuse(key, kind_of(list), "a list");
+  std::vector<StrictYaml> mappings;
+  for (const YAML::Node& item : list) {
+    mappings.push_back({file_, item, fmt::format("{}[{}]", key, mappings.size())});
+  }
+  return mappings;
+}
+
+void StrictYaml::finish() const {
+  for (const auto& entry : node_) {
+    const std::string key = entry.first.Scalar();
+    if (asked_.contains(key)) continue;
+    const std::string place = where_.empty() ? "" : " in " + where_;
+    throw InputError(file_, line_of(entry.first), "unknown key '" + key + "'" + place, "only known keys");
+  }
+}
+
+void StrictYaml::refuse(const std::string& key, const std::string& found, const std::string& wanted) const {
+  const YAML::Node value = node_[key];
+  const std::string name = where_.empty() ? key : where_ + "." + key;
+  throw InputError(file_, value.IsDefined() ? line_of(value) : line(), found, wanted + " for '" + name + "'");
+}
+
+int StrictYaml::line() const {
+  return line_of(node_);
+}
+
+}  // namespace lodestar
