@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 #include "localization/pose_fix.hpp"
 #include "maps/geometry.hpp"
@@ -18,5 +20,14 @@ struct PlanarFix {
 /// Mount compensation, Eq. (17) for any mount: map_from_base = map_from_camera * camera_from_base. With the
 /// camera r ahead on the x axis this is x_r = x_t - r cos(theta), y_r = y_t - r sin(theta).
 PlanarFix compensate_mount(const PoseFix& fix, const Eigen::Isometry3d& base_from_camera);
+
+struct Circle {
+  Vec2 center_m = Vec2::Zero();
+  double radius_m = 0.0;
+};
+
+/// The circle with the least squared distances to the points: where the camera went while the robot spun on
+/// the spot, whose radius is the r of Eq. (17). Nothing for fewer than three points or points on a line.
+std::optional<Circle> fit_circle(const std::vector<Vec2>& points);
 
 }  // namespace lodestar

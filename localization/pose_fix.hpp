@@ -27,7 +27,7 @@ struct PosePrior {
 
 struct PoseFixOptions {
   PosePrior prior;
-  double dot_sigma_px = 0.1;     ///< standard deviation of a dot's centre, for each coordinate
+  double dot_sigma_px = 0.03;    ///< standard deviation of a dot's centre, for each coordinate
   double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
   double robust_scale = 3.0;     ///< Huber's loss starts at so many sigmas
 };

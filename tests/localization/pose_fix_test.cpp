@@ -1,0 +1,267 @@
+#include "localization/pose_fix.hpp"
+
+#include <Eigen/Cholesky>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "localization/map_estimate.hpp"
+#include "maps/random.hpp"
+
+namespace lodestar {
+namespace {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+/// K of Eq. (16).
+CameraModel paper_camera() {
+  CameraModel camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.fx_px = 755.139;
+  camera.fy_px = 753.926;
+  camera.cx_px = 320.252;
+  camera.cy_px = 239.661;
+  return camera;
+}
+
+CameraModel wide_camera() {
+  CameraModel camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.fx_px = camera.fy_px = 320.0;
+  camera.cx_px = 319.5;
+  camera.cy_px = 239.5;
+  camera.distortion = Distortion::plumb_bob;
+  camera.coefficients = {-0.06, 0.01, 0.0004, -0.0003};
+  return camera;
+}
+
+MarkerRegistry ceiling() {
+  MarkerRegistry registry;
+  registry.markers.push_back({447, Vec3(1.0, 2.0, 2.6), radians(20.0), 0});
+  registry.markers.push_back({1782, Vec3(1.5, 2.1, 2.6), radians(-70.0), 0});
+  registry.markers.push_back({3003, Vec3(1.2, 1.6, 2.6), radians(170.0), 0});
+  return registry;
+}
+
+Eigen::Isometry3d view_from(const Vec3& position, double yaw_rad, double roll_rad = 0.0,
+                            double pitch_rad = 0.0) {
+  Eigen::Isometry3d view = Eigen::Isometry3d::Identity();
+  view.linear() = rotation_from({0.0, 0.0, yaw_rad}) * rotation_from({roll_rad, pitch_rad, 0.0});
+  view.translation() = position;
+  return view;
+}
+
+/// What a detector would report of these markers, with noise on the dots' centres.
+std::vector<DetectedMarker> seen(const Eigen::Isometry3d& view, const MarkerRegistry& registry,
+                                 const CameraModel& camera, double noise_px, Random& random) {
+  std::vector<DetectedMarker> markers;
+  for (const RegisteredMarker& registered : registry.markers) {
+    DetectedMarker marker;
+    marker.id = registered.id;
+    marker.confidence = 0.9;
+    for (const GridCell cell : dots_of(registered.id)) {
+      const Vec2 in_marker = cell_in_marker(cell);
+      const Vec3 in_map = map_from_marker(registry, registered) * Vec3(in_marker.x(), in_marker.y(), 0.0);
+      const Vec2 pixel =
+          *camera.project(view.inverse() * in_map) + noise_px * Vec2(random.normal(), random.normal());
+      marker.dots.push_back({cell, pixel});
+      if (cell == cell_of_o) marker.o_px = pixel;
+      if (cell == cell_of_x) marker.x_px = pixel;
+      if (cell == cell_of_y) marker.y_px = pixel;
+    }
+    markers.push_back(marker);
+  }
+  return markers;
+}
+
+PoseFixOptions with_tilt_sigma(std::optional<double> tilt_sigma_rad, double dot_sigma_px) {
+  PoseFixOptions options;
+  options.prior.tilt_sigma_rad = tilt_sigma_rad;
+  options.dot_sigma_px = dot_sigma_px;
+  return options;
+}
+
+/// The estimate's error in the coordinates of its covariance.
+Vec6 error_of(const PoseFix& fix, const Eigen::Isometry3d& truth) {
+  Vec6 error;
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(truth.linear() * fix.map_from_camera.linear().transpose()));
+  error << truth.translation() - fix.map_from_camera.translation(), turn.angle() * turn.axis();
+  return error;
+}
+
+TEST(FixPose, without_noise_is_the_truth_in_every_mode) {
+  Random random(1);
+  const MarkerRegistry registry = ceiling();
+  for (const CameraModel& camera : {paper_camera(), wide_camera()}) {
+    for (const auto& tilt_sigma :
+         {std::optional<double>(), std::optional(0.0), std::optional(radians(0.1))}) {
+      for (int i = 0; i < 50; ++i) {
+        const Eigen::Isometry3d view =
+            view_from({random.uniform(0.9, 1.5), random.uniform(1.7, 2.1), random.uniform(0.2, 1.0)},
+                      random.uniform(-3.1, 3.1));
+        const auto fix = fix_pose(Stamp{}, seen(view, registry, camera, 0.0, random), registry, camera,
+                                  with_tilt_sigma(tilt_sigma, 0.1));
+        ASSERT_TRUE(fix.has_value());
+        EXPECT_LT(error_of(*fix, view).cwiseAbs().maxCoeff(), 1e-5);
+        EXPECT_THAT(fix->ids, ::testing::ElementsAre(447, 1782, 3003));
+      }
+    }
+  }
+}
+
+TEST(FixPose, follows_the_conventions_of_camera_and_marker) {
+  // Camera straight up at heading 0 below a marker at heading 0: X right of O in the image, Y above O.
+  MarkerRegistry registry;
+  registry.markers.push_back({0, Vec3(0.0, 0.0, 2.0), 0.0, 0});
+  Random random(2);
+  const auto markers = seen(view_from({0.0, 0.0, 0.5}, 0.0), registry, paper_camera(), 0.0, random);
+  EXPECT_GT(markers[0].x_px.x(), markers[0].o_px.x() + 10.0);
+  EXPECT_LT(markers[0].y_px.y(), markers[0].o_px.y() - 10.0);
+  const auto fix = fix_pose(Stamp{}, markers, registry, paper_camera(), with_tilt_sigma(0.0, 0.1));
+  ASSERT_TRUE(fix.has_value());
+  EXPECT_NEAR(angles_of(fix->map_from_camera.linear()).yaw_rad, 0.0, 1e-9);
+}
+
+TEST(FixPose, derivatives_agree_with_finite_differences) {
+  const CameraModel camera = wide_camera();
+  const Eigen::Isometry3d view = view_from({0.3, -0.2, 0.1}, 0.7, 0.05, -0.08);
+  const Vec3 point(0.9, 0.4, 1.6);
+  const Projection at = *project_dot(view, point, camera);
+  constexpr double step = 1e-6;
+  for (int k = 0; k < 6; ++k) {
+    const auto shifted = [&](double by) {
+      Eigen::Isometry3d moved = view;
+      if (k < 3) {
+        moved.translation()[k] += by;
+      } else {
+        moved.linear() = Eigen::AngleAxisd(by, Vec3::Unit(k - 3)).toRotationMatrix() * view.linear();
+      }
+      return project_dot(moved, point, camera)->pixel;
+    };
+    const Vec2 numeric = (shifted(step) - shifted(-step)) / (2.0 * step);
+    EXPECT_LT((numeric - at.jacobian.col(k)).norm(), 1e-4 * (1.0 + numeric.norm())) << "parameter " << k;
+  }
+}
+
+/// One way of looking, and what it costs: the covariance must tell the truth about the errors.
+struct Mode {
+  const char* name;
+  std::optional<double> tilt_sigma_rad;
+  std::size_t markers;
+};
+
+TEST(FixPose, covariance_is_honest_in_every_mode) {
+  const CameraModel camera = paper_camera();
+  constexpr double noise_px = 0.1;
+  constexpr int trials = 1500;
+  for (const Mode& mode : {Mode{"exact tilt", 0.0, 1}, Mode{"tilt within 0.3 deg", radians(0.3), 1},
+                           Mode{"free, three markers", std::nullopt, 3}}) {
+    Random random(7);
+    MarkerRegistry registry = ceiling();
+    registry.markers.resize(mode.markers);
+    double nees = 0.0;
+    const bool exact = mode.tilt_sigma_rad && *mode.tilt_sigma_rad == 0.0;
+    const std::vector<int> free_axes =
+        exact ? std::vector<int>{0, 1, 2, 5} : std::vector<int>{0, 1, 2, 3, 4, 5};
+    for (int i = 0; i < trials; ++i) {
+      const double tilt = mode.tilt_sigma_rad.value_or(radians(1.0));
+      const Eigen::Isometry3d view = view_from({1.1, 1.9, 0.3}, random.uniform(-3.1, 3.1),
+                                               tilt * random.normal(), tilt * random.normal());
+      const auto fix = fix_pose(Stamp{}, seen(view, registry, camera, noise_px, random), registry, camera,
+                                with_tilt_sigma(mode.tilt_sigma_rad, noise_px));
+      ASSERT_TRUE(fix.has_value()) << mode.name;
+      const Eigen::VectorXd error = error_of(*fix, view)(free_axes);
+      const Eigen::MatrixXd covariance = fix->covariance(free_axes, free_axes);
+      nees += error.dot(covariance.ldlt().solve(error));
+    }
+    const auto dof = static_cast<double>(free_axes.size());
+    const double band =
+        2.5 * std::sqrt(2.0 * dof / trials);  // of the mean of chi-square values; Huber's loss costs a little
+    EXPECT_NEAR(nees / trials, dof, band + 0.05 * dof) << mode.name;
+  }
+}
+
+TEST(FixPose, with_the_tilt_known_reaches_the_bound_of_the_notes) {
+  // 9 dots at 2.6 m, 0.05 px: 0.46 mm lateral, 2.3 mm in height, 0.05 degrees.
+  const CameraModel camera = paper_camera();
+  MarkerRegistry registry;
+  registry.markers.push_back({0b010110111001, Vec3(0.0, 0.0, 2.6), 0.0, 0});
+  Random random(11);
+  Vec6 squared = Vec6::Zero();
+  constexpr int trials = 400;
+  for (int i = 0; i < trials; ++i) {
+    const Eigen::Isometry3d view = view_from({0.06, -0.06, 0.0}, random.uniform(-3.1, 3.1));
+    const auto fix = fix_pose(Stamp{}, seen(view, registry, camera, 0.05, random), registry, camera,
+                              with_tilt_sigma(0.0, 0.05));
+    ASSERT_TRUE(fix.has_value());
+    squared += error_of(*fix, view).cwiseAbs2();
+  }
+  const Vec6 rms = (squared / trials).cwiseSqrt();
+  EXPECT_LT(rms[0], 0.00015);  // centred below the marker, where height and place do not mix
+  EXPECT_LT(rms[2], 0.003);
+  EXPECT_LT(rms[5], radians(0.06));
+}
+
+TEST(FixPose, uses_the_mounts_tilt) {
+  Random random(3);
+  const MarkerRegistry registry = ceiling();
+  const CameraModel camera = paper_camera();
+  PoseFixOptions options = with_tilt_sigma(0.0, 0.1);
+  options.prior.tilt = rotation_from({radians(2.0), radians(-3.0), 0.0});
+  const Eigen::Isometry3d view = view_from({1.1, 1.9, 0.3}, 1.0, radians(2.0), radians(-3.0));
+  const auto fix = fix_pose(Stamp{}, seen(view, registry, camera, 0.0, random), registry, camera, options);
+  ASSERT_TRUE(fix.has_value());
+  EXPECT_LT(error_of(*fix, view).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(FixPose, height_prior_sharpens_the_height) {
+  Random random(4);
+  MarkerRegistry registry = ceiling();
+  registry.markers.resize(1);
+  const CameraModel camera = paper_camera();
+  const Eigen::Isometry3d view = view_from({1.1, 1.9, 0.0}, 0.4);
+  PoseFixOptions options = with_tilt_sigma(0.0, 0.1);
+  const auto markers = seen(view, registry, camera, 0.1, random);
+  const auto without = fix_pose(Stamp{}, markers, registry, camera, options);
+  options.prior.height_m = 0.0;
+  options.prior.height_sigma_m = 0.001;
+  const auto with = fix_pose(Stamp{}, markers, registry, camera, options);
+  ASSERT_TRUE(without && with);
+  EXPECT_LT(with->covariance(2, 2), 0.2 * without->covariance(2, 2));
+  EXPECT_LE(with->covariance(2, 2), 1e-6);
+}
+
+TEST(FixPose, says_nothing_of_unregistered_or_doubled_markers) {
+  Random random(5);
+  const MarkerRegistry registry = ceiling();
+  const CameraModel camera = paper_camera();
+  const auto markers = seen(view_from({1.1, 1.9, 0.3}, 0.4), registry, camera, 0.0, random);
+  EXPECT_FALSE(fix_pose(Stamp{}, {}, registry, camera, {}));
+  EXPECT_FALSE(fix_pose(Stamp{}, markers, MarkerRegistry{}, camera, {}));
+  EXPECT_FALSE(fix_pose(Stamp{}, {markers[0], markers[0]}, registry, camera, with_tilt_sigma(0.0, 0.1)));
+  const auto fix =
+      fix_pose(Stamp{}, {markers[0], markers[0], markers[1]}, registry, camera, with_tilt_sigma(0.0, 0.1));
+  ASSERT_TRUE(fix.has_value());
+  EXPECT_THAT(fix->ids, ::testing::ElementsAre(1782));
+}
+
+TEST(FixPose, leaves_out_a_moved_marker_when_two_others_agree_and_refuses_when_only_one_is_left) {
+  Random random(6);
+  const MarkerRegistry surveyed = ceiling();
+  MarkerRegistry hanging = surveyed;
+  hanging.markers[1].position_m.x() += 0.1;
+  const CameraModel camera = wide_camera();
+  const Eigen::Isometry3d view = view_from({1.1, 1.9, 1.1}, 0.4);
+  const PoseFixOptions options = with_tilt_sigma(0.0, 0.1);
+  auto markers = seen(view, hanging, camera, 0.0, random);
+  const auto fix = fix_pose(Stamp{}, markers, surveyed, camera, options);
+  ASSERT_TRUE(fix.has_value());
+  EXPECT_THAT(fix->ids, ::testing::ElementsAre(447, 3003));
+  EXPECT_LT(error_of(*fix, view).cwiseAbs().maxCoeff(), 1e-6);
+  markers.pop_back();
+  EXPECT_FALSE(fix_pose(Stamp{}, markers, surveyed, camera, options));
+}
+
+}  // namespace
+}  // namespace lodestar
