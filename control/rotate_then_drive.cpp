@@ -1,1 +1,177 @@
 #include "control/rotate_then_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/differential_drive.hpp"
+
+namespace lodestar {
+namespace {
+
+/// The direction from one point to another, Eq. (18) with atan2.
+double direction_of(const Vec2& from, const Vec2& to) {
+  return std::atan2(to.y() - from.y(), to.x() - from.x());
+}
+
+/// The speed from which a distance is just enough to brake; never below the slowest that moves the motors.
+double approach_speed(double distance, double deceleration, double slowest, double fastest) {
+  return std::clamp(std::sqrt(2.0 * deceleration * std::max(distance, 0.0)), slowest, fastest);
+}
+
+double stepped(double from, double to, double most) {
+  return from + std::clamp(to - from, -most, most);
+}
+
+}  // namespace
+
+std::string_view to_string(DrivePhase phase) {
+  switch (phase) {
+    case DrivePhase::rotating:
+      return "rotating";
+    case DrivePhase::driving:
+      return "driving";
+    case DrivePhase::final_rotation:
+      return "turning to the final heading";
+    case DrivePhase::arrived:
+      return "arrived";
+  }
+  return "";
+}
+
+RotateThenDrive::RotateThenDrive(Path path, std::optional<double> final_heading_rad,
+                                 const DriveOptions& options)
+    : path_(std::move(path)), final_heading_rad_(final_heading_rad), options_(options) {
+  if (path_.waypoints_m.empty()) {
+    phase_ = DrivePhase::arrived;
+    return;
+  }
+  leg_start_m_ = path_.waypoints_m.front();
+  target_ = path_.waypoints_m.size() > 1 ? 1 : 0;
+}
+
+BodyVelocity RotateThenDrive::update(const PoseEstimate& estimate, Duration elapsed) {
+  const Pose2& pose = estimate.map_from_base;
+  next_phase(pose);
+  BodyVelocity wanted;
+  if (phase_ == DrivePhase::rotating) {
+    wanted = turn_to(direction_of(pose.position_m, target_m()), options_.turn_done_rad, pose);
+  } else if (phase_ == DrivePhase::driving) {
+    wanted = drive_leg(pose);
+  } else if (phase_ == DrivePhase::final_rotation) {
+    wanted = turn_to(*final_heading_rad_, options_.arrival_heading_rad, pose);
+  }
+  return last_ = limited(wanted, elapsed);
+}
+
+BodyVelocity RotateThenDrive::slow_down(Duration elapsed) {
+  if (phase_ == DrivePhase::driving)
+    phase_ = DrivePhase::rotating;  // whatever comes next begins with a look ahead
+  return last_ = limited({}, elapsed);
+}
+
+void RotateThenDrive::next_phase(const Pose2& pose) {
+  if (phase_ == DrivePhase::rotating) next_phase_rotating(pose);
+  if (phase_ == DrivePhase::driving) next_phase_driving(pose);
+  if (phase_ == DrivePhase::final_rotation) next_phase_final(pose);
+}
+
+void RotateThenDrive::next_phase_rotating(const Pose2& pose) {
+  if (!at_rest()) return;
+  if ((target_m() - pose.position_m).norm() <= epsilon_m()) {
+    end_leg(pose);
+    return;
+  }
+  const double error = wrap_angle(direction_of(pose.position_m, target_m()) - pose.yaw_rad);
+  if (std::abs(error) <= options_.turn_done_rad) phase_ = DrivePhase::driving;
+}
+
+void RotateThenDrive::next_phase_driving(const Pose2& pose) {
+  if (remaining_m(pose) <= 0.25 * epsilon_m() && at_rest()) {
+    end_leg(pose);
+    return;
+  }
+  // Close to the target its direction means nothing any more; the leg's own counts.
+  const double error = wrap_angle(leg_heading_rad() - pose.yaw_rad);
+  if (std::abs(error) > options_.turn_again_rad) phase_ = DrivePhase::rotating;
+}
+
+/// The end of the leg is passed, or near enough. At the goal the distance itself must be within epsilon, Eq.
+/// (19); else the robot turns to it anew, but not for ever.
+void RotateThenDrive::end_leg(const Pose2& pose) {
+  phase_ = DrivePhase::rotating;
+  leg_start_m_ = target_m();
+  if (!on_last_leg()) {
+    ++target_;
+    return;
+  }
+  ++approaches_;
+  const double distance_m = (target_m() - pose.position_m).norm();
+  if (distance_m > options_.arrival_distance_m && approaches_ < options_.max_approaches) {
+    leg_start_m_ = pose.position_m;
+    return;
+  }
+  phase_ = final_heading_rad_ ? DrivePhase::final_rotation : DrivePhase::arrived;
+}
+
+void RotateThenDrive::next_phase_final(const Pose2& pose) {
+  const double error = wrap_angle(*final_heading_rad_ - pose.yaw_rad);
+  if (at_rest() && std::abs(error) <= options_.arrival_heading_rad) phase_ = DrivePhase::arrived;
+}
+
+/// Turning on the spot, once the robot stands. The error is the one that will be left when what is commanded
+/// already has come into effect, so that lag does not become overshoot.
+BodyVelocity RotateThenDrive::turn_to(double heading_rad, double done_rad, const Pose2& pose) const {
+  if (std::abs(last_.forward_mps) > 0.5 * options_.min_forward_mps) return {};
+  const double error = wrap_angle(heading_rad - pose.yaw_rad);
+  const double left = wrap_angle(error - last_.turn_radps * options_.response_s);
+  if (std::abs(left) <= 0.5 * done_rad) return {};
+  const double speed =
+      approach_speed(std::abs(left), options_.braking_share * options_.max_turn_acceleration_radps2,
+                     options_.min_turn_radps, options_.max_turn_radps);
+  return {0.0, std::copysign(speed, left)};
+}
+
+/// Straight along the leg: the heading wanted leads back to it, the speed leaves room to brake.
+BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose) const {
+  const double left_m = remaining_m(pose) - last_.forward_mps * options_.response_s;
+  const double leg_heading = leg_heading_rad();
+  const Vec2 ahead(std::cos(leg_heading), std::sin(leg_heading));
+  const Vec2 from_target = pose.position_m - target_m();
+  const double beside_m = ahead.x() * from_target.y() - ahead.y() * from_target.x();
+  const double wanted_heading = leg_heading - std::atan(options_.lateral_gain_per_m * beside_m);
+  const double error = wrap_angle(wanted_heading - pose.yaw_rad - last_.turn_radps * options_.response_s);
+  if (left_m <= 0.25 * epsilon_m()) return {};
+  const double speed = approach_speed(left_m, options_.braking_share * options_.max_acceleration_mps2,
+                                      options_.min_forward_mps, options_.max_forward_mps);
+  const double turn =
+      std::clamp(options_.heading_gain_per_s * error, -options_.max_turn_radps, options_.max_turn_radps);
+  return {speed * std::max(std::cos(error), 0.0), turn};
+}
+
+BodyVelocity RotateThenDrive::limited(const BodyVelocity& wanted, Duration elapsed) const {
+  constexpr double longest_s = 0.1;  // after a pause the robot must not leap
+  const double elapsed_s = std::clamp(seconds(elapsed), 0.0, longest_s);
+  const BodyVelocity reachable = within_wheel_limit(wanted, options_.track_width_m, options_.max_wheel_mps);
+  return {stepped(last_.forward_mps, reachable.forward_mps, options_.max_acceleration_mps2 * elapsed_s),
+          stepped(last_.turn_radps, reachable.turn_radps, options_.max_turn_acceleration_radps2 * elapsed_s)};
+}
+
+bool RotateThenDrive::at_rest() const {
+  return last_.forward_mps == 0.0 && last_.turn_radps == 0.0;
+}
+
+double RotateThenDrive::epsilon_m() const {
+  return on_last_leg() ? options_.arrival_distance_m : options_.waypoint_distance_m;
+}
+
+/// Along the leg; negative once its end is passed.
+double RotateThenDrive::remaining_m(const Pose2& pose) const {
+  const double heading = leg_heading_rad();
+  return (target_m() - pose.position_m).dot(Vec2(std::cos(heading), std::sin(heading)));
+}
+
+double RotateThenDrive::leg_heading_rad() const {
+  return direction_of(leg_start_m_, target_m());
+}
+
+}  // namespace lodestar

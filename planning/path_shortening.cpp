@@ -1,1 +1,67 @@
-#include "planning/grid_planner.hpp"
+#include "planning/path_shortening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lodestar {
+namespace {
+
+/// Length times the mean cost of the cells along a leg, sampled at half cells.
+double leg_cost(const Vec2& from, const Vec2& to, const OccupancyMap& map, const CellCosts& costs) {
+  const double length = (to - from).norm();
+  const int samples = std::max(1, static_cast<int>(std::ceil(2.0 * length)));
+  double sum = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const Vec2 point = from + (to - from) * ((i + 0.5) / samples);
+    const Cell cell{static_cast<int>(point.x()), static_cast<int>(point.y())};
+    sum += static_cast<double>(costs[map.index(cell)]);
+  }
+  return length * sum / samples;
+}
+
+bool goes_straight(const Vec2& before, const Vec2& at, const Vec2& after) {
+  const Vec2 a = at - before;
+  const Vec2 b = after - at;
+  return std::abs(a.x() * b.y() - a.y() * b.x()) < 1e-9 && a.dot(b) > 0.0;
+}
+
+/// The points at which a leg may begin or end: the turns, and some between them on long straights.
+std::vector<Vec2> candidates(const std::vector<Vec2>& points) {
+  constexpr double spacing_cells = 6.0;
+  std::vector<Vec2> chosen{points.front()};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const bool turn = !goes_straight(points[i - 1], points[i], points[i + 1]);
+    if (turn || (points[i] - chosen.back()).norm() >= spacing_cells) chosen.push_back(points[i]);
+  }
+  chosen.push_back(points.back());
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<Vec2> shortened(const std::vector<Vec2>& points, const OccupancyMap& map, const ClearSpace& space,
+                            const CellCosts& costs, double turn_cost_cells) {
+  if (points.size() < 3) return points;
+  const std::vector<Vec2> at = candidates(points);
+  std::vector<double> best(at.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> came_from(at.size(), 0);
+  best[0] = 0.0;
+  for (std::size_t to = 1; to < at.size(); ++to) {
+    for (std::size_t from = 0; from < to; ++from) {
+      const double turn = from == 0 ? 0.0 : turn_cost_cells;
+      if (best[from] + turn + (at[to] - at[from]).norm() >= best[to]) continue;  // no leg can be that cheap
+      const double cost = best[from] + turn + leg_cost(at[from], at[to], map, costs);
+      // The step from the point before is part of the given path: its clearness is not in question.
+      if (cost >= best[to] || (from + 1 < to && !space.along(at[from], at[to]))) continue;
+      best[to] = cost;
+      came_from[to] = from;
+    }
+  }
+  std::vector<Vec2> legs{at.back()};
+  for (std::size_t i = at.size() - 1; i != 0; i = came_from[i]) legs.push_back(at[came_from[i]]);
+  std::ranges::reverse(legs);
+  return legs;
+}
+
+}  // namespace lodestar
