@@ -42,7 +42,6 @@ class ImageFormer {
 
   CameraModel camera_;
   SimulatedCameraOptions options_;
-  std::uint64_t seed_;
   Ceiling ceiling_;
   Vignetting vignetting_;
   double blur_sigma_px_;  ///< lens and pixel together

@@ -81,7 +81,7 @@ struct PlanePair {
 
 std::optional<PlanePair> planes_of(const Mat3& form) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(form);
-  const Vec3 values = solver.eigenvalues();  // ascending; the one nearest to zero is the middle one
+  const Vec3& values = solver.eigenvalues();  // ascending; the one nearest to zero is the middle one
   if (!(values[0] < 0.0 && values[2] > 0.0)) return std::nullopt;
   const Vec3 up = std::sqrt(values[2]) * solver.eigenvectors().col(2);
   const Vec3 down = std::sqrt(-values[0]) * solver.eigenvectors().col(0);

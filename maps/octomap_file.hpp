@@ -19,8 +19,8 @@ struct OctomapInfo {
 OctomapInfo octomap_info(const std::filesystem::path& file);
 
 /// The slab z_min_m <= z < z_max_m of an OctoMap as a floor map: a cell is occupied when any voxel of its
-/// column that reaches into the slab is, free when at least one voxel is known free and none occupied, unknown
-/// otherwise. Throws InputError for an unreadable file or a slab that is empty or inverted.
+/// column that reaches into the slab is, free when at least one voxel is known free and none occupied,
+/// unknown otherwise. Throws InputError for an unreadable file or a slab that is empty or inverted.
 OccupancyMap octomap_slice(const std::filesystem::path& file, double z_min_m, double z_max_m);
 
 }  // namespace lodestar

@@ -65,8 +65,8 @@ std::optional<double> as_number(const YAML::Node& node) {
 
 }  // namespace
 
-StrictYaml::StrictYaml(std::filesystem::path file, YAML::Node node, std::string where)
-    : file_(std::move(file)), node_(std::move(node)), where_(std::move(where)) {
+StrictYaml::StrictYaml(std::filesystem::path file, const YAML::Node& node, std::string where)
+    : file_(std::move(file)), node_(node), where_(std::move(where)) {
   if (!node_.IsMap()) {
     const std::string what = where_.empty() ? "a mapping of keys" : "a mapping for " + where_;
     throw InputError(file_, line_of(node_), kind_of(node_), what);

@@ -38,7 +38,7 @@ class StrictYaml {
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
  private:
-  StrictYaml(std::filesystem::path file, YAML::Node node, std::string where);
+  StrictYaml(std::filesystem::path file, const YAML::Node& node, std::string where);
 
   std::filesystem::path file_;
   YAML::Node node_;
