@@ -87,7 +87,7 @@ IdentificationResult identify(const BenchPaperOptions& options) {
     const int id = (trial % different_ids) * id_step % marker_id_count;
     const MarkerRegistry registry = some_markers(id, random);
     const Eigen::Isometry3d view = some_view(registry, random);
-    const ImageFormer former(registry, paper_camera(), varied_light(random), random.bits());
+    ImageFormer former(registry, paper_camera(), varied_light(random), random.bits());
     const cv::Mat gray = former.expose(view, view, static_cast<std::uint64_t>(trial));
     const auto before = std::chrono::steady_clock::now();
     const std::vector<DetectedMarker> markers = detect_markers(gray);

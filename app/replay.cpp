@@ -57,6 +57,7 @@ void record_event(RunRecord& record, Scorer& scorer, const Mission& mission, Mis
   }
   GoalRecord& goal = record.goals.at(mission.current() - 1);
   if (!goal.planned.waypoints_m.empty()) goal.travel_time += now.time_since_epoch();
+  goal.ended = now;
   if (event == MissionEvent::goal_failed) {
     goal.failure = mission.failure();
     return;

@@ -38,6 +38,7 @@ struct GoalRecord {
   bool arrived = false;
   std::string failure;                ///< in words, when it did not arrive
   Duration travel_time{};             ///< simulated
+  Stamp ended;                        ///< when the goal was reached or given up
   std::optional<ArrivalScore> score;  ///< by the truth, when it arrived
 };
 
@@ -45,6 +46,7 @@ struct RunRecord {
   std::string site;
   std::string camera;  ///< profile: wide or paper
   std::uint64_t seed = 0;
+  std::string repeat;  ///< the command that gives the same run again
   Pose2 start;
   double robot_radius_m = 0.0;
   std::vector<GoalRecord> goals;

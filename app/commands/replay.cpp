@@ -52,6 +52,17 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
   return options;
 }
 
+/// The command line that gives the same run, and so the same bytes.
+std::string repeat_command(const Site& site, const ReplayOptions& options) {
+  std::string command = fmt::format("lodestar replay {} --seed {} --camera {}", site.folder.string(),
+                                    options.seed, options.camera);
+  for (const Goal& goal : options.goals) {
+    command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
+    if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
+  }
+  return command;
+}
+
 nlohmann::ordered_json as_json(const RunSummary& run) {
   return {{"seed", run.seed},
           {"goals", run.goals},
@@ -147,6 +158,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     options.progress = [&progress](double share) { progress.show(share); };
     record = replay(site, options);
   }
+  record.repeat = repeat_command(site, options);
   write_run_folder(folder, record, site.map.map, site.registry);
   const RunSummary summary = summarize(record);
   if (arguments.json) {

@@ -1,0 +1,227 @@
+#include "app/figure.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <fmt/format.h>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/canvas.hpp"
+#include "maps/atomic_file.hpp"
+#include "maps/marker.hpp"
+
+namespace lodestar {
+namespace {
+
+// Blue, green, red.
+const cv::Scalar ink(40, 40, 40);
+const cv::Scalar faint(130, 130, 130);
+const cv::Scalar marker_color(0, 140, 255);
+const cv::Scalar planned_color(50, 50, 220);
+const std::array track_colors{cv::Scalar(190, 90, 20), cv::Scalar(200, 160, 60)};  ///< there, back
+const cv::Scalar start_color(70, 150, 40);
+const cv::Scalar white(255, 255, 255);
+
+constexpr double figure_width_px = 1800.0;
+constexpr double text_px = 20.0;
+constexpr double marker_radius_px = 9.0;
+constexpr double track_radius_px = 5.5;
+constexpr double track_spacing_m = 0.12;
+
+/// The smallest upright rectangle around a map, which may lie turned in its frame.
+Canvas canvas_for(const OccupancyMap& map) {
+  Vec2 low = Vec2::Constant(1e300);
+  Vec2 high = -low;
+  for (const int column : {0, map.columns}) {
+    for (const int row : {0, map.rows}) {
+      const Vec2 corner = map.map_from_grid * Vec2(column * map.resolution_m, row * map.resolution_m);
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+  }
+  return {low, high, figure_width_px, {}};
+}
+
+/// A round number of metres between ticks, so that there are about ten.
+double tick_spacing_m(double extent_m) {
+  const double rough = extent_m / 10.0;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * power >= rough) return step * power;
+  }
+  return 10.0 * power;
+}
+
+void draw_axes(Canvas& canvas) {
+  canvas.draw_frame();
+  const Vec2 low = canvas.pixel(canvas.low_m());
+  const double spacing = tick_spacing_m((canvas.high_m() - canvas.low_m()).maxCoeff());
+  for (double x = std::ceil(canvas.low_m().x() / spacing) * spacing; x <= canvas.high_m().x() + 1e-9;
+       x += spacing) {
+    const double at = canvas.pixel({x, 0.0}).x();
+    canvas.draw_line_px({at, low.y()}, {at, low.y() + 8.0}, faint, 1.5);
+    canvas.draw_text_px({at, low.y() + 26.0}, fmt::format("{:g}", x), text_px * 0.85, ink, 0.5);
+  }
+  for (double y = std::ceil(canvas.low_m().y() / spacing) * spacing; y <= canvas.high_m().y() + 1e-9;
+       y += spacing) {
+    const double at = canvas.pixel({0.0, y}).y();
+    canvas.draw_line_px({low.x() - 8.0, at}, {low.x(), at}, faint, 1.5);
+    canvas.draw_text_px({low.x() - 16.0, at}, fmt::format("{:g}", y), text_px * 0.85, ink, 1.0);
+  }
+  canvas.draw_text_px({low.x() - 74.0, canvas.pixel(canvas.high_m()).y() - 30.0}, "y (m)", text_px * 0.85,
+                      ink);
+  canvas.draw_text_px({canvas.pixel(canvas.high_m()).x(), low.y() + 56.0}, "x (m)", text_px * 0.85, ink, 1.0);
+}
+
+/// A disc at the middle of each marker, a stroke in the direction O to X, and the ID.
+void draw_markers(Canvas& canvas, const MarkerRegistry& registry) {
+  constexpr double middle_m = 1.5 * marker_pitch_m;
+  for (const RegisteredMarker& marker : registry.markers) {
+    const Eigen::Isometry3d pose = map_from_marker(registry, marker);
+    const Vec3 middle = pose * Vec3(middle_m, middle_m, 0.0);
+    const Vec2 at = canvas.pixel(middle.head<2>());
+    const Vec3 x_axis = pose.linear().col(0);
+    const Vec2 ahead(x_axis.x(), -x_axis.y());
+    canvas.draw_line_px(at, at + 19.0 * ahead, marker_color, 2.5);
+    canvas.draw_disc_px(at, marker_radius_px, marker_color);
+    canvas.draw_text_px(at + Vec2(0.0, 24.0), fmt::format("{}", marker.id), 10.0, faint, 0.5);
+  }
+}
+
+void draw_place(Canvas& canvas, const Vec2& at_m, const std::string& letter, const cv::Scalar& color) {
+  canvas.draw_disc(at_m, 17.0, white);
+  canvas.draw_disc(at_m, 15.0, color);
+  canvas.draw_text(at_m, letter, 16.0, white);
+}
+
+/// The true track, parted where a goal was reached or given up.
+std::vector<std::vector<Vec2>> parts_of_track(const RunRecord& record) {
+  std::vector<std::vector<Vec2>> parts(1);
+  for (const TruePose& pose : record.truth) {
+    while (parts.size() < record.goals.size() && pose.stamp > record.goals[parts.size() - 1].ended) {
+      parts.emplace_back();
+    }
+    parts.back().push_back(pose.map_from_base.position_m);
+  }
+  return parts;
+}
+
+/// Hollow circles at even distances along the true track, one shade for the way there and one for the way
+/// back.
+void draw_track(Canvas& canvas, const RunRecord& record) {
+  const std::vector<std::vector<Vec2>> parts = parts_of_track(record);
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    Vec2 last = Vec2::Constant(std::numeric_limits<double>::infinity());
+    for (const Vec2& at : parts[part]) {
+      if ((at - last).norm() < track_spacing_m) continue;
+      canvas.draw_ring(at, track_radius_px, track_colors[part % track_colors.size()], 1.5);
+      last = at;
+    }
+  }
+}
+
+void draw_scale_bar(Canvas& canvas, double right_px, double y_px) {
+  const double length_px = canvas.pixels_per_m();
+  const Vec2 from(right_px - length_px, y_px);
+  const Vec2 to(right_px, y_px);
+  canvas.draw_line_px(from, to, ink, 3.0);
+  for (const Vec2& end : {from, to})
+    canvas.draw_line_px(end - Vec2(0.0, 7.0), end + Vec2(0.0, 7.0), ink, 3.0);
+  canvas.draw_text_px(0.5 * (from + to) + Vec2(0.0, 24.0), "1 m", text_px, ink, 0.5);
+}
+
+/// Sample and words for one kind of line or mark; returns where the next begins.
+class Legend {
+ public:
+  Legend(Canvas& canvas, const Vec2& at) : canvas_(canvas), at_(at) {}
+
+  void line(const cv::Scalar& color, double width_px, const std::string& words) {
+    canvas_.draw_line_px(at_, at_ + Vec2(44.0, 0.0), color, width_px);
+    end(words, 56.0);
+  }
+  void rings(const cv::Scalar& color, const std::string& words) {
+    for (const double x : {7.0, 22.0, 37.0})
+      canvas_.draw_ring_px(at_ + Vec2(x, 0.0), track_radius_px, color, 1.5);
+    end(words, 56.0);
+  }
+  void disc(const cv::Scalar& color, double radius_px, const std::string& words) {
+    canvas_.draw_disc_px(at_ + Vec2(radius_px, 0.0), radius_px, color);
+    end(words, 2.0 * radius_px + 12.0);
+  }
+
+ private:
+  void end(const std::string& words, double sample_px) {
+    canvas_.draw_text_px(at_ + Vec2(sample_px, 0.0), words, text_px, ink);
+    constexpr double letter_px = 0.86 * text_px;
+    at_.x() += sample_px + letter_px * static_cast<double>(words.size()) + 34.0;
+  }
+
+  Canvas& canvas_;
+  Vec2 at_;
+};
+
+Legend legend_of(Canvas& canvas) {
+  const Vec2 low = canvas.pixel(canvas.low_m());
+  draw_scale_bar(canvas, canvas.pixel(canvas.high_m()).x(), low.y() + 96.0);
+  return {canvas, {low.x(), low.y() + 104.0}};
+}
+
+}  // namespace
+
+cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const MarkerRegistry& registry) {
+  Canvas canvas = canvas_for(map);
+  canvas.draw_map(map);
+  draw_axes(canvas);
+  draw_markers(canvas, registry);
+  for (const GoalRecord& goal : record.goals) canvas.draw_line(goal.planned.waypoints_m, planned_color, 3.0);
+  draw_track(canvas, record);
+  draw_place(canvas, record.start.position_m, "S", start_color);
+  for (const GoalRecord& goal : record.goals) {
+    const bool back_at_start = (goal.goal.position_m - record.start.position_m).norm() < 0.2;
+    if (!back_at_start) draw_place(canvas, goal.goal.position_m, "E", planned_color);
+  }
+
+  const std::string title =
+      fmt::format("{}: planned and driven, {} camera, seed {}", record.site, record.camera, record.seed);
+  canvas.draw_text_px({canvas.pixel(canvas.low_m()).x() + 0.5 * figure_width_px, 34.0}, title, text_px * 1.15,
+                      ink, 0.5);
+  Legend legend = legend_of(canvas);
+  legend.disc(marker_color, marker_radius_px, "marker, ID");
+  legend.line(planned_color, 3.0, "planned");
+  legend.rings(track_colors[0], record.goals.size() > 1 ? "driven, there" : "driven");
+  if (record.goals.size() > 1) legend.rings(track_colors[1], "driven, back");
+  legend.disc(start_color, 10.0, "start");
+  legend.disc(planned_color, 10.0, "end");
+  return canvas.picture();
+}
+
+cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const Vec2& start_m,
+                  const Vec2& goal_m, const Path& path) {
+  Canvas canvas = canvas_for(map);
+  canvas.draw_map(map);
+  draw_axes(canvas);
+  draw_markers(canvas, registry);
+  canvas.draw_line(path.waypoints_m, planned_color, 3.0);
+  for (const Vec2& waypoint : path.waypoints_m) canvas.draw_disc(waypoint, 5.0, planned_color);
+  draw_place(canvas, start_m, "S", start_color);
+  draw_place(canvas, goal_m, "E", planned_color);
+  Legend legend = legend_of(canvas);
+  if (!registry.markers.empty()) legend.disc(marker_color, marker_radius_px, "marker, ID");
+  legend.line(planned_color, 3.0, "planned");
+  legend.disc(start_color, 10.0, "start");
+  legend.disc(planned_color, 10.0, "end");
+  return canvas.picture();
+}
+
+std::string png_bytes(const cv::Mat& picture) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", picture, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+void write_png(const std::filesystem::path& file, const cv::Mat& picture) {
+  write_file_atomically(file, png_bytes(picture));
+}
+
+}  // namespace lodestar

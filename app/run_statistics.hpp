@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/run_record.hpp"
+
+namespace lodestar {
+
+/// How far the estimate was from the truth at one step.
+struct EstimateError {
+  double time_s = 0.0;
+  double position_m = 0.0;
+  double heading_rad = 0.0;       ///< signed
+  double position_sigma_m = 0.0;  ///< that the estimate claims: the root of its larger variance in the plane
+  double heading_sigma_rad = 0.0;
+};
+
+/// One for each step within the time of the recorded truth, which is interpolated to the estimate's stamp.
+std::vector<EstimateError> estimate_errors(const RunRecord& record);
+
+/// What summary.json says; nothing in it depends on the clock on the wall.
+nlohmann::ordered_json summary_of(const RunRecord& record);
+
+}  // namespace lodestar
