@@ -15,6 +15,13 @@ const cv::Vec3b occupied_color(58, 50, 46);
 const cv::Vec3b unknown_color(214, 214, 214);
 const cv::Scalar frame_color(110, 110, 110);
 
+constexpr int font = cv::FONT_HERSHEY_DUPLEX;
+
+double font_size(double height_px) {
+  constexpr double capital_height = 22.0;  // of the font at size 1
+  return height_px * scale / capital_height;
+}
+
 int whole(double value) {
   return static_cast<int>(std::lround(value));
 }
@@ -62,7 +69,7 @@ void Canvas::draw_map(const OccupancyMap& map) {
       const Vec2 point(low_m_.x() + (x + 0.5 - top_left.x) * m_per_pixel,
                        high_m_.y() - (y + 0.5 - top_left.y) * m_per_pixel);
       const Cell cell = map.cell_at(point);
-      if (map.contains(cell)) row[x] = color_of(map.at(cell));
+      row[x] = map.contains(cell) ? color_of(map.at(cell)) : unknown_color;
     }
   }
 }
@@ -110,15 +117,28 @@ void Canvas::draw_box_px(const Vec2& low_px, const Vec2& high_px, const cv::Scal
 
 void Canvas::draw_text_px(const Vec2& at_px, const std::string& text, double height_px,
                           const cv::Scalar& color, double align) {
-  constexpr int font = cv::FONT_HERSHEY_DUPLEX;
-  constexpr double capital_height = 22.0;  // of the font at size 1
-  const double size = height_px * scale / capital_height;
+  write(at_px, text, height_px, color, align, 0.0);
+}
+
+void Canvas::draw_label_px(const Vec2& at_px, const std::string& text, double height_px,
+                           const cv::Scalar& color, double align) {
+  constexpr double edge_px = 2.0;
+  write(at_px, text, height_px, paper_white, align, edge_px);
+  write(at_px, text, height_px, color, align, 0.0);
+}
+
+void Canvas::write(const Vec2& at_px, const std::string& text, double height_px, const cv::Scalar& color,
+                   double align, double edge_px) {
+  const double size = font_size(height_px);
   const int stroke = std::max(1, whole(height_px * scale / 16.0));
-  int baseline = 0;
-  const cv::Size box = cv::getTextSize(text, font, size, stroke, &baseline);
-  const cv::Point at(whole(at_px.x() * scale - align * box.width),
+  const cv::Point at(whole((at_px.x() - align * text_width_px(text, height_px)) * scale),
                      whole((at_px.y() + 0.5 * height_px) * scale));
-  cv::putText(large_, text, at, font, size, color, stroke, cv::LINE_AA);
+  cv::putText(large_, text, at, font, size, color, stroke + whole(2.0 * edge_px * scale), cv::LINE_AA);
+}
+
+double Canvas::text_width_px(const std::string& text, double height_px) {
+  int baseline = 0;
+  return static_cast<double>(cv::getTextSize(text, font, font_size(height_px), 1, &baseline).width) / scale;
 }
 
 cv::Mat Canvas::picture() const {

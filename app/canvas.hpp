@@ -39,6 +39,12 @@ class Canvas {
   void draw_text_px(const Vec2& at_px, const std::string& text, double height_px, const cv::Scalar& color,
                     double align = 0.0);
 
+  /// The same on a white edge, so that it can be read over anything.
+  void draw_label_px(const Vec2& at_px, const std::string& text, double height_px, const cv::Scalar& color,
+                     double align);
+
+  static double text_width_px(const std::string& text, double height_px);
+
   [[nodiscard]] Vec2 pixel(const Vec2& point_m) const;
   [[nodiscard]] double pixels_per_m() const { return pixels_per_m_; }
   [[nodiscard]] const Vec2& low_m() const { return low_m_; }
@@ -48,6 +54,9 @@ class Canvas {
   [[nodiscard]] cv::Mat picture() const;
 
  private:
+  void write(const Vec2& at_px, const std::string& text, double height_px, const cv::Scalar& color,
+             double align, double edge_px);
+
   Vec2 low_m_;
   Vec2 high_m_;
   Margins margins_;

@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <fmt/format.h>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/canvas.hpp"
+#include "app/run_statistics.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/marker.hpp"
 
@@ -19,15 +19,16 @@ const cv::Scalar ink(40, 40, 40);
 const cv::Scalar faint(130, 130, 130);
 const cv::Scalar marker_color(0, 140, 255);
 const cv::Scalar planned_color(50, 50, 220);
-const std::array track_colors{cv::Scalar(190, 90, 20), cv::Scalar(200, 160, 60)};  ///< there, back
+const std::array track_colors{cv::Scalar(190, 90, 20), cv::Scalar(140, 160, 0)};  ///< there, back
 const cv::Scalar start_color(70, 150, 40);
 const cv::Scalar white(255, 255, 255);
 
 constexpr double figure_width_px = 1800.0;
 constexpr double text_px = 20.0;
 constexpr double marker_radius_px = 9.0;
-constexpr double track_radius_px = 5.5;
-constexpr double track_spacing_m = 0.12;
+constexpr double track_radius_px = 5.0;
+constexpr double track_spacing_m = 0.2;
+const Vec3 middle_of_marker(1.5 * marker_pitch_m, 1.5 * marker_pitch_m, 0.0);
 
 /// The smallest upright rectangle around a map, which may lie turned in its frame.
 Canvas canvas_for(const OccupancyMap& map) {
@@ -53,18 +54,25 @@ double tick_spacing_m(double extent_m) {
   return 10.0 * power;
 }
 
+std::vector<double> ticks(double low_m, double high_m, double spacing_m) {
+  std::vector<double> result;
+  const int last = static_cast<int>(std::floor(high_m / spacing_m + 1e-9));
+  for (int k = static_cast<int>(std::ceil(low_m / spacing_m - 1e-9)); k <= last; ++k) {
+    result.push_back(k * spacing_m);
+  }
+  return result;
+}
+
 void draw_axes(Canvas& canvas) {
   canvas.draw_frame();
   const Vec2 low = canvas.pixel(canvas.low_m());
   const double spacing = tick_spacing_m((canvas.high_m() - canvas.low_m()).maxCoeff());
-  for (double x = std::ceil(canvas.low_m().x() / spacing) * spacing; x <= canvas.high_m().x() + 1e-9;
-       x += spacing) {
+  for (const double x : ticks(canvas.low_m().x(), canvas.high_m().x(), spacing)) {
     const double at = canvas.pixel({x, 0.0}).x();
     canvas.draw_line_px({at, low.y()}, {at, low.y() + 8.0}, faint, 1.5);
     canvas.draw_text_px({at, low.y() + 26.0}, fmt::format("{:g}", x), text_px * 0.85, ink, 0.5);
   }
-  for (double y = std::ceil(canvas.low_m().y() / spacing) * spacing; y <= canvas.high_m().y() + 1e-9;
-       y += spacing) {
+  for (const double y : ticks(canvas.low_m().y(), canvas.high_m().y(), spacing)) {
     const double at = canvas.pixel({0.0, y}).y();
     canvas.draw_line_px({low.x() - 8.0, at}, {low.x(), at}, faint, 1.5);
     canvas.draw_text_px({low.x() - 16.0, at}, fmt::format("{:g}", y), text_px * 0.85, ink, 1.0);
@@ -74,18 +82,25 @@ void draw_axes(Canvas& canvas) {
   canvas.draw_text_px({canvas.pixel(canvas.high_m()).x(), low.y() + 56.0}, "x (m)", text_px * 0.85, ink, 1.0);
 }
 
-/// A disc at the middle of each marker, a stroke in the direction O to X, and the ID.
+/// A disc at the middle of each marker and a stroke in the direction O to X.
 void draw_markers(Canvas& canvas, const MarkerRegistry& registry) {
-  constexpr double middle_m = 1.5 * marker_pitch_m;
   for (const RegisteredMarker& marker : registry.markers) {
     const Eigen::Isometry3d pose = map_from_marker(registry, marker);
-    const Vec3 middle = pose * Vec3(middle_m, middle_m, 0.0);
-    const Vec2 at = canvas.pixel(middle.head<2>());
+    const Vec2 at = canvas.pixel((pose * middle_of_marker).head<2>());
     const Vec3 x_axis = pose.linear().col(0);
     const Vec2 ahead(x_axis.x(), -x_axis.y());
     canvas.draw_line_px(at, at + 19.0 * ahead, marker_color, 2.5);
     canvas.draw_disc_px(at, marker_radius_px, marker_color);
-    canvas.draw_text_px(at + Vec2(0.0, 24.0), fmt::format("{}", marker.id), 10.0, faint, 0.5);
+  }
+}
+
+/// Each on the side of its disc that the stroke leaves free.
+void draw_marker_ids(Canvas& canvas, const MarkerRegistry& registry) {
+  for (const RegisteredMarker& marker : registry.markers) {
+    const Eigen::Isometry3d pose = map_from_marker(registry, marker);
+    const double below_px = pose.linear()(1, 0) < -0.3 ? -24.0 : 24.0;
+    const Vec2 at = canvas.pixel((pose * middle_of_marker).head<2>()) + Vec2(0.0, below_px);
+    canvas.draw_label_px(at, fmt::format("{}", marker.id), 11.0, ink, 0.5);
   }
 }
 
@@ -95,25 +110,14 @@ void draw_place(Canvas& canvas, const Vec2& at_m, const std::string& letter, con
   canvas.draw_text(at_m, letter, 16.0, white);
 }
 
-/// The true track, parted where a goal was reached or given up.
-std::vector<std::vector<Vec2>> parts_of_track(const RunRecord& record) {
-  std::vector<std::vector<Vec2>> parts(1);
-  for (const TruePose& pose : record.truth) {
-    while (parts.size() < record.goals.size() && pose.stamp > record.goals[parts.size() - 1].ended) {
-      parts.emplace_back();
-    }
-    parts.back().push_back(pose.map_from_base.position_m);
-  }
-  return parts;
-}
-
 /// Hollow circles at even distances along the true track, one shade for the way there and one for the way
 /// back.
 void draw_track(Canvas& canvas, const RunRecord& record) {
-  const std::vector<std::vector<Vec2>> parts = parts_of_track(record);
+  const std::vector<std::vector<TruePose>> parts = parts_of_track(record);
   for (std::size_t part = 0; part < parts.size(); ++part) {
     Vec2 last = Vec2::Constant(std::numeric_limits<double>::infinity());
-    for (const Vec2& at : parts[part]) {
+    for (const TruePose& pose : parts[part]) {
+      const Vec2& at = pose.map_from_base.position_m;
       if ((at - last).norm() < track_spacing_m) continue;
       canvas.draw_ring(at, track_radius_px, track_colors[part % track_colors.size()], 1.5);
       last = at;
@@ -153,8 +157,8 @@ class Legend {
  private:
   void end(const std::string& words, double sample_px) {
     canvas_.draw_text_px(at_ + Vec2(sample_px, 0.0), words, text_px, ink);
-    constexpr double letter_px = 0.86 * text_px;
-    at_.x() += sample_px + letter_px * static_cast<double>(words.size()) + 34.0;
+    constexpr double gap_px = 40.0;
+    at_.x() += sample_px + Canvas::text_width_px(words, text_px) + gap_px;
   }
 
   Canvas& canvas_;
@@ -176,6 +180,7 @@ cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const 
   draw_markers(canvas, registry);
   for (const GoalRecord& goal : record.goals) canvas.draw_line(goal.planned.waypoints_m, planned_color, 3.0);
   draw_track(canvas, record);
+  draw_marker_ids(canvas, registry);
   draw_place(canvas, record.start.position_m, "S", start_color);
   for (const GoalRecord& goal : record.goals) {
     const bool back_at_start = (goal.goal.position_m - record.start.position_m).norm() < 0.2;
@@ -204,6 +209,7 @@ cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const
   draw_markers(canvas, registry);
   canvas.draw_line(path.waypoints_m, planned_color, 3.0);
   for (const Vec2& waypoint : path.waypoints_m) canvas.draw_disc(waypoint, 5.0, planned_color);
+  draw_marker_ids(canvas, registry);
   draw_place(canvas, start_m, "S", start_color);
   draw_place(canvas, goal_m, "E", planned_color);
   Legend legend = legend_of(canvas);

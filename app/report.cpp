@@ -1,6 +1,6 @@
 #include "app/report.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -63,9 +63,12 @@ std::string goal_row(const GoalRecord& goal) {
 
 std::string fact_row(const std::string& name, const nlohmann::ordered_json& spread, double factor,
                      const std::string& unit) {
-  return fmt::format("<tr><td>{}</td><td>{:.2f} {}</td><td>{:.2f} {}</td><td>{:.2f} {}</td></tr>\n", name,
-                     factor * spread["p50"].get<double>(), unit, factor * spread["p95"].get<double>(), unit,
-                     factor * spread["max"].get<double>(), unit);
+  std::string row = fmt::format("<tr><td>{}</td>", name);
+  for (const auto& value : spread) {
+    row += value.is_null() ? "<td>none</td>"
+                           : fmt::format("<td>{:.2f} {}</td>", factor * value.get<double>(), unit);
+  }
+  return row + "</tr>\n";
 }
 
 std::string estimate_plots(const RunRecord& record) {
@@ -81,6 +84,20 @@ std::string estimate_plots(const RunRecord& record) {
   }
   return plot_svg("Position error of the estimate", "mm", {position_band, position}) +
          plot_svg("Heading error of the estimate", "degrees", {heading_band, heading});
+}
+
+std::string path_plot(const RunRecord& record) {
+  PlotSeries distance{"distance", "a", {}, false};
+  const std::vector<std::vector<TruePose>> parts = parts_of_track(record);
+  for (std::size_t goal = 0; goal < std::min(parts.size(), record.goals.size()); ++goal) {
+    const Path& planned = record.goals[goal].planned;
+    if (planned.waypoints_m.empty()) continue;
+    for (const TruePose& pose : parts[goal]) {
+      const double distance_m = distance_to_path_m(planned, pose.map_from_base.position_m);
+      distance.points.emplace_back(seconds(pose.stamp), mm_per_m * distance_m);
+    }
+  }
+  return plot_svg("Distance of the track from the planned curve", "mm", {distance});
 }
 
 std::string drive_plots(const RunRecord& record) {
@@ -131,7 +148,8 @@ std::string report_html(const RunRecord& record, const std::string& map_png) {
   html += fact_row("Track from the planned curve", summary["path_distance_m"], mm_per_m, "mm");
   html += fact_row("Position of the estimate", summary["estimate_position_error_m"], mm_per_m, "mm");
   html += fact_row("Heading of the estimate", summary["estimate_heading_error_deg"], 1.0, "°");
-  html += "</table>\n<h2>Over time (s)</h2>\n" + estimate_plots(record) + drive_plots(record);
+  html +=
+      "</table>\n<h2>Over time (s)</h2>\n" + estimate_plots(record) + path_plot(record) + drive_plots(record);
   return html + "</body></html>\n";
 }
 

@@ -23,14 +23,14 @@ double larger_sigma(const Eigen::Matrix2d& covariance) {
   return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
 }
 
-Json spread_of(const std::vector<double>& values) {
-  return {{"p50", percentile(values, 0.5).value_or(0.0)},
-          {"p95", percentile(values, 0.95).value_or(0.0)},
-          {"max", percentile(values, 1.0).value_or(0.0)}};
-}
-
 Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
+}
+
+Json spread_of(const std::vector<double>& values) {
+  return {{"p50", optional_json(percentile(values, 0.5))},
+          {"p95", optional_json(percentile(values, 0.95))},
+          {"max", optional_json(percentile(values, 1.0))}};
 }
 
 Json goal_json(const GoalRecord& record) {
@@ -42,14 +42,14 @@ Json goal_json(const GoalRecord& record) {
     position_error = record.score->position_error_m;
     if (record.score->heading_error_rad) heading_error_deg = degrees(*record.score->heading_error_rad);
   }
-  const std::size_t legs = record.planned.waypoints_m.empty() ? 0 : record.planned.waypoints_m.size() - 1;
+  const std::size_t waypoints = record.planned.waypoints_m.size();
   return {{"x_m", record.goal.position_m.x()},
           {"y_m", record.goal.position_m.y()},
           {"heading_deg", optional_json(heading_deg)},
           {"arrived", record.arrived},
           {"failure", record.failure},
           {"planned_length_m", length_m(record.planned)},
-          {"legs", legs},
+          {"turns", waypoints > 2 ? waypoints - 2 : 0},
           {"travel_time_s", seconds(record.travel_time)},
           {"position_error_m", optional_json(position_error)},
           {"heading_error_deg", optional_json(heading_error_deg)}};
@@ -73,6 +73,17 @@ double mean_confidence(const RunRecord& record) {
 
 bool RunRecord::arrived() const {
   return std::ranges::all_of(goals, &GoalRecord::arrived);
+}
+
+std::vector<std::vector<TruePose>> parts_of_track(const RunRecord& record) {
+  std::vector<std::vector<TruePose>> parts(1);
+  for (const TruePose& pose : record.truth) {
+    while (parts.size() < record.goals.size() && pose.stamp > record.goals[parts.size() - 1].ended) {
+      parts.emplace_back();
+    }
+    parts.back().push_back(pose);
+  }
+  return parts;
 }
 
 std::vector<EstimateError> estimate_errors(const RunRecord& record) {
@@ -99,13 +110,17 @@ nlohmann::ordered_json summary_of(const RunRecord& record) {
     position_m.push_back(error.position_m);
     heading_deg.push_back(degrees(std::abs(error.heading_rad)));
   }
-  const auto accepted = std::ranges::count_if(record.fixes, &FixRecord::accepted);
+  const auto accepted = static_cast<std::size_t>(std::ranges::count_if(record.fixes, &FixRecord::accepted));
   Json goals = Json::array();
   for (const GoalRecord& goal : record.goals) goals.push_back(goal_json(goal));
   return {{"site", record.site},
           {"camera", record.camera},
           {"seed", record.seed},
           {"repeat", record.repeat},
+          {"start",
+           {{"x_m", record.start.position_m.x()},
+            {"y_m", record.start.position_m.y()},
+            {"heading_deg", degrees(record.start.yaw_rad)}}},
           {"arrived", record.arrived()},
           {"contacts", record.contacts},
           {"driven_m", driven_m(record)},
@@ -117,6 +132,7 @@ nlohmann::ordered_json summary_of(const RunRecord& record) {
           {"frames", record.frames},
           {"fixes", record.fixes.size()},
           {"fixes_accepted", accepted},
+          {"fixes_refused", record.fixes.size() - accepted},
           {"mean_confidence", mean_confidence(record)}};
 }
 

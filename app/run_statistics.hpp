@@ -19,6 +19,9 @@ struct EstimateError {
 /// One for each step within the time of the recorded truth, which is interpolated to the estimate's stamp.
 std::vector<EstimateError> estimate_errors(const RunRecord& record);
 
+/// The true track, parted where a goal was reached or given up.
+std::vector<std::vector<TruePose>> parts_of_track(const RunRecord& record);
+
 /// What summary.json says; nothing in it depends on the clock on the wall.
 nlohmann::ordered_json summary_of(const RunRecord& record);
 
