@@ -1,0 +1,150 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/calib3d.hpp>
+
+#include "maps/camera_model.hpp"
+#include "maps/input_error.hpp"
+#include "maps/random.hpp"
+
+#include "tests/maps/temporary_folder.hpp"
+
+namespace lodestar {
+namespace {
+
+using ::testing::HasSubstr;
+
+CameraModel camera_with(Distortion distortion, std::array<double, 8> coefficients) {
+  CameraModel camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.fx_px = 321.0;
+  camera.fy_px = 319.0;
+  camera.cx_px = 318.5;
+  camera.cy_px = 241.0;
+  camera.distortion = distortion;
+  camera.coefficients = coefficients;
+  return camera;
+}
+
+const std::vector<CameraModel> cameras{
+    camera_with(Distortion::none, {}),
+    camera_with(Distortion::plumb_bob, {-0.2, 0.05, 0.001, -0.002, -0.003}),
+    camera_with(Distortion::rational_polynomial, {0.3, -0.1, 0.0005, 0.001, 0.01, 0.5, -0.05, 0.01}),
+    camera_with(Distortion::equidistant, {0.02, -0.01, 0.003, -0.001})};
+
+TEST(CameraModel, goes_to_the_image_and_back) {
+  Random random(1);
+  for (const CameraModel& camera : cameras) {
+    for (int i = 0; i < 500; ++i) {
+      const Vec2 ray(random.uniform(-0.9, 0.9), random.uniform(-0.7, 0.7));
+      const auto back = camera.normalized(camera.distorted(ray));
+      ASSERT_TRUE(back.has_value());
+      EXPECT_LT((*back - ray).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(CameraModel, derivative_agrees_with_finite_differences) {
+  Random random(2);
+  constexpr double step = 1e-6;
+  for (const CameraModel& camera : cameras) {
+    for (int i = 0; i < 100; ++i) {
+      const Vec2 ray(random.uniform(-0.9, 0.9), random.uniform(-0.7, 0.7));
+      const Eigen::Matrix2d j = camera.distorted_jacobian(ray);
+      for (int axis = 0; axis < 2; ++axis) {
+        const Vec2 d = step * Vec2::Unit(axis);
+        const Vec2 numeric = (camera.distorted(ray + d) - camera.distorted(ray - d)) / (2.0 * step);
+        EXPECT_LT((numeric - j.col(axis)).norm(), 1e-4);
+      }
+    }
+  }
+}
+
+TEST(CameraModel, agrees_with_opencv) {
+  Random random(3);
+  for (const CameraModel& camera : cameras) {
+    const cv::Matx33d k(camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1);
+    const std::vector<double> d(
+        camera.coefficients.begin(),
+        camera.coefficients.begin() + (camera.distortion == Distortion::equidistant ? 4 : 8));
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 point(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(1.2, 3.0));
+      const std::vector<cv::Point3d> points{{point.x(), point.y(), point.z()}};
+      std::vector<cv::Point2d> pixels;
+      if (camera.distortion == Distortion::equidistant) {
+        cv::fisheye::projectPoints(points, pixels, cv::Vec3d(), cv::Vec3d(), k, d);
+      } else {
+        cv::projectPoints(points, cv::Vec3d(), cv::Vec3d(), k, d, pixels);
+      }
+      const Vec2 ours = *camera.project(point);
+      EXPECT_NEAR(ours.x(), pixels[0].x, 1e-6);
+      EXPECT_NEAR(ours.y(), pixels[0].y, 1e-6);
+    }
+  }
+}
+
+TEST(CameraModel, sees_nothing_behind_itself) {
+  EXPECT_FALSE(cameras[0].project({0.1, 0.1, -1.0}));
+  EXPECT_FALSE(cameras[0].project({0.1, 0.1, 0.0}));
+}
+
+const std::string good =
+    "image_width: 640\nimage_height: 480\ncamera_name: c\n"
+    "camera_matrix: {rows: 3, cols: 3, data: [321, 0, 318.5, 0, 319, 241, 0, 0, 1]}\n"
+    "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [-0.2, 0.05, 0.001, "
+    "-0.002, 0]}\n";
+
+std::string error_of(const std::string& text) {
+  const TemporaryFolder folder;
+  try {
+    (void)load_camera(folder.write("camera.yaml", text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string with(const std::string& piece, const std::string& by) {
+  std::string text = good;
+  return text.replace(text.find(piece), piece.size(), by);
+}
+
+TEST(CameraFile, reads_camera_info) {
+  const TemporaryFolder folder;
+  const CameraModel camera = load_camera(folder.write("c.yaml", good));
+  EXPECT_EQ(camera.width_px, 640);
+  EXPECT_EQ(camera.fy_px, 319.0);
+  EXPECT_EQ(camera.distortion, Distortion::plumb_bob);
+  EXPECT_EQ(camera.coefficients[1], 0.05);
+}
+
+TEST(CameraFile, reads_opencv_file_storage) {
+  const TemporaryFolder folder;
+  const CameraModel camera = load_camera(
+      folder.write("c.yaml",
+                   "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\navg_reprojection_error: 0.2\n"
+                   "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 321., 0., "
+                   "318.5, 0., 319., 241., 0., 0., 1. ]\n"
+                   "distortion_coefficients: !!opencv-matrix\n   rows: 5\n   cols: 1\n   dt: d\n   data: [ "
+                   "-0.2, 0.05, 0.001, -0.002, 0. ]\n"));
+  EXPECT_EQ(camera.fx_px, 321.0);
+  EXPECT_EQ(camera.coefficients[0], -0.2);
+}
+
+TEST(CameraFile, refuses_what_is_wrong_with_its_line) {
+  EXPECT_EQ(error_of(good), "no error");
+  EXPECT_THAT(error_of(with("image_width: 640", "image_width: 0")), HasSubstr("camera.yaml:1: found '0'"));
+  EXPECT_THAT(error_of(with("[321,", "[-321,")), HasSubstr("camera.yaml:4: found focal lengths"));
+  EXPECT_THAT(error_of(with("[321, 0,", "[321, 2,")), HasSubstr("camera.yaml:4: found a skew"));
+  EXPECT_THAT(error_of(with("318.5", "1318.5")), HasSubstr("camera.yaml:4: found a principal point"));
+  EXPECT_THAT(error_of(with("318.5", ".nan")), HasSubstr("camera.yaml:4: found '.nan'"));
+  EXPECT_THAT(error_of(with("cols: 5", "cols: 4")), HasSubstr("camera.yaml:6: found 5 values"));
+  EXPECT_THAT(error_of(with("plumb_bob", "equidistant")), HasSubstr("camera.yaml:6: found 5 values"));
+  EXPECT_THAT(error_of(with("plumb_bob", "magic")), HasSubstr("camera.yaml:5: found 'magic'"));
+  EXPECT_THAT(error_of(good + "iso: 100\n"), HasSubstr("camera.yaml:7: found unknown key 'iso'"));
+  EXPECT_THAT(error_of("%YAML:1.0\n---\nimage_width: 640\n"), HasSubstr("camera.yaml: found no image side"));
+  EXPECT_THAT(error_of("%YAML:1.0\n---\n:[}"), HasSubstr("camera.yaml"));
+}
+
+}  // namespace
+}  // namespace lodestar
