@@ -4,6 +4,7 @@
 #include <fstream>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "maps/camera_model.hpp"
@@ -159,6 +160,9 @@ CameraModel load_file_storage(const fs::path& file, const std::string& text) {
     return model_of(calibration, refuse);
   } catch (const cv::Exception& error) {
     throw InputError(file, 0, "broken FileStorage YAML (" + error.err + ")", "an OpenCV calibration");
+  } catch (const std::logic_error& error) {  // std::length_error and its like escape from OpenCV's parser
+    throw InputError(file, 0, std::string("broken FileStorage YAML (") + error.what() + ")",
+                     "an OpenCV calibration");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "maps/input_error.hpp"
+#include "maps/yaml_documents.hpp"
 
 namespace lodestar {
 namespace {
@@ -77,11 +78,11 @@ StrictYaml::StrictYaml(std::filesystem::path file, const YAML::Node& node, std::
 StrictYaml StrictYaml::load(const std::filesystem::path& file) {
   const std::string text = read_whole(file);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) throw InputError(file, line_of(documents[1]), "a second document", "one");
-    if (documents.empty() || documents.front().IsNull())
-      throw InputError(file, 1, "nothing", "a mapping of keys");
-    return {file, documents.front(), ""};
+    const YAML::Node document = YAML::Load(text);
+    const std::optional<int> second = line_of_second_document(text);
+    if (second) throw InputError(file, *second, "a second document", "one");
+    if (document.IsNull()) throw InputError(file, 1, "nothing", "a mapping of keys");
+    return {file, document, ""};
   } catch (const YAML::Exception& error) {
     throw InputError(file, error.mark.is_null() ? 0 : error.mark.line + 1, "broken YAML (" + error.msg + ")",
                      "YAML");

@@ -119,6 +119,8 @@ TEST(RegistryFile, refuses_what_is_wrong_with_its_line) {
   EXPECT_THAT(error_of(with("markers:\n", "marker:\n")), HasSubstr("found no key 'markers'"));
   EXPECT_THAT(error_of(with("  - {id: 447", "  - [id: 447")), HasSubstr("markers.yaml:5: found broken YAML"));
   EXPECT_THAT(error_of("\t\n"), HasSubstr("markers.yaml:"));
+  EXPECT_THAT(error_of(", y\n"),
+              HasSubstr("markers.yaml:"));  // yaml-cpp reads empty documents from it forever
   EXPECT_THAT(error_of("markers: 3\n"), HasSubstr("markers.yaml:1: found no key 'format'"));
   EXPECT_THAT(error_of(good + "---\nmore: 1\n"), HasSubstr("a second document"));
 }
