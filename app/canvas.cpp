@@ -58,6 +58,11 @@ Vec2 Canvas::pixel(const Vec2& point_m) const {
           margins_.top_px + (high_m_.y() - point_m.y()) * pixels_per_m_};
 }
 
+Vec2 Canvas::point_m(const Vec2& pixel) const {
+  return {low_m_.x() + (pixel.x() - margins_.left_px) / pixels_per_m_,
+          high_m_.y() - (pixel.y() - margins_.top_px) / pixels_per_m_};
+}
+
 /// Pixel by pixel, so that a map that lies turned in its frame is drawn turned.
 void Canvas::draw_map(const OccupancyMap& map) {
   const cv::Point top_left = fine(pixel({low_m_.x(), high_m_.y()})) / (1 << fraction_bits);

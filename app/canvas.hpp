@@ -46,6 +46,7 @@ class Canvas {
   static double text_width_px(const std::string& text, double height_px);
 
   [[nodiscard]] Vec2 pixel(const Vec2& point_m) const;
+  [[nodiscard]] Vec2 point_m(const Vec2& pixel) const;
   [[nodiscard]] double pixels_per_m() const { return pixels_per_m_; }
   [[nodiscard]] const Vec2& low_m() const { return low_m_; }
   [[nodiscard]] const Vec2& high_m() const { return high_m_; }

@@ -1,5 +1,6 @@
 #include "app/figure.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -94,13 +95,33 @@ void draw_markers(Canvas& canvas, const MarkerRegistry& registry) {
   }
 }
 
-/// Each on the side of its disc that the stroke leaves free.
-void draw_marker_ids(Canvas& canvas, const MarkerRegistry& registry) {
+/// Beside a marker, what a label there would cover: its own stroke, an obstacle, a planned curve.
+int covered_by_label(const Canvas& canvas, const OccupancyMap& map, const std::vector<Path>& paths,
+                     const Vec2& ahead_px, const Vec2& marker_px, const Vec2& offset_px) {
+  int covered = offset_px.normalized().dot(ahead_px) > 0.7 ? 1 : 0;
+  for (const double along_px : {-20.0, 0.0, 20.0}) {
+    const Vec2 at_m = canvas.point_m(marker_px + offset_px + Vec2(along_px, 0.0));
+    const Cell cell = map.cell_at(at_m);
+    if (!map.contains(cell) || !is_drivable(map.at(cell))) ++covered;
+    for (const Path& path : paths) {
+      if (distance_to_path_m(path, at_m) * canvas.pixels_per_m() < 14.0) ++covered;
+    }
+  }
+  return covered;
+}
+
+/// Each below its disc, or where it covers less.
+void draw_marker_ids(Canvas& canvas, const OccupancyMap& map, const MarkerRegistry& registry,
+                     const std::vector<Path>& paths) {
+  const std::array<Vec2, 4> offsets_px{Vec2(0.0, 24.0), Vec2(0.0, -24.0), Vec2(38.0, 0.0), Vec2(-38.0, 0.0)};
   for (const RegisteredMarker& marker : registry.markers) {
     const Eigen::Isometry3d pose = map_from_marker(registry, marker);
-    const double below_px = pose.linear()(1, 0) < -0.3 ? -24.0 : 24.0;
-    const Vec2 at = canvas.pixel((pose * middle_of_marker).head<2>()) + Vec2(0.0, below_px);
-    canvas.draw_label_px(at, fmt::format("{}", marker.id), 11.0, ink, 0.5);
+    const Vec2 at = canvas.pixel((pose * middle_of_marker).head<2>());
+    const Vec2 ahead(pose.linear()(0, 0), -pose.linear()(1, 0));
+    const Vec2 offset = *std::ranges::min_element(offsets_px, {}, [&](const Vec2& candidate_px) {
+      return covered_by_label(canvas, map, paths, ahead, at, candidate_px);
+    });
+    canvas.draw_label_px(at + offset, fmt::format("{}", marker.id), 11.0, ink, 0.5);
   }
 }
 
@@ -178,9 +199,11 @@ cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const 
   canvas.draw_map(map);
   draw_axes(canvas);
   draw_markers(canvas, registry);
-  for (const GoalRecord& goal : record.goals) canvas.draw_line(goal.planned.waypoints_m, planned_color, 3.0);
+  std::vector<Path> planned;
+  for (const GoalRecord& goal : record.goals) planned.push_back(goal.planned);
+  for (const Path& path : planned) canvas.draw_line(path.waypoints_m, planned_color, 3.0);
   draw_track(canvas, record);
-  draw_marker_ids(canvas, registry);
+  draw_marker_ids(canvas, map, registry, planned);
   draw_place(canvas, record.start.position_m, "S", start_color);
   for (const GoalRecord& goal : record.goals) {
     const bool back_at_start = (goal.goal.position_m - record.start.position_m).norm() < 0.2;
@@ -209,7 +232,7 @@ cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const
   draw_markers(canvas, registry);
   canvas.draw_line(path.waypoints_m, planned_color, 3.0);
   for (const Vec2& waypoint : path.waypoints_m) canvas.draw_disc(waypoint, 5.0, planned_color);
-  draw_marker_ids(canvas, registry);
+  draw_marker_ids(canvas, map, registry, {path});
   draw_place(canvas, start_m, "S", start_color);
   draw_place(canvas, goal_m, "E", planned_color);
   Legend legend = legend_of(canvas);

@@ -75,7 +75,7 @@ std::string grid_svg(const Extent& extent) {
     svg += fmt::format("<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g}</text>", at,
                        height - bottom + 16.0, x);
   }
-  const double step_y = round_step(extent.high.y() - extent.low.y(), 4.0);
+  const double step_y = round_step(extent.high.y() - extent.low.y(), 5.0);
   for (int k = static_cast<int>(std::ceil(extent.low.y() / step_y)); k * step_y <= extent.high.y(); ++k) {
     const double at = on_sheet({0.0, k * step_y}, extent).y();
     svg += fmt::format("<line class='grid' x1='{0:.1f}' x2='{1:.1f}' y1='{2:.1f}' y2='{2:.1f}'/>", left,
@@ -110,11 +110,11 @@ std::string legend_svg(const std::vector<PlotSeries>& series) {
   std::string svg;
   double x = width - right;
   for (auto one = series.rbegin(); one != series.rend(); ++one) {
-    x -= 7.2 * static_cast<double>(one->name.size());
+    x -= 7.6 * static_cast<double>(one->name.size());
     svg += fmt::format("<text class='legend' x='{:.1f}' y='20'>{}</text>", x, escaped(one->name));
     svg += fmt::format("<rect class='{} key' x='{:.1f}' y='10' width='14' height='10'/>", one->css_class,
                        x - 20.0);
-    x -= 36.0;
+    x -= 42.0;
   }
   return svg;
 }

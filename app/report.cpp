@@ -66,7 +66,7 @@ std::string fact_row(const std::string& name, const nlohmann::ordered_json& spre
   std::string row = fmt::format("<tr><td>{}</td>", name);
   for (const auto& value : spread) {
     row += value.is_null() ? "<td>none</td>"
-                           : fmt::format("<td>{:.2f} {}</td>", factor * value.get<double>(), unit);
+                           : fmt::format("<td>{:.2f}{}</td>", factor * value.get<double>(), unit);
   }
   return row + "</tr>\n";
 }
@@ -145,8 +145,8 @@ std::string report_html(const RunRecord& record, const std::string& map_png) {
   html +=
       "</table>\n<h2>Errors against the truth</h2>\n<table><tr><th></th><th>median</th><th>95 "
       "%</th><th>largest</th></tr>\n";
-  html += fact_row("Track from the planned curve", summary["path_distance_m"], mm_per_m, "mm");
-  html += fact_row("Position of the estimate", summary["estimate_position_error_m"], mm_per_m, "mm");
+  html += fact_row("Track from the planned curve", summary["path_distance_m"], mm_per_m, " mm");
+  html += fact_row("Position of the estimate", summary["estimate_position_error_m"], mm_per_m, " mm");
   html += fact_row("Heading of the estimate", summary["estimate_heading_error_deg"], 1.0, "°");
   html +=
       "</table>\n<h2>Over time (s)</h2>\n" + estimate_plots(record) + path_plot(record) + drive_plots(record);
