@@ -76,30 +76,6 @@ Eigen::Isometry3d some_view(const MarkerRegistry& registry, Random& random) {
   return view;
 }
 
-IdentificationResult identify(const BenchPaperOptions& options) {
-  constexpr int trials = 200;
-  constexpr int different_ids = 100;
-  constexpr int id_step = 37;  // coprime to 4096: the 100 IDs are spread over all of them
-  Random random = Random(options.seed).stream(1);
-  IdentificationResult result;
-  std::chrono::duration<double, std::milli> elapsed{};
-  for (int trial = 0; trial < trials; ++trial) {
-    const int id = (trial % different_ids) * id_step % marker_id_count;
-    const MarkerRegistry registry = some_markers(id, random);
-    const Eigen::Isometry3d view = some_view(registry, random);
-    ImageFormer former(registry, paper_camera(), varied_light(random), random.bits());
-    const cv::Mat gray = former.expose(view, view, static_cast<std::uint64_t>(trial));
-    const auto before = std::chrono::steady_clock::now();
-    const std::vector<DetectedMarker> markers = detect_markers(gray);
-    elapsed += std::chrono::steady_clock::now() - before;
-    ++result.trials;
-    if (markers.empty()) continue;
-    ++(markers.front().id == id ? result.correct : result.wrong);
-  }
-  result.mean_ms = elapsed.count() / trials;
-  return result;
-}
-
 /// A camera on its stand: nearly upright, at a place and heading, below the one marker.
 class Stand {
  public:
@@ -167,27 +143,50 @@ std::vector<PositionTrial> move(Stand& stand) {
 
 }  // namespace
 
+IdentificationResult bench_identification(const BenchPaperOptions& options) {
+  constexpr int trials = 200;
+  constexpr int different_ids = 100;
+  constexpr int id_step = 37;  // coprime to 4096: the 100 IDs are spread over all of them
+  Random random = Random(options.seed).stream(1);
+  IdentificationResult result;
+  std::chrono::duration<double, std::milli> elapsed{};
+  for (int trial = 0; trial < trials; ++trial) {
+    const int id = (trial % different_ids) * id_step % marker_id_count;
+    const MarkerRegistry registry = some_markers(id, random);
+    const Eigen::Isometry3d view = some_view(registry, random);
+    ImageFormer former(registry, paper_camera(), varied_light(random), random.bits());
+    const cv::Mat gray = former.expose(view, view, static_cast<std::uint64_t>(trial));
+    const auto before = std::chrono::steady_clock::now();
+    const std::vector<DetectedMarker> markers = detect_markers(gray);
+    elapsed += std::chrono::steady_clock::now() - before;
+    ++result.trials;
+    if (markers.empty()) continue;
+    ++(markers.front().id == id ? result.correct : result.wrong);
+  }
+  result.mean_ms = elapsed.count() / trials;
+  return result;
+}
+
 double AngleTrial::deviation_deg() const {
   return fixed ? real_deg - output_deg : inf;
 }
 
-double BenchPaperResult::mean_angle_deviation_deg() const {
+double PoseBenchResult::mean_angle_deviation_deg() const {
   double sum = 0.0;
   for (const AngleTrial& trial : angles) sum += std::abs(trial.deviation_deg());
   return sum / static_cast<double>(angles.size());
 }
 
-double BenchPaperResult::mean_position_deviation_m() const {
+double PoseBenchResult::mean_position_deviation_m() const {
   double sum = 0.0;
   for (const PositionTrial& trial : positions)
     sum += trial.fixed ? (trial.real_m - trial.output_m).norm() : inf;
   return sum / static_cast<double>(positions.size());
 }
 
-BenchPaperResult bench_paper(const BenchPaperOptions& options) {
+PoseBenchResult bench_poses(const BenchPaperOptions& options) {
   Stand stand(options);
-  BenchPaperResult result;
-  result.identification = identify(options);
+  PoseBenchResult result;
   result.angles = turn(stand);
   result.positions = move(stand);
   return result;

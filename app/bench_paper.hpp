@@ -41,8 +41,7 @@ struct PositionTrial {
   bool fixed = false;
 };
 
-struct BenchPaperResult {
-  IdentificationResult identification;
+struct PoseBenchResult {
   std::vector<AngleTrial> angles;
   std::vector<PositionTrial> positions;
 
@@ -51,6 +50,7 @@ struct BenchPaperResult {
   [[nodiscard]] double mean_position_deviation_m() const;  ///< mean 3-D distance, as in the paper
 };
 
-BenchPaperResult bench_paper(const BenchPaperOptions& options);
+IdentificationResult bench_identification(const BenchPaperOptions& options);
+PoseBenchResult bench_poses(const BenchPaperOptions& options);
 
 }  // namespace lodestar

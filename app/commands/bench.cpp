@@ -49,9 +49,8 @@ nlohmann::ordered_json position_rows(const std::vector<PositionTrial>& positions
   return rows;
 }
 
-void print_json(const BenchPaperOptions& options, const BenchPaperResult& ours,
-                const BenchPaperResult& free) {
-  const IdentificationResult& ids = ours.identification;
+void print_json(const BenchPaperOptions& options, const IdentificationResult& ids,
+                const PoseBenchResult& ours, const PoseBenchResult& free) {
   const nlohmann::ordered_json report{
       {"seed", options.seed},
       {"prior", {{"tilt_sigma_deg", degrees(options.tilt_sigma_rad)}, {"height", "free"}}},
@@ -73,9 +72,8 @@ void print_json(const BenchPaperOptions& options, const BenchPaperResult& ours,
   fmt::print("{}\n", report.dump(2));
 }
 
-void print_text(const BenchPaperOptions& options, const BenchPaperResult& ours,
-                const BenchPaperResult& free) {
-  const IdentificationResult& ids = ours.identification;
+void print_text(const BenchPaperOptions& options, const IdentificationResult& ids,
+                const PoseBenchResult& ours, const PoseBenchResult& free) {
   fmt::print(
       "Seed {}. Prior: tilt known to {:.2f} deg (a calibrated mount on a flat floor), height free.\n\n",
       options.seed, degrees(options.tilt_sigma_rad));
@@ -110,14 +108,15 @@ void print_text(const BenchPaperOptions& options, const BenchPaperResult& ours,
 
 ExitCode paper(const BenchArguments& arguments) {
   BenchPaperOptions options{.seed = arguments.seed};
-  const BenchPaperResult ours = bench_paper(options);
+  const IdentificationResult ids = bench_identification(options);
+  const PoseBenchResult ours = bench_poses(options);
   BenchPaperOptions without_prior = options;
   without_prior.prior = PosePrior{};
-  const BenchPaperResult free = bench_paper(without_prior);
+  const PoseBenchResult free = bench_poses(without_prior);
   if (arguments.json) {
-    print_json(options, ours, free);
+    print_json(options, ids, ours, free);
   } else {
-    print_text(options, ours, free);
+    print_text(options, ids, ours, free);
   }
   return done;
 }

@@ -112,7 +112,7 @@ TEST_P(BadArguments, are_refused) {
 INSTANTIATE_TEST_SUITE_P(
     Options, BadArguments,
     ::testing::Values(
-        BadCommand{"no_command", "", "subcommand"}, BadCommand{"unknown_command", "fly", "fly"},
+        BadCommand{"no_command", "", "subcommand"}, BadCommand{"unknown_command", "fly", "subcommand"},
         BadCommand{"unknown_option", "replay --fast", "--fast"},
         BadCommand{"seed_as_word", "replay --seed one", "seed"},
         BadCommand{"no_runs", "replay --runs 0", "runs"},

@@ -48,7 +48,7 @@ class ReadImages : public ::testing::Test {
 
   void take(const std::string& name, const Pose2& camera) {
     ImageFormer former(load_registry(scratch_.path() / "markers.yaml"),
-                             load_camera(scratch_.path() / "camera.yaml"), SimulatedCameraOptions{}, 1);
+                       load_camera(scratch_.path() / "camera.yaml"), SimulatedCameraOptions{}, 1);
     const Eigen::Isometry3d view = lifted(camera, 0.6);
     cv::imwrite((scratch_.path() / "frames" / (name + ".png")).string(), former.expose(view, view, frame_++));
   }
