@@ -123,12 +123,19 @@ int line_of_key(const std::string& text, const std::string& key) {
   return 2 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
+/// The data of an !!opencv-matrix; empty when it is none. cv::Mat would allocate whatever rows and cols say.
 std::vector<double> numbers_of(const cv::FileNode& node) {
-  cv::Mat matrix;
-  node >> matrix;
-  if (matrix.empty() || matrix.channels() != 1) return {};
-  matrix.convertTo(matrix, CV_64F);
-  return {matrix.begin<double>(), matrix.end<double>()};
+  const cv::FileNode rows = node["rows"];
+  const cv::FileNode columns = node["cols"];
+  const cv::FileNode data = node["data"];
+  if (!rows.isInt() || !columns.isInt() || !data.isSeq()) return {};
+  if (static_cast<double>(rows) * static_cast<double>(columns) != static_cast<double>(data.size())) return {};
+  std::vector<double> numbers;
+  for (const cv::FileNode& value : data) {
+    if (!value.isInt() && !value.isReal()) return {};
+    numbers.push_back(static_cast<double>(value));
+  }
+  return numbers;
 }
 
 CameraModel load_file_storage(const fs::path& file, const std::string& text) {
@@ -150,6 +157,7 @@ CameraModel load_file_storage(const fs::path& file, const std::string& text) {
     calibration.matrix = numbers_of(storage["camera_matrix"]);
     calibration.coefficients = numbers_of(storage["distortion_coefficients"]);
     if (calibration.matrix.size() != 9) refuse("camera_matrix", "no 3 x 3 matrix", "one");
+    if (calibration.coefficients.empty()) refuse("distortion_coefficients", "no matrix of numbers", "one");
     if (!std::ranges::all_of(calibration.matrix, [](double v) { return std::isfinite(v); })) {
       refuse("camera_matrix", "a number that is not finite", "finite ones");
     }
