@@ -135,7 +135,8 @@ std::optional<std::size_t> PoseFilter::insert_belief_at(Stamp stamp) {
   const auto before = std::prev(next);
   const WheelTravel travel = interpolated(before->travel, next->travel, stamp);
   const Belief belief = moved(after == beliefs_.end() ? *next : *before, travel);
-  const auto inserted = beliefs_.insert(after, belief);  // which moves begin(), so not in one expression with it
+  const auto inserted =
+      beliefs_.insert(after, belief);  // which moves begin(), so not in one expression with it
   return static_cast<std::size_t>(inserted - beliefs_.begin());
 }
 
