@@ -53,8 +53,8 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
 }
 
 /// The command line that gives the same run, and so the same bytes.
-std::string repeat_command(const Site& site, const ReplayOptions& options) {
-  std::string command = fmt::format("lodestar replay {} --seed {} --camera {}", site.folder.string(),
+std::string repeat_command(const std::string& site, const ReplayOptions& options) {
+  std::string command = fmt::format("lodestar replay{} --seed {} --camera {}", site.empty() ? "" : " " + site,
                                     options.seed, options.camera);
   for (const Goal& goal : options.goals) {
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
@@ -158,7 +158,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     options.progress = [&progress](double share) { progress.show(share); };
     record = replay(site, options);
   }
-  record.repeat = repeat_command(site, options);
+  record.repeat = repeat_command(arguments.site, options);
   write_run_folder(folder, record, site.map.map, site.registry);
   const RunSummary summary = summarize(record);
   if (arguments.json) {
