@@ -1,0 +1,165 @@
+#include "localization/belief.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+using Mat3 = Eigen::Matrix3d;
+
+/// A way on an arc of constant curvature.
+struct Arc {
+  double length_m = 0.0;
+  double turn_rad = 0.0;
+};
+
+Pose2 along(const Pose2& from, const Arc& arc) {
+  const double half = 0.5 * arc.turn_rad;
+  const double chord_m = std::abs(half) < 1e-6 ? arc.length_m : arc.length_m * std::sin(half) / half;
+  const double direction = from.yaw_rad + half;
+  return {from.position_m + chord_m * Vec2(std::cos(direction), std::sin(direction)),
+          wrap_angle(from.yaw_rad + arc.turn_rad)};
+}
+
+/// Derivative of the pose after an arc by its length and turn; the chord stands for the arc.
+Eigen::Matrix<double, 3, 2> pose_by_arc(double yaw_rad, const Arc& arc) {
+  const double direction = yaw_rad + 0.5 * arc.turn_rad;
+  const Vec2 ahead(std::cos(direction), std::sin(direction));
+  const Vec2 aside(-ahead.y(), ahead.x());
+  Eigen::Matrix<double, 3, 2> jacobian;
+  jacobian << ahead, 0.5 * arc.length_m * aside, 0.0, 1.0;
+  return jacobian;
+}
+
+constexpr double square(double x) {
+  return x * x;
+}
+
+/// Of the error that fixes about here have in common.
+Mat3 shared_covariance(const PoseFilterOptions& options) {
+  const double position = square(options.fix_sigma_floor_m);
+  return Vec3(position, position, square(options.fix_sigma_floor_rad)).asDiagonal();
+}
+
+/// Between pose and wheel readings, for these are rounded. It is another one at each time and does not add
+/// up along the way, as it would if moved() counted it.
+Mat3 rounding_covariance(const PoseFilterOptions& options) {
+  const double wheel = square(options.wheel_step_m) / 12.0;
+  return Vec3(0.5 * wheel, 0.5 * wheel, 2.0 * wheel / square(options.track_width_m)).asDiagonal();
+}
+
+/// Of the error that each fix has for itself.
+Mat3 own_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
+  return 0.5 * (fix.covariance + fix.covariance.transpose()) + rounding_covariance(options);
+}
+
+/// A fix shows the pose plus the shared error.
+struct Innovation {
+  Vec3 error;
+  Mat3 covariance;
+  Eigen::Matrix<double, 3, 9> with_state;  ///< covariance of the expected fix and the state
+};
+
+Innovation innovation_of(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
+  Innovation innovation;
+  const Vec3 expected = belief.mean.head<3>() + belief.mean.tail<3>();
+  innovation.error << fix.map_from_base.position_m - expected.head<2>(),
+      wrap_angle(fix.map_from_base.yaw_rad - expected.z());
+  innovation.with_state = belief.covariance.topRows<3>() + belief.covariance.bottomRows<3>();
+  innovation.covariance = innovation.with_state.leftCols<3>() + innovation.with_state.rightCols<3>() +
+                          own_covariance(fix, options);
+  return innovation;
+}
+
+}  // namespace
+
+WheelScales scales_as_built(const PoseFilterOptions& options) {
+  WheelScales scales;
+  const double wheel = square(options.initial_wheel_scale_sigma);
+  scales.covariance = Vec3(wheel, wheel, square(options.initial_turn_scale_sigma)).asDiagonal();
+  return scales;
+}
+
+Belief belief_from(const PlanarFix& fix, const WheelTravel& travel, const WheelScales& scales,
+                   const PoseFilterOptions& options) {
+  Belief belief;
+  belief.travel = travel;
+  belief.mean << fix.map_from_base.position_m, fix.map_from_base.yaw_rad, scales.mean, Vec3::Zero();
+  const Mat3 shared = shared_covariance(options);
+  belief.covariance.topLeftCorner<3, 3>() = own_covariance(fix, options) + shared;
+  belief.covariance.topRightCorner<3, 3>() = -shared;
+  belief.covariance.bottomLeftCorner<3, 3>() = -shared;
+  belief.covariance.bottomRightCorner<3, 3>() = shared;
+  belief.covariance.block<3, 3>(3, 3) = scales.covariance;
+  return belief;
+}
+
+Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOptions& options) {
+  const double left_m = travel.left_m - from.travel.left_m;
+  const double right_m = travel.right_m - from.travel.right_m;
+  const double left_scale = from.mean[3];
+  const double right_scale = from.mean[4];
+  const double turn_scale = from.mean[5];
+  const double turn_as_built = (right_scale * right_m - left_scale * left_m) / options.track_width_m;
+  const Arc arc{0.5 * (left_scale * left_m + right_scale * right_m), turn_scale * turn_as_built};
+  const Pose2 pose = along(from.map_from_base(), arc);
+  const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
+  const double kept = std::exp(-way_m / options.fix_bias_reach_m);  // of the shared error
+
+  Belief to;
+  to.travel = travel;
+  to.mean << pose.position_m, pose.yaw_rad, from.mean.segment<3>(3), kept * from.mean.tail<3>();
+
+  const Eigen::Matrix<double, 3, 2> by_arc = pose_by_arc(from.mean[2], arc);
+  Eigen::Matrix2d arc_by_wheels;
+  const double turn_per_m = turn_scale / options.track_width_m;
+  arc_by_wheels << 0.5, 0.5, -turn_per_m, turn_per_m;
+  const Eigen::Matrix<double, 3, 2> by_wheels = by_arc * arc_by_wheels;
+
+  Belief::Covariance transition = Belief::Covariance::Identity();
+  transition(0, 2) = -(pose.position_m.y() - from.mean.y());
+  transition(1, 2) = pose.position_m.x() - from.mean.x();
+  transition.block<3, 1>(0, 3) = by_wheels.col(0) * left_m;
+  transition.block<3, 1>(0, 4) = by_wheels.col(1) * right_m;
+  transition.block<3, 1>(0, 5) = by_arc.col(1) * turn_as_built;
+  transition.diagonal().tail<3>().setConstant(kept);
+
+  const Vec2 noise = square(options.wheel_noise_m_per_sqrt_m) * Vec2(std::abs(left_m), std::abs(right_m));
+  to.covariance.noalias() = transition * from.covariance * transition.transpose();
+  to.covariance.topLeftCorner<3, 3>() += by_wheels * noise.asDiagonal() * by_wheels.transpose();
+  to.covariance.diagonal().segment<3>(3).array() += square(options.wheel_scale_drift_per_sqrt_m) * way_m;
+  to.covariance.bottomRightCorner<3, 3>() += (1.0 - kept * kept) * shared_covariance(options);
+  return to;
+}
+
+double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
+  const Innovation innovation = innovation_of(belief, fix, options);
+  return innovation.error.dot(innovation.covariance.ldlt().solve(innovation.error));
+}
+
+Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
+  const Innovation innovation = innovation_of(belief, fix, options);
+  const Eigen::Matrix<double, 9, 3> gain =
+      innovation.covariance.ldlt().solve(innovation.with_state).transpose();
+  Belief::Covariance keep = Belief::Covariance::Identity();
+  keep.leftCols<3>() -= gain;
+  keep.rightCols<3>() -= gain;
+  Belief result = belief;
+  result.mean += gain * innovation.error;
+  result.mean[2] = wrap_angle(result.mean[2]);
+  // Joseph's form, which keeps the covariance symmetric and positive.
+  result.covariance =
+      keep * belief.covariance * keep.transpose() + gain * own_covariance(fix, options) * gain.transpose();
+  return result;
+}
+
+Mat3 pose_covariance(const Belief& belief, const PoseFilterOptions& options) {
+  return belief.covariance.topLeftCorner<3, 3>() + rounding_covariance(options);
+}
+
+Pose2 rolled(const Pose2& from, double left_m, double right_m, double track_width_m) {
+  return along(from, {0.5 * (left_m + right_m), (right_m - left_m) / track_width_m});
+}
+
+}  // namespace lodestar

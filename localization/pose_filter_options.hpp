@@ -1,0 +1,29 @@
+#pragma once
+
+#include "maps/geometry.hpp"
+#include "maps/stamp.hpp"
+
+namespace lodestar {
+
+struct PoseFilterOptions {
+  double track_width_m = 0.4;  ///< between the wheels' contact points, as built
+  /// Random error of one wheel's travel, per square root of metre rolled.
+  double wheel_noise_m_per_sqrt_m = 0.003;
+  double wheel_step_m = 0.001;              ///< readings of a wheel's travel are rounded to it
+  double initial_wheel_scale_sigma = 0.02;  ///< how unequal the wheels may be before anything is learned
+  double initial_turn_scale_sigma = 0.02;   ///< how wrong the track width may be before anything is learned
+  double wheel_scale_drift_per_sqrt_m = 0.0003;  ///< how fast these scales may change
+  /// Survey, mount and floor are not perfect: an error that fixes share as long as the robot stays about
+  /// where it is. It is another one after rolling `fix_bias_reach_m`.
+  double fix_sigma_floor_m = 0.002;
+  double fix_sigma_floor_rad = radians(0.1);
+  double fix_bias_reach_m = 1.0;
+  double gate_chi2 = 16.27;   ///< a fix farther away (Mahalanobis, 3 dof, 99.9 %) is refused
+  int fixes_to_start = 2;     ///< consecutive consistent fixes that a start takes
+  int fixes_to_relocate = 5;  ///< consecutive refused fixes that agree among themselves and move the estimate
+  Duration history = std::chrono::seconds(1);  ///< fixes older than this are refused
+  /// And those newer than the wheels' last word by more than this.
+  Duration max_ahead = std::chrono::milliseconds(100);
+};
+
+}  // namespace lodestar

@@ -1,0 +1,82 @@
+#include "localization/belief.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lodestar {
+namespace {
+
+/// Somewhere, turning, with wheels that are not as built.
+Belief some_belief() {
+  Belief belief;
+  belief.mean << 1.0, -2.0, 0.7, 1.01, 0.98, 1.02, 0.003, -0.002, 0.001;
+  belief.covariance.setIdentity();
+  return belief;
+}
+
+PoseFilterOptions without_noise() {
+  PoseFilterOptions options;
+  options.wheel_noise_m_per_sqrt_m = 0.0;
+  options.wheel_scale_drift_per_sqrt_m = 0.0;
+  options.wheel_step_m = 0.0;
+  options.fix_sigma_floor_m = 0.0;
+  options.fix_sigma_floor_rad = 0.0;
+  return options;
+}
+
+TEST(Belief, a_quarter_circle_ends_where_it_should) {
+  // Radius 1 m, track width 0.4 m: the wheels roll on circles of 0.8 m and 1.2 m.
+  const Pose2 end = rolled({}, 0.8 * radians(90.0), 1.2 * radians(90.0), 0.4);
+  EXPECT_NEAR(end.position_m.x(), 1.0, 1e-12);
+  EXPECT_NEAR(end.position_m.y(), 1.0, 1e-12);
+  EXPECT_NEAR(end.yaw_rad, radians(90.0), 1e-12);
+}
+
+TEST(Belief, moves_its_covariance_as_finite_differences_say) {
+  const Belief belief = some_belief();
+  const PoseFilterOptions options = without_noise();
+  const WheelTravel travel{Stamp(from_seconds(0.02)), 0.010, 0.013};
+  const Belief after = moved(belief, travel, options);
+  Belief::Covariance transition;
+  for (Eigen::Index k = 0; k < 9; ++k) {
+    constexpr double step = 1e-6;
+    Belief more = belief;
+    Belief less = belief;
+    more.mean[k] += step;
+    less.mean[k] -= step;
+    transition.col(k) =
+        (moved(more, travel, options).mean - moved(less, travel, options).mean) / (2.0 * step);
+  }
+  // The chord stands for the arc: some 1e-5 at a turn of half a degree.
+  EXPECT_LT((after.covariance - transition * transition.transpose()).cwiseAbs().maxCoeff(), 2e-5);
+}
+
+TEST(Belief, way_in_parts_is_the_way_as_a_whole) {
+  const Belief belief = some_belief();
+  const PoseFilterOptions options;
+  const WheelTravel end{Stamp(from_seconds(0.02)), 0.010, 0.013};
+  const WheelTravel middle{Stamp(from_seconds(0.01)), 0.005, 0.0065};
+  const Belief at_once = moved(belief, end, options);
+  const Belief in_parts = moved(moved(belief, middle, options), end, options);
+  EXPECT_LT((at_once.mean - in_parts.mean).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((at_once.covariance - in_parts.covariance).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST(Belief, by_one_fix_is_as_unsure_as_fix_and_survey_together) {
+  PoseFilterOptions options = without_noise();
+  options.fix_sigma_floor_m = 0.003;
+  options.fix_sigma_floor_rad = 0.002;
+  PlanarFix fix;
+  fix.map_from_base = {{1.0, 2.0}, 3.0};
+  fix.covariance = Vec3(16e-6, 16e-6, 9e-6).asDiagonal();
+  const Belief belief = belief_from(fix, {}, scales_as_built(options), options);
+  EXPECT_EQ(belief.map_from_base().position_m, fix.map_from_base.position_m);
+  EXPECT_NEAR(belief.covariance(0, 0), 25e-6, 1e-18);
+  EXPECT_NEAR(belief.covariance(2, 2), 13e-6, 1e-18);
+  // The same view again shows the same error of the survey: only the fix's own noise tells it apart.
+  PlanarFix again = fix;
+  again.map_from_base.position_m.x() += 0.008;
+  EXPECT_NEAR(squared_distance(belief, again, options), 0.008 * 0.008 / (2.0 * 16e-6), 1e-9);
+}
+
+}  // namespace
+}  // namespace lodestar
