@@ -8,9 +8,12 @@ namespace lodestar {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 const fs::path root = LODESTAR_SOURCE_DIR;
 
@@ -29,6 +32,20 @@ std::vector<std::string> sources_under(const std::string& folder) {
     files.push_back(path.lexically_relative(root).generic_string());
   }
   return files;
+}
+
+/// All headers of ours that a file includes, directly or through others.
+std::set<std::string> reached_from(const std::string& file) {
+  std::set<std::string> reached;
+  std::vector<std::string> open{file};
+  while (!open.empty()) {
+    const std::string text = text_of(root / open.back());
+    open.pop_back();
+    for (const std::string& header : includes_of(text)) {
+      if (reached.insert(header).second) open.push_back(header);
+    }
+  }
+  return reached;
 }
 
 class Folder : public testing::TestWithParam<std::string> {};
@@ -69,11 +86,21 @@ TEST(Arrows, BetweenSistersAndUpwardsAreRefused) {
 
 TEST(Arrows, KeepTheSimulatedTruthFromTheNavigator) {
   EXPECT_THAT(complaint_about_include("app/replay.cpp", "drivers/simulated_motion.hpp"),
-              HasSubstr("only drivers know the truth"));
+              HasSubstr("not meant for outside"));
   EXPECT_THAT(complaint_about_include("app/navigation.cpp", "drivers/simulation.hpp"), HasSubstr("judged"));
   EXPECT_THAT(complaint_about_include("app/commands/plan.cpp", "drivers/scoring.hpp"), HasSubstr("judged"));
   EXPECT_THAT(complaint_about_include("app/replay.cpp", "drivers/simulation.hpp"), IsEmpty());
   EXPECT_THAT(complaint_about_include("drivers/scoring.cpp", "drivers/simulated_motion.hpp"), IsEmpty());
+}
+
+TEST(Arrows, LeadTheNavigatorToTheHardwareAndNotToTheSimulatedWorld) {
+  for (const char* file :
+       {"app/navigation.cpp", "app/mission.cpp", "app/navigation_setup.cpp", "drivers/base_driver.cpp"}) {
+    EXPECT_THAT(reached_from(file),
+                AllOf(Contains("drivers/can_bus.hpp"), Not(Contains(HasSubstr("drivers/simul"))),
+                      Not(Contains("drivers/scoring.hpp"))))
+        << file;
+  }
 }
 
 TEST(Arrows, OfTargetsAreRefusedToo) {
