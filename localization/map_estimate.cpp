@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <limits>
 
 namespace lodestar {
 namespace {
@@ -9,10 +10,8 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-Eigen::Matrix3d cross_matrix(const Vec3& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
+constexpr double square(double x) {
+  return x * x;
 }
 
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vec6& step) {
@@ -25,6 +24,14 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vec6& step) {
   return result;
 }
 
+/// The step from one pose to another: the inverse of moved().
+Vec6 step_between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
+  Vec6 step;
+  step << to.translation() - from.translation(), turn.angle() * turn.axis();
+  return step;
+}
+
 /// The normal equations of the posterior at one pose.
 struct Normal {
   Mat6 information = Mat6::Zero();
@@ -32,57 +39,66 @@ struct Normal {
   double cost = 0.0;
 };
 
-/// Huber: quadratic up to `scale` sigmas, linear beyond. Returns the weight of the quadratic form.
-double add_huber_cost(double squared_sigmas, double scale, double& cost) {
-  if (squared_sigmas <= scale * scale) {
-    cost += squared_sigmas;
-    return 1.0;
-  }
+/// Huber: quadratic up to `scale` sigmas, linear beyond. The weight is that of the quadratic form.
+struct Huber {
+  double cost = 0.0;
+  double weight = 1.0;
+};
+
+Huber huber(double squared_sigmas, double scale) {
+  if (squared_sigmas <= scale * scale) return {squared_sigmas, 1.0};
   const double sigmas = std::sqrt(squared_sigmas);
-  cost += scale * (2.0 * sigmas - scale);
-  return scale / sigmas;
+  return {scale * (2.0 * sigmas - scale), scale / sigmas};
 }
 
-bool add_dots(const Eigen::Isometry3d& pose, const std::vector<SurveyedDot>& dots, const CameraModel& camera,
+bool add_dots(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, const CameraModel& camera,
               const PoseFixOptions& options, Normal& normal) {
-  const double per_variance = 1.0 / (options.dot_sigma_px * options.dot_sigma_px);
+  const double per_variance = 1.0 / square(options.dot_sigma_px);
   for (const SurveyedDot& dot : dots) {
     const std::optional<Projection> seen = project_dot(pose, dot.point_in_map, camera);
     if (!seen) return false;
     const Vec2 residual = seen->pixel - dot.center_px;
-    const double weight = per_variance * add_huber_cost(residual.squaredNorm() * per_variance,
-                                                        options.robust_scale, normal.cost);
-    normal.information.noalias() += weight * seen->jacobian.transpose() * seen->jacobian;
-    normal.gradient.noalias() += weight * seen->jacobian.transpose() * residual;
+    const Huber loss = huber(residual.squaredNorm() * per_variance, options.robust_scale);
+    const double weight = loss.weight * per_variance;
+    const Vec6 by_u = seen->jacobian.row(0);
+    const Vec6 by_v = seen->jacobian.row(1);
+    normal.cost += loss.cost;
+    normal.gradient += (weight * residual.x()) * by_u + (weight * residual.y()) * by_v;
+    for (Eigen::Index k = 0; k < 6; ++k)
+      normal.information.col(k) += (weight * by_u[k]) * by_u + (weight * by_v[k]) * by_v;
   }
   return true;
 }
 
-/// The camera's axis, brought back by the mount's tilt, should stand upright: its two horizontal parts are
-/// the tilt.
-void add_tilt_prior(const Eigen::Isometry3d& pose, const PosePrior& prior, Normal& normal) {
-  if (!prior.tilt_sigma_rad || *prior.tilt_sigma_rad == 0.0) return;
-  const double per_variance = 1.0 / (*prior.tilt_sigma_rad * *prior.tilt_sigma_rad);
-  const Vec3 up = pose.linear() * prior.tilt.transpose().col(2);
-  Eigen::Matrix<double, 2, 6> jacobian = Eigen::Matrix<double, 2, 6>::Zero();
-  jacobian.row(0).tail<3>() << 0.0, up.z(), -up.y();
-  jacobian.row(1).tail<3>() << -up.z(), 0.0, up.x();
-  normal.information.noalias() += per_variance * jacobian.transpose() * jacobian;
-  normal.gradient.noalias() += per_variance * jacobian.transpose() * up.head<2>();
-  normal.cost += per_variance * up.head<2>().squaredNorm();
-}
-
-void add_height_prior(const Eigen::Isometry3d& pose, const PosePrior& prior, Normal& normal) {
-  if (!prior.height_m) return;
-  const double per_variance = 1.0 / (prior.height_sigma_m * prior.height_sigma_m);
-  const double error_m = pose.translation().z() - *prior.height_m;
-  normal.information(2, 2) += per_variance;
-  normal.gradient[2] += per_variance * error_m;
-  normal.cost += per_variance * error_m * error_m;
-}
-
 bool tilt_is_exact(const PosePrior& prior) {
   return prior.tilt_sigma_rad && *prior.tilt_sigma_rad == 0.0;
+}
+
+bool tilt_is_known_about(const PosePrior& prior) {
+  return prior.tilt_sigma_rad && *prior.tilt_sigma_rad > 0.0;
+}
+
+/// The map's vertical as the mount would have it: upright but for the tilt's error, whose parts are its two
+/// horizontal ones.
+Vec3 upright(const Eigen::Isometry3d& pose, const PosePrior& prior) {
+  return pose.linear() * prior.tilt.transpose().col(2);
+}
+
+void add_prior(const Eigen::Isometry3d& pose, const PosePrior& prior, Normal& normal) {
+  normal.cost += prior_cost(pose, prior);
+  if (tilt_is_known_about(prior)) {
+    const double per_variance = 1.0 / square(*prior.tilt_sigma_rad);
+    const Vec3 up = upright(pose, prior);
+    Eigen::Matrix<double, 2, 3> by_rotation;
+    by_rotation << 0.0, up.z(), -up.y(), -up.z(), 0.0, up.x();
+    normal.information.bottomRightCorner<3, 3>() += per_variance * by_rotation.transpose() * by_rotation;
+    normal.gradient.tail<3>() += per_variance * by_rotation.transpose() * up.head<2>();
+  }
+  if (prior.height_m) {
+    const double per_variance = 1.0 / square(prior.height_sigma_m);
+    normal.information(2, 2) += per_variance;
+    normal.gradient[2] += per_variance * (pose.translation().z() - *prior.height_m);
+  }
 }
 
 /// An exact tilt leaves no freedom about the horizontal axes: those rows say "no step" and nothing else.
@@ -95,12 +111,11 @@ void forbid_tilting(Normal& normal) {
   }
 }
 
-std::optional<Normal> normal_at(const Eigen::Isometry3d& pose, const std::vector<SurveyedDot>& dots,
+std::optional<Normal> normal_at(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots,
                                 const CameraModel& camera, const PoseFixOptions& options) {
   Normal normal;
   if (!add_dots(pose, dots, camera, options, normal)) return std::nullopt;
-  add_tilt_prior(pose, options.prior, normal);
-  add_height_prior(pose, options.prior, normal);
+  add_prior(pose, options.prior, normal);
   if (tilt_is_exact(options.prior)) forbid_tilting(normal);
   return normal;
 }
@@ -128,29 +143,53 @@ std::optional<Mat6> covariance_of(const Normal& normal, bool exact_tilt) {
   return Mat6(0.5 * (covariance + covariance.transpose()));
 }
 
+double log_determinant(const Mat6& covariance) {
+  return covariance.ldlt().vectorD().array().log().sum();
+}
+
 }  // namespace
 
 std::optional<Projection> project_dot(const Eigen::Isometry3d& map_from_camera, const Vec3& point_in_map,
                                       const CameraModel& camera) {
-  const Eigen::Matrix3d camera_from_map = map_from_camera.linear().transpose();
   const Vec3 offset = point_in_map - map_from_camera.translation();
-  const Vec3 p = camera_from_map * offset;
+  const Vec3 p = map_from_camera.linear().transpose() * offset;
   if (!(p.z() > 1e-6)) return std::nullopt;
   const Vec2 normalized = p.head<2>() / p.z();
-
-  Eigen::Matrix<double, 2, 3> normalized_by_point;
-  normalized_by_point << 1.0 / p.z(), 0.0, -normalized.x() / p.z(), 0.0, 1.0 / p.z(), -normalized.y() / p.z();
-  const Eigen::Matrix<double, 2, 3> pixel_by_map =
-      camera.distorted_jacobian(normalized) * normalized_by_point * camera_from_map;
+  const Eigen::Matrix2d by_point = camera.distorted_jacobian(normalized) / p.z();
   Projection projection;
   projection.pixel = camera.distorted(normalized);
-  projection.jacobian.leftCols<3>() = -pixel_by_map;
-  projection.jacobian.rightCols<3>().noalias() = pixel_by_map * cross_matrix(offset);
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const Vec3 by_point_in_camera(by_point(k, 0), by_point(k, 1), -by_point.row(k).dot(normalized));
+    const Vec3 by_point_in_map = map_from_camera.linear() * by_point_in_camera;
+    projection.jacobian.row(k) << -by_point_in_map.transpose(), by_point_in_map.cross(offset).transpose();
+  }
   return projection;
 }
 
+double cost_of(const Eigen::Isometry3d& map_from_camera, std::span<const SurveyedDot> dots,
+               const CameraModel& camera, const PoseFixOptions& options) {
+  const double per_variance = 1.0 / square(options.dot_sigma_px);
+  const Eigen::Isometry3d camera_from_map = map_from_camera.inverse();
+  double cost = prior_cost(map_from_camera, options.prior);
+  for (const SurveyedDot& dot : dots) {
+    const std::optional<Vec2> seen = camera.project(camera_from_map * dot.point_in_map);
+    if (!seen) return std::numeric_limits<double>::infinity();
+    cost += huber((*seen - dot.center_px).squaredNorm() * per_variance, options.robust_scale).cost;
+  }
+  return cost;
+}
+
+double prior_cost(const Eigen::Isometry3d& map_from_camera, const PosePrior& prior) {
+  double cost = 0.0;
+  if (tilt_is_known_about(prior))
+    cost += upright(map_from_camera, prior).head<2>().squaredNorm() / square(*prior.tilt_sigma_rad);
+  if (prior.height_m)
+    cost += square((map_from_camera.translation().z() - *prior.height_m) / prior.height_sigma_m);
+  return cost;
+}
+
 std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
-                                              const std::vector<SurveyedDot>& dots, const CameraModel& camera,
+                                              std::span<const SurveyedDot> dots, const CameraModel& camera,
                                               const PoseFixOptions& options) {
   const bool exact_tilt = tilt_is_exact(options.prior);
   Eigen::Isometry3d pose = exact_tilt ? with_prior_tilt(guess, options.prior) : guess;
@@ -159,19 +198,23 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
 
   double damping = 1e-6;
   constexpr int max_iterations = 40;
+  constexpr double small_gain = 1e-6;  // of the cost: a step of a thousandth of a sigma
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     Mat6 damped = normal->information;
     damped.diagonal() *= 1.0 + damping;
     const Vec6 step = -damped.ldlt().solve(normal->gradient);
     if (!step.allFinite()) return std::nullopt;
     const Eigen::Isometry3d candidate = moved(pose, step);
+    const double expected_gain = -step.dot(normal->gradient);
+    if (damping < 1e-3 && expected_gain < small_gain) {
+      pose = candidate;  // Newton's last step; where it starts is near enough for the covariance
+      break;
+    }
     const std::optional<Normal> next = normal_at(candidate, dots, camera, options);
     if (next && next->cost <= normal->cost) {
-      const double gain = normal->cost - next->cost;
       pose = candidate;
       normal = next;
       damping = std::max(0.1 * damping, 1e-12);
-      if (gain < 1e-9 * (1.0 + normal->cost)) break;
     } else {
       damping *= 10.0;
       if (damping > 1e6) break;
@@ -180,6 +223,21 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   const std::optional<Mat6> covariance = covariance_of(*normal, exact_tilt);
   if (!covariance) return std::nullopt;
   return MapEstimate{.map_from_camera = pose, .covariance = *covariance, .cost = normal->cost};
+}
+
+/// Laplace's approximation of each mode: its share of the probability is density times volume.
+MapEstimate likelier(const MapEstimate& a, const MapEstimate& b) {
+  const MapEstimate& best = a.cost <= b.cost ? a : b;
+  const MapEstimate& other = a.cost <= b.cost ? b : a;
+  const double log_ratio =
+      0.5 * (best.cost - other.cost + log_determinant(other.covariance) - log_determinant(best.covariance));
+  const double share = 1.0 / (1.0 + std::exp(-log_ratio));  // of the other mode
+  if (!(share > 0.0)) return best;
+  const Vec6 apart = step_between(best.map_from_camera, other.map_from_camera);
+  MapEstimate result = best;
+  result.covariance =
+      (1.0 - share) * best.covariance + share * (other.covariance + apart * apart.transpose());
+  return result;
 }
 
 }  // namespace lodestar

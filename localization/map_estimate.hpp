@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "localization/pose_fix.hpp"
 
@@ -30,10 +30,22 @@ struct Projection {
 std::optional<Projection> project_dot(const Eigen::Isometry3d& map_from_camera, const Vec3& point_in_map,
                                       const CameraModel& camera);
 
-/// Levenberg-Marquardt with Huber's loss on the dots, and the prior. Nothing when a dot comes to lie behind
-/// the camera or the dots do not determine the pose.
+/// The cost of a pose: Huber's loss of the dots, in squared sigmas, and the prior's. Infinite when a dot
+/// comes to lie behind the camera. An exact tilt costs nothing here.
+double cost_of(const Eigen::Isometry3d& map_from_camera, std::span<const SurveyedDot> dots,
+               const CameraModel& camera, const PoseFixOptions& options);
+
+/// The prior's part of it.
+double prior_cost(const Eigen::Isometry3d& map_from_camera, const PosePrior& prior);
+
+/// Levenberg-Marquardt. Nothing when a dot comes to lie behind the camera or the dots do not determine the
+/// pose.
 std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
-                                              const std::vector<SurveyedDot>& dots, const CameraModel& camera,
+                                              std::span<const SurveyedDot> dots, const CameraModel& camera,
                                               const PoseFixOptions& options);
+
+/// The likelier of two estimates from the same dots. Its covariance is about its own pose, but of both: where
+/// two poses explain the dots almost alike, it says so.
+MapEstimate likelier(const MapEstimate& a, const MapEstimate& b);
 
 }  // namespace lodestar
