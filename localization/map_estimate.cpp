@@ -1,6 +1,7 @@
 #include "localization/map_estimate.hpp"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -143,6 +144,35 @@ std::optional<Mat6> covariance_of(const Normal& normal, bool exact_tilt) {
   return Mat6(0.5 * (covariance + covariance.transpose()));
 }
 
+/// What the linear view leaves out: with its tilt in doubt the camera swings about the dots on an arc, not on
+/// a straight line. Turned by d with the dots' centre held at u from the camera, it leaves the tangent by
+/// s = -d x (d x u) / 2, a quadratic form of d for each coordinate, so that the mean of s s^T follows from
+/// the covariance of d (Isserlis' theorem for the fourth moments of a Gaussian).
+Eigen::Matrix3d arc_covariance(const Vec3& center_from_camera, const Eigen::Matrix3d& rotation_covariance) {
+  std::array<Eigen::Matrix3d, 3> form_times_covariance;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Eigen::Matrix3d form = center_from_camera[k] * Eigen::Matrix3d::Identity();
+    form.row(k) -= 0.5 * center_from_camera.transpose();
+    form.col(k) -= 0.5 * center_from_camera;
+    form_times_covariance[static_cast<std::size_t>(k)] = form * rotation_covariance;
+  }
+  Eigen::Matrix3d result;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const Eigen::Matrix3d& a = form_times_covariance[static_cast<std::size_t>(i)];
+      const Eigen::Matrix3d& b = form_times_covariance[static_cast<std::size_t>(j)];
+      result(i, j) = 0.25 * (a.trace() * b.trace() + 2.0 * a.cwiseProduct(b.transpose()).sum());
+    }
+  }
+  return result;
+}
+
+Vec3 center_of(std::span<const SurveyedDot> dots) {
+  Vec3 center = Vec3::Zero();
+  for (const SurveyedDot& dot : dots) center += dot.point_in_map / static_cast<double>(dots.size());
+  return center;
+}
+
 double log_determinant(const Mat6& covariance) {
   return covariance.ldlt().vectorD().array().log().sum();
 }
@@ -220,8 +250,10 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
       if (damping > 1e6) break;
     }
   }
-  const std::optional<Mat6> covariance = covariance_of(*normal, exact_tilt);
+  std::optional<Mat6> covariance = covariance_of(*normal, exact_tilt);
   if (!covariance) return std::nullopt;
+  covariance->topLeftCorner<3, 3>() +=
+      arc_covariance(center_of(dots) - pose.translation(), covariance->bottomRightCorner<3, 3>());
   return MapEstimate{.map_from_camera = pose, .covariance = *covariance, .cost = normal->cost};
 }
 
