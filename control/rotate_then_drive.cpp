@@ -22,6 +22,13 @@ double stepped(double from, double to, double most) {
   return from + std::clamp(to - from, -most, most);
 }
 
+/// What a base that answers with a first-order lag still has to travel, one period of a command later. The
+/// sum is exact for any base: sooner or later it travels all that was commanded.
+double pending_after(double pending, double command, double response_s, double elapsed_s) {
+  const double kept = std::exp(-elapsed_s / std::max(response_s, 1e-3));
+  return kept * pending + (1.0 - kept) * response_s * command;
+}
+
 }  // namespace
 
 std::string_view to_string(DrivePhase phase) {
@@ -54,19 +61,18 @@ BodyVelocity RotateThenDrive::update(const PoseEstimate& estimate, Duration elap
   next_phase(pose);
   BodyVelocity wanted;
   if (phase_ == DrivePhase::rotating) {
-    wanted = turn_to(direction_of(pose.position_m, target_m()), options_.turn_done_rad, pose);
+    if (turn_heading_rad_) wanted = turn_to(*turn_heading_rad_, options_.turn_done_rad, pose);
   } else if (phase_ == DrivePhase::driving) {
     wanted = drive_leg(pose);
   } else if (phase_ == DrivePhase::final_rotation) {
     wanted = turn_to(*final_heading_rad_, options_.arrival_heading_rad, pose);
   }
-  return last_ = limited(wanted, elapsed);
+  return command(wanted, elapsed);
 }
 
 BodyVelocity RotateThenDrive::slow_down(Duration elapsed) {
-  if (phase_ == DrivePhase::driving)
-    phase_ = DrivePhase::rotating;  // whatever comes next begins with a look ahead
-  return last_ = limited({}, elapsed);
+  if (phase_ == DrivePhase::driving) begin_turn();  // whatever comes next begins with a look ahead
+  return command({}, elapsed);
 }
 
 void RotateThenDrive::next_phase(const Pose2& pose) {
@@ -75,13 +81,16 @@ void RotateThenDrive::next_phase(const Pose2& pose) {
   if (phase_ == DrivePhase::final_rotation) next_phase_final(pose);
 }
 
+/// The heading is taken once, at rest: close to the target its direction changes with every millimetre of
+/// noise, and the robot would chase it.
 void RotateThenDrive::next_phase_rotating(const Pose2& pose) {
   if (!at_rest()) return;
   if ((target_m() - pose.position_m).norm() <= epsilon_m()) {
     end_leg(pose);
     return;
   }
-  const double error = wrap_angle(direction_of(pose.position_m, target_m()) - pose.yaw_rad);
+  if (!turn_heading_rad_) turn_heading_rad_ = direction_of(pose.position_m, target_m());
+  const double error = wrap_angle(*turn_heading_rad_ - pose.yaw_rad);
   if (std::abs(error) <= options_.turn_done_rad) phase_ = DrivePhase::driving;
 }
 
@@ -92,13 +101,18 @@ void RotateThenDrive::next_phase_driving(const Pose2& pose) {
   }
   // Close to the target its direction means nothing any more; the leg's own counts.
   const double error = wrap_angle(leg_heading_rad() - pose.yaw_rad);
-  if (std::abs(error) > options_.turn_again_rad) phase_ = DrivePhase::rotating;
+  if (std::abs(error) > options_.turn_again_rad) begin_turn();
 }
 
-/// The end of the leg is passed, or near enough. At the goal the distance itself must be within epsilon, Eq.
-/// (19); else the robot turns to it anew, but not for ever.
-void RotateThenDrive::end_leg(const Pose2& pose) {
+void RotateThenDrive::begin_turn() {
   phase_ = DrivePhase::rotating;
+  turn_heading_rad_.reset();
+}
+
+/// The end of the leg is passed, or near enough. At the goal the distance itself counts, Eq. (19): when it is
+/// too long the robot turns to the goal anew, but not for ever.
+void RotateThenDrive::end_leg(const Pose2& pose) {
+  begin_turn();
   leg_start_m_ = target_m();
   if (!on_last_leg()) {
     ++target_;
@@ -106,7 +120,7 @@ void RotateThenDrive::end_leg(const Pose2& pose) {
   }
   ++approaches_;
   const double distance_m = (target_m() - pose.position_m).norm();
-  if (distance_m > options_.arrival_distance_m && approaches_ < options_.max_approaches) {
+  if (distance_m > options_.passed_distance_m && approaches_ < options_.max_approaches) {
     leg_start_m_ = pose.position_m;
     return;
   }
@@ -118,12 +132,12 @@ void RotateThenDrive::next_phase_final(const Pose2& pose) {
   if (at_rest() && std::abs(error) <= options_.arrival_heading_rad) phase_ = DrivePhase::arrived;
 }
 
-/// Turning on the spot, once the robot stands. The error is the one that will be left when what is commanded
-/// already has come into effect, so that lag does not become overshoot.
+/// Turning on the spot, once the robot stands. The error is the one that will be left when all that was
+/// commanded has come into effect, so that lag does not become overshoot.
 BodyVelocity RotateThenDrive::turn_to(double heading_rad, double done_rad, const Pose2& pose) const {
   if (std::abs(last_.forward_mps) > 0.5 * options_.min_forward_mps) return {};
   const double error = wrap_angle(heading_rad - pose.yaw_rad);
-  const double left = wrap_angle(error - last_.turn_radps * options_.response_s);
+  const double left = wrap_angle(error - pending_rad_);
   if (std::abs(left) <= 0.5 * done_rad) return {};
   const double speed =
       approach_speed(std::abs(left), options_.braking_share * options_.max_turn_acceleration_radps2,
@@ -133,13 +147,13 @@ BodyVelocity RotateThenDrive::turn_to(double heading_rad, double done_rad, const
 
 /// Straight along the leg: the heading wanted leads back to it, the speed leaves room to brake.
 BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose) const {
-  const double left_m = remaining_m(pose) - last_.forward_mps * options_.response_s;
+  const double left_m = remaining_m(pose) - pending_m_;
   const double leg_heading = leg_heading_rad();
   const Vec2 ahead(std::cos(leg_heading), std::sin(leg_heading));
   const Vec2 from_target = pose.position_m - target_m();
   const double beside_m = ahead.x() * from_target.y() - ahead.y() * from_target.x();
   const double wanted_heading = leg_heading - std::atan(options_.lateral_gain_per_m * beside_m);
-  const double error = wrap_angle(wanted_heading - pose.yaw_rad - last_.turn_radps * options_.response_s);
+  const double error = wrap_angle(wanted_heading - pose.yaw_rad - pending_rad_);
   if (left_m <= 0.25 * epsilon_m()) return {};
   const double speed = approach_speed(left_m, options_.braking_share * options_.max_acceleration_mps2,
                                       options_.min_forward_mps, options_.max_forward_mps);
@@ -148,16 +162,24 @@ BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose) const {
   return {speed * std::max(std::cos(error), 0.0), turn};
 }
 
-BodyVelocity RotateThenDrive::limited(const BodyVelocity& wanted, Duration elapsed) const {
+BodyVelocity RotateThenDrive::command(const BodyVelocity& wanted, Duration elapsed) {
   constexpr double longest_s = 0.1;  // after a pause the robot must not leap
   const double elapsed_s = std::clamp(seconds(elapsed), 0.0, longest_s);
   const BodyVelocity reachable = within_wheel_limit(wanted, options_.track_width_m, options_.max_wheel_mps);
-  return {stepped(last_.forward_mps, reachable.forward_mps, options_.max_acceleration_mps2 * elapsed_s),
-          stepped(last_.turn_radps, reachable.turn_radps, options_.max_turn_acceleration_radps2 * elapsed_s)};
+  last_ = {
+      stepped(last_.forward_mps, reachable.forward_mps, options_.max_acceleration_mps2 * elapsed_s),
+      stepped(last_.turn_radps, reachable.turn_radps, options_.max_turn_acceleration_radps2 * elapsed_s)};
+  pending_m_ = pending_after(pending_m_, last_.forward_mps, options_.response_s, elapsed_s);
+  pending_rad_ = pending_after(pending_rad_, last_.turn_radps, options_.response_s, elapsed_s);
+  return last_;
 }
 
+/// Nothing is commanded, and what was has come into effect but for a trace.
 bool RotateThenDrive::at_rest() const {
-  return last_.forward_mps == 0.0 && last_.turn_radps == 0.0;
+  const bool commanded = last_.forward_mps != 0.0 || last_.turn_radps != 0.0;
+  const double trace_m = 0.2 * options_.arrival_distance_m;
+  const double trace_rad = 0.4 * options_.turn_done_rad;
+  return !commanded && std::abs(pending_m_) <= trace_m && std::abs(pending_rad_) <= trace_rad;
 }
 
 double RotateThenDrive::epsilon_m() const {

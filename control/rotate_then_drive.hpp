@@ -25,6 +25,7 @@ struct DriveOptions {
   double turn_again_rad = radians(20.0);  ///< a leg's heading error from which the robot stops to rotate anew
   double heading_gain_per_s = 2.5;        ///< heading correction while driving
   double lateral_gain_per_m = 2.5;        ///< heading wanted towards the leg, per metre beside it
+  double passed_distance_m = 0.015;       ///< not worth turning back to a goal passed this near
   int max_approaches = 4;  ///< tries at the goal's epsilon before coming this near counts as arrival
 };
 
@@ -33,8 +34,8 @@ std::string_view to_string(DrivePhase phase);
 
 /// The paper's closed loop (section 6.3): rotate towards the next waypoint (Eq. (18), with atan2 and
 /// wrapped), drive straight until the distance is within epsilon (Eq. (19)), correcting heading and lateral
-/// error on the way; at the end turn to the final heading. A value type whose state is which leg, which phase
-/// and the last command.
+/// error on the way; at the end turn to the final heading. A value type whose state is which leg, which
+/// phase, the last command and what of the commands is still to come into effect.
 class RotateThenDrive {
  public:
   RotateThenDrive(Path path, std::optional<double> final_heading_rad, const DriveOptions& options = {});
@@ -53,12 +54,13 @@ class RotateThenDrive {
   void next_phase(const Pose2& pose);
   void next_phase_rotating(const Pose2& pose);
   void next_phase_driving(const Pose2& pose);
+  void begin_turn();
   void end_leg(const Pose2& pose);
   void next_phase_final(const Pose2& pose);
 
   [[nodiscard]] BodyVelocity turn_to(double heading_rad, double done_rad, const Pose2& pose) const;
   [[nodiscard]] BodyVelocity drive_leg(const Pose2& pose) const;
-  [[nodiscard]] BodyVelocity limited(const BodyVelocity& wanted, Duration elapsed) const;
+  BodyVelocity command(const BodyVelocity& wanted, Duration elapsed);
   [[nodiscard]] bool at_rest() const;
   [[nodiscard]] bool on_last_leg() const { return target_ + 1 >= path_.waypoints_m.size(); }
   [[nodiscard]] const Vec2& target_m() const { return path_.waypoints_m[target_]; }
@@ -72,8 +74,11 @@ class RotateThenDrive {
   DrivePhase phase_ = DrivePhase::rotating;
   std::size_t target_ = 0;  ///< index of the waypoint driven to
   Vec2 leg_start_m_ = Vec2::Zero();
-  int approaches_ = 0;  ///< to the goal
+  std::optional<double> turn_heading_rad_;  ///< fixed when a turn to a waypoint begins
+  int approaches_ = 0;                      ///< to the goal
   BodyVelocity last_;
+  double pending_m_ = 0.0;    ///< way that was commanded and has not come into effect yet
+  double pending_rad_ = 0.0;  ///< likewise of turns
 };
 
 }  // namespace lodestar

@@ -6,12 +6,15 @@
 namespace lodestar {
 namespace {
 
-bool is_too_uncertain(const Eigen::Matrix3d& covariance, const SafetyStopOptions& options) {
-  if (!covariance.allFinite()) return true;
+/// Asked so that a broken covariance, not finite or with a variance below zero, counts as uncertain.
+bool is_certain(const Eigen::Matrix3d& covariance, const SafetyStopOptions& options) {
+  if (!covariance.allFinite()) return false;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance.topLeftCorner<2, 2>(),
                                                               Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(solver.eigenvalues()[1], 0.0)) > options.max_position_sigma_m ||
-         std::sqrt(covariance(2, 2)) > options.max_heading_sigma_rad;
+  const double rounding = 1e-12;
+  return solver.eigenvalues()[0] >= -rounding && covariance(2, 2) >= -rounding &&
+         solver.eigenvalues()[1] <= options.max_position_sigma_m * options.max_position_sigma_m &&
+         covariance(2, 2) <= options.max_heading_sigma_rad * options.max_heading_sigma_rad;
 }
 
 }  // namespace
@@ -37,7 +40,7 @@ std::optional<StopReason> reason_to_stop(Stamp now, const std::optional<PoseEsti
   if (now - estimate->last_fix > options.max_time_without_fix) return StopReason::pose_stale;
   const bool finite =
       estimate->map_from_base.position_m.allFinite() && std::isfinite(estimate->map_from_base.yaw_rad);
-  if (!finite || is_too_uncertain(estimate->covariance, options)) return StopReason::pose_uncertain;
+  if (!finite || !is_certain(estimate->covariance, options)) return StopReason::pose_uncertain;
   return std::nullopt;
 }
 

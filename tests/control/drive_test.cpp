@@ -14,11 +14,12 @@ namespace {
 
 constexpr double period_s = 0.02;
 
-/// A base with 80 ms of motor lag, 40 ms of latency, one wheel larger than the other, and a noisy pose.
+/// A base with 80 ms of motor lag, 40 ms of latency if not told otherwise, one wheel larger than the other,
+/// and a noisy pose.
 struct Plant {
   Pose2 truth;
   WheelSpeeds wheels;
-  std::deque<BodyVelocity> pending{2, BodyVelocity{}};
+  std::deque<BodyVelocity> pending = std::deque<BodyVelocity>(2);
   Random random{1};
 
   PoseEstimate sensed() {
@@ -49,15 +50,22 @@ struct Drive {
   double time_s = 0.0;
   Pose2 end;
   std::vector<double> beside_m;
+  int starts = 0;  ///< from a command to stand to one to move
   double most_acceleration_mps2 = 0.0;
   double most_turn_acceleration_radps2 = 0.0;
 };
 
-Drive drive(const Path& path, std::optional<double> heading, double start_heading, std::uint64_t seed) {
+bool is_zero(const BodyVelocity& velocity) {
+  return velocity.forward_mps == 0.0 && velocity.turn_radps == 0.0;
+}
+
+Drive drive(const Path& path, std::optional<double> heading, double start_heading, std::uint64_t seed,
+            std::size_t latency_periods = 2) {
   const DriveOptions options;
   RotateThenDrive controller(path, heading, options);
   Plant plant{.truth = {path.waypoints_m.front(), start_heading}};
   plant.random = Random(seed);
+  plant.pending.assign(latency_periods, {});
   Drive result;
   BodyVelocity last;
   for (int step = 0; step < 10000 && !controller.arrived(); ++step) {
@@ -66,6 +74,7 @@ Drive drive(const Path& path, std::optional<double> heading, double start_headin
         std::max(result.most_acceleration_mps2, std::abs(command.forward_mps - last.forward_mps) / period_s);
     result.most_turn_acceleration_radps2 = std::max(
         result.most_turn_acceleration_radps2, std::abs(command.turn_radps - last.turn_radps) / period_s);
+    if (is_zero(last) && !is_zero(command)) ++result.starts;
     last = command;
     plant.run(command);
     result.beside_m.push_back(distance_to_path_m(path, plant.truth.position_m));
@@ -97,18 +106,52 @@ TEST(RotateThenDrive, arrives_on_random_paths_without_leaving_them) {
     const double start_heading = random.uniform(-3.1, 3.1);
     const Drive result = drive(path, heading, start_heading, seed);
     ASSERT_TRUE(result.arrived) << "seed " << seed;
-    EXPECT_LT((result.end.position_m - path.waypoints_m.back()).norm(), 0.02) << "seed " << seed;
-    EXPECT_LT(std::abs(wrap_angle(result.end.yaw_rad - heading)), radians(2.0)) << "seed " << seed;
+    EXPECT_LT((result.end.position_m - path.waypoints_m.back()).norm(), 0.012) << "seed " << seed;
+    EXPECT_LT(std::abs(wrap_angle(result.end.yaw_rad - heading)), radians(1.2)) << "seed " << seed;
     EXPECT_LE(result.most_acceleration_mps2, 0.5 + 1e-9);
     EXPECT_LE(result.most_turn_acceleration_radps2, 2.0 + 1e-9);
-    // Within a half more than the perfect robot needs, and two seconds for every stop.
+    // A turn and a leg for every waypoint but the first, and the last turn; each may be mended once.
+    const auto moves = static_cast<double>(2 * path.waypoints_m.size() - 1);
+    EXPECT_LE(result.starts, 2.0 * moves) << "seed " << seed;
     const double ideal_s = ideal_travel_time_s(path, start_heading, heading, {});
-    EXPECT_LT(result.time_s, 1.5 * ideal_s + 2.0 * static_cast<double>(path.waypoints_m.size()))
-        << "seed " << seed;
+    EXPECT_LT(result.time_s, ideal_s + 0.3 * moves) << "seed " << seed;
     beside.insert(beside.end(), result.beside_m.begin(), result.beside_m.end());
   }
   std::ranges::sort(beside);
-  EXPECT_LT(beside[beside.size() * 95 / 100], 0.02);
+  EXPECT_LT(beside[beside.size() * 95 / 100], 0.01);
+}
+
+// The controller is told one response time; the base may be slower or quicker.
+TEST(RotateThenDrive, neither_misses_nor_hunts_when_the_latency_is_another) {
+  for (const std::size_t latency_periods : {0U, 1U, 3U, 4U}) {
+    Random random(4);
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+      const Path path = random_path(random);
+      const double heading = random.uniform(-3.1, 3.1);
+      const double start_heading = random.uniform(-3.1, 3.1);
+      const Drive result = drive(path, heading, start_heading, seed, latency_periods);
+      ASSERT_TRUE(result.arrived) << "seed " << seed;
+      EXPECT_LT((result.end.position_m - path.waypoints_m.back()).norm(), 0.015);
+      EXPECT_LT(std::abs(wrap_angle(result.end.yaw_rad - heading)), radians(1.5));
+      const double ideal_s = ideal_travel_time_s(path, start_heading, heading, {});
+      EXPECT_LT(result.time_s, ideal_s + 1.0 * static_cast<double>(path.waypoints_m.size()))
+          << "seed " << seed << ", " << latency_periods << " periods";
+    }
+  }
+}
+
+// The pose jumps sideways just before the goal, as after a first good fix for long.
+TEST(RotateThenDrive, comes_back_to_a_goal_it_was_led_past) {
+  const Path path{{Vec2::Zero(), Vec2(1.0, 0.0)}};
+  RotateThenDrive controller(path, std::nullopt);
+  Plant plant;
+  for (int step = 0; step < 3000 && !controller.arrived(); ++step) {
+    PoseEstimate estimate = plant.sensed();
+    if (step < 150) estimate.map_from_base.position_m -= Vec2(0.06, 0.04);
+    plant.run(controller.update(estimate, from_seconds(period_s)));
+  }
+  EXPECT_TRUE(controller.arrived());
+  EXPECT_LT((plant.truth.position_m - Vec2(1.0, 0.0)).norm(), 0.02);
 }
 
 TEST(RotateThenDrive, does_not_overshoot_a_turn) {
@@ -201,6 +244,12 @@ TEST(SafetyStop, names_what_is_missing) {
   PoseEstimate turned = good;
   turned.covariance(2, 2) = 0.1;
   EXPECT_EQ(reason_to_stop(now, turned, {}), StopReason::pose_uncertain);
+  PoseEstimate impossible = good;
+  impossible.covariance(2, 2) = -0.1;
+  EXPECT_EQ(reason_to_stop(now, impossible, {}), StopReason::pose_uncertain);
+  PoseEstimate slanted = good;  // along the diagonal 5.5 cm, along each axis less than 4
+  slanted.covariance.topLeftCorner<2, 2>() << 0.0015125, 0.0015, 0.0015, 0.0015125;
+  EXPECT_EQ(reason_to_stop(now, slanted, {}), StopReason::pose_uncertain);
   PoseEstimate broken = good;
   broken.map_from_base.yaw_rad = std::nan("");
   EXPECT_EQ(reason_to_stop(now, broken, {}), StopReason::pose_uncertain);
