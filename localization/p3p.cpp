@@ -1,6 +1,6 @@
 #include "localization/p3p.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -71,37 +71,50 @@ RealRoots cubic_roots(double b, double c, double d) {
   return roots;
 }
 
-/// The two planes through the origin into which a degenerate form falls apart; nothing when they are not
-/// real.
-struct PlanePair {
-  Vec3 first;
-  Vec3 second;
-  double quality = 0.0;  ///< how far both are from falling together
+/// A form of rank two and the line in which its two planes through the origin meet.
+struct DegenerateForm {
+  Mat3 form;
+  Mat3 adjugate;  ///< -v v^T with v = p x q / 2 of the planes p and q
+  /// How far the planes are from falling together; not positive when they are not real.
+  [[nodiscard]] double quality() const { return -adjugate.trace() / form.squaredNorm(); }
 };
 
-std::optional<PlanePair> planes_of(const Mat3& form) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(form);
-  const Vec3& values = solver.eigenvalues();  // ascending; the one nearest to zero is the middle one
-  if (!(values[0] < 0.0 && values[2] > 0.0)) return std::nullopt;
-  const Vec3 up = std::sqrt(values[2]) * solver.eigenvectors().col(2);
-  const Vec3 down = std::sqrt(-values[0]) * solver.eigenvectors().col(0);
-  const double quality = std::min(values[2], -values[0]) / std::max(values[2], -values[0]);
-  return PlanePair{up + down, up - down, quality};
+/// The degenerate form of the pencil that the two homogeneous equations span whose planes are farthest apart;
+/// nothing when none has real planes.
+std::optional<DegenerateForm> best_degenerate_form(const Mat3& first, const Mat3& second) {
+  const Mat3 adjugate_of_second = adjugate(second);
+  const double leading = second.row(0).dot(adjugate_of_second.col(0));
+  if (leading == 0.0) return DegenerateForm{second, adjugate_of_second};
+  const Mat3 adjugate_of_first = adjugate(first);
+  const RealRoots roots = cubic_roots(first.cwiseProduct(adjugate_of_second).sum() / leading,
+                                      adjugate_of_first.cwiseProduct(second).sum() / leading,
+                                      first.row(0).dot(adjugate_of_first.col(0)) / leading);
+  std::optional<DegenerateForm> best;
+  for (std::size_t i = 0; i < roots.count; ++i) {
+    const Mat3 form = first + roots.values[i] * second;
+    const DegenerateForm candidate{form, adjugate(form)};
+    if (!best || candidate.quality() > best->quality()) best = candidate;
+  }
+  return best->quality() > 0.0 ? best : std::nullopt;
 }
 
-/// A degenerate form of the pencil that the two homogeneous equations span, taken apart.
-std::optional<PlanePair> best_planes(const Mat3& first, const Mat3& second) {
-  const double leading = second.determinant();
-  if (leading == 0.0) return planes_of(second);
-  const RealRoots roots =
-      cubic_roots((first * adjugate(second)).trace() / leading, (adjugate(first) * second).trace() / leading,
-                  first.determinant() / leading);
-  std::optional<PlanePair> best;
-  for (std::size_t i = 0; i < roots.count; ++i) {
-    const std::optional<PlanePair> planes = planes_of(first + roots.values[i] * second);
-    if (planes && (!best || planes->quality > best->quality)) best = planes;
-  }
-  return best;
+/// Normals of the planes into which a form falls apart: with v = p x q / 2 the matrix p q^T is the form
+/// (p q^T + q p^T) / 2 and the antisymmetric matrix of v, up to the sign, which only swaps p and q.
+std::array<Vec3, 2> planes_of(const DegenerateForm& degenerate) {
+  Eigen::Index k = 0;
+  const double squared = -degenerate.adjugate.diagonal().minCoeff(&k);
+  const Vec3 v = degenerate.adjugate.col(k) / std::sqrt(squared);
+  Mat3 product = degenerate.form;
+  product(0, 1) -= v.z();
+  product(0, 2) += v.y();
+  product(1, 0) += v.z();
+  product(1, 2) -= v.x();
+  product(2, 0) -= v.y();
+  product(2, 1) += v.x();
+  Eigen::Index row = 0;
+  Eigen::Index column = 0;
+  product.cwiseAbs().maxCoeff(&row, &column);
+  return {Vec3(product.col(column)), Vec3(product.row(row))};
 }
 
 /// Where the form vanishes on the plane: up to two directions of the three depths.
@@ -131,25 +144,26 @@ Vec3 residual_of(const Triangle& triangle, const Vec3& depths) {
   return residual;
 }
 
-/// Newton's method on Eq. (10), damped where two solutions nearly fall together.
+/// Newton's method on Eq. (10). Where two solutions nearly fall together it halves the distance to them.
 std::optional<Vec3> polished(const Triangle& triangle, Vec3 depths) {
-  const double size = triangle.squared_sides.sum();
+  constexpr double rounding = 2e-15;  // of the squared depths
   for (int iteration = 0; iteration < 8; ++iteration) {
     const Vec3 residual = residual_of(triangle, depths);
-    if (residual.cwiseAbs().maxCoeff() < 1e-14 * size) break;
+    if (residual.cwiseAbs().maxCoeff() < rounding * depths.squaredNorm()) break;
     Mat3 jacobian = Mat3::Zero();
     for (Eigen::Index k = 0; k < 3; ++k) {
       const auto [i, j] = pairs[static_cast<std::size_t>(k)];
       jacobian(k, i) = 2.0 * (depths[i] - triangle.cosines[k] * depths[j]);
       jacobian(k, j) = 2.0 * (depths[j] - triangle.cosines[k] * depths[i]);
     }
-    Mat3 normal = jacobian.transpose() * jacobian;
-    normal.diagonal().array() += 1e-14 * normal.trace();
-    depths -= normal.ldlt().solve(jacobian.transpose() * residual);
+    const Vec3 step = jacobian.inverse() * residual;
+    if (!step.allFinite()) break;
+    depths -= step;
   }
   constexpr double tolerance = 1e-6;  // of the squared sides: a double root that noise has parted stays near
-  const bool good = depths.allFinite() && (depths.array() > 0.0).all() &&
-                    residual_of(triangle, depths).cwiseAbs().maxCoeff() < tolerance * size;
+  const bool good =
+      depths.allFinite() && (depths.array() > 0.0).all() &&
+      residual_of(triangle, depths).cwiseAbs().maxCoeff() < tolerance * triangle.squared_sides.sum();
   return good ? std::optional(depths) : std::nullopt;
 }
 
@@ -212,9 +226,9 @@ P3pSolutions solve_p3p(const std::array<Vec3, 3>& rays, const std::array<Vec3, 3
   const Mat3 first = side_form(triangle, 0) * a[2] - side_form(triangle, 2) * a[0];
   const Mat3 second = side_form(triangle, 1) * a[2] - side_form(triangle, 2) * a[1];
   if (!first.allFinite() || !second.allFinite()) return solutions;
-  const std::optional<PlanePair> planes = best_planes(first, second);
-  if (!planes) return solutions;
-  for (const Vec3& plane : {planes->first, planes->second}) {
+  const std::optional<DegenerateForm> degenerate = best_degenerate_form(first, second);
+  if (!degenerate) return solutions;
+  for (const Vec3& plane : planes_of(*degenerate)) {
     for (const std::optional<Vec3>& direction : directions_on(plane, second)) {
       if (!direction) continue;
       const std::optional<Vec3> depths = depths_along(triangle, *direction);
