@@ -16,6 +16,10 @@ target_include_directories(lodestar_properties INTERFACE ${PROJECT_SOURCE_DIR})
 # A field left out of a designated initializer takes the default that its struct gives it: meant so.
 target_compile_options(lodestar_properties INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
   -Wno-missing-field-initializers)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  # libstdc++ 12 calls its own deprecated temporary buffers in std::stable_sort.
+  target_compile_options(lodestar_properties INTERFACE -Wno-deprecated-declarations)
+endif()
 if(LODESTAR_SANITIZE)
   target_compile_options(lodestar_properties INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(lodestar_properties INTERFACE -fsanitize=address,undefined)
@@ -31,11 +35,19 @@ function(lodestar_library name)
   target_link_libraries(lodestar_${name} PUBLIC lodestar_properties ${ARG_USES})
 endfunction()
 
-# lodestar_test(NAME SOURCES ... USES ...): the tests of one folder in one program.
+# lodestar_test(NAME SOURCES ... USES ... [SLOW PATTERN]): the tests of one folder in one program. Those that match
+# the pattern carry the label slow; the sanitizers leave them out.
 function(lodestar_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "" "SLOW" "SOURCES;USES" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
   target_link_libraries(${name}_test PRIVATE lodestar_properties ${ARG_USES} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE LODESTAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name}_test WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(discovery WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT 60)
+  if(ARG_SLOW)
+    gtest_discover_tests(${name}_test ${discovery} TEST_FILTER -${ARG_SLOW} PROPERTIES TIMEOUT 600)
+    gtest_discover_tests(${name}_test ${discovery} TEST_FILTER ${ARG_SLOW} TEST_LIST ${name}_slow
+      PROPERTIES TIMEOUT 600 LABELS slow)
+  else()
+    gtest_discover_tests(${name}_test ${discovery} PROPERTIES TIMEOUT 600)
+  endif()
 endfunction()
