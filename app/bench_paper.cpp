@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "drivers/image_former.hpp"
-#include "localization/paper_detector.hpp"
+#include "localization/marker_detector.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 

@@ -8,7 +8,7 @@
 #include "control/rotate_then_drive.hpp"
 #include "control/safety_stop.hpp"
 #include "drivers/base_driver.hpp"
-#include "localization/paper_detector.hpp"
+#include "localization/marker_detector.hpp"
 #include "localization/pose_filter.hpp"
 #include "localization/pose_fix.hpp"
 #include "maps/frame.hpp"
@@ -25,7 +25,7 @@ struct KnownWorld {
 };
 
 struct NavigationOptions {
-  PaperDetectorOptions detector;
+  DetectorOptions detector;
   PoseFixOptions fix;
   PoseFilterOptions filter;
   GridPlannerOptions planner;

@@ -12,46 +12,38 @@
 namespace lodestar {
 namespace {
 
-constexpr int block = 64;  // pixels looked at in one go: one bit each
+constexpr int tile = LocalThresholds::tile_px;
 
-/// Bit i is set when pixel i is bright.
-std::uint64_t bright_bits(const std::uint8_t* pixels, int count, std::uint8_t threshold) {
-  std::uint64_t bits = 0;
+/// Bit i is set when pixel i of a tile's row is bright.
+std::uint32_t bright_bits(const std::uint8_t* pixels, int count, std::uint8_t threshold) {
 #if CV_SIMD128
-  if (count == block) {
+  if (count == tile) {
     const cv::v_uint8x16 limit = cv::v_setall_u8(threshold);
-    const cv::v_uint8x16 a = cv::v_load(pixels);
-    const cv::v_uint8x16 b = cv::v_load(pixels + 16);
-    const cv::v_uint8x16 c = cv::v_load(pixels + 32);
-    const cv::v_uint8x16 d = cv::v_load(pixels + 48);
-    if (!cv::v_check_any(cv::v_max(cv::v_max(a, b), cv::v_max(c, d)) >= limit)) return 0;
-    const auto part = [&](const cv::v_uint8x16& v) {
-      return static_cast<std::uint64_t>(static_cast<std::uint32_t>(cv::v_signmask(v >= limit)));
+    const auto part = [&](int from) {
+      return static_cast<std::uint32_t>(cv::v_signmask(cv::v_load(pixels + from) >= limit));
     };
-    return part(a) | part(b) << 16U | part(c) << 32U | part(d) << 48U;
+    return part(0) | part(16) << 16U;
   }
 #endif
-  for (int i = 0; i < count; ++i) bits |= static_cast<std::uint64_t>(pixels[i] >= threshold) << i;
+  std::uint32_t bits = 0;
+  for (int i = 0; i < count; ++i) bits |= static_cast<std::uint32_t>(pixels[i] >= threshold) << i;
   return bits;
 }
 
-void append_runs_of_row(const std::uint8_t* pixels, int width, int row, std::uint8_t threshold,
-                        std::vector<Run>& runs) {
-  std::uint64_t last = 0;  // was the pixel before this block bright?
-  for (int u = 0; u < width; u += block) {
-    const std::uint64_t bits = bright_bits(pixels + u, std::min(block, width - u), threshold);
-    std::uint64_t changes = bits ^ ((bits << 1U) | last);
-    bool bright = last != 0;
-    last = bits >> 63U;
-    for (; changes != 0; changes &= changes - 1) {
-      const int where = u + std::countr_zero(changes);
-      if (bright) {
-        runs.back().end = where;
-      } else {
-        runs.push_back({row, where, width});
-      }
-      bright = !bright;
+/// Appends where bits change from 0 to 1 as a new run, and ends it where they change back or the bits end.
+void append_runs(std::uint32_t bits, int left, int count, int row, std::vector<Run>& runs) {
+  const bool goes_on = !runs.empty() && runs.back().row == row && runs.back().end == left;
+  std::uint32_t changes = bits ^ (bits << 1U | static_cast<std::uint32_t>(goes_on));
+  bool bright = goes_on;
+  if (goes_on) runs.back().end = left + count;
+  for (; changes != 0; changes &= changes - 1) {
+    const int where = left + std::countr_zero(changes);
+    if (bright) {
+      runs.back().end = where;
+    } else {
+      runs.push_back({row, where, left + count});
     }
+    bright = !bright;
   }
 }
 
@@ -75,8 +67,8 @@ std::size_t end_of_row(std::span<const Run> runs, std::size_t first) {
   return i;
 }
 
-DisjointSets touching_runs(std::span<const Run> runs) {
-  DisjointSets sets(runs.size());
+void join_touching_runs(std::span<const Run> runs, DisjointSets& sets) {
+  sets.reset(runs.size());
   std::size_t above = 0;
   std::size_t here = 0;
   while (here < runs.size()) {
@@ -87,7 +79,6 @@ DisjointSets touching_runs(std::span<const Run> runs) {
     above = here;
     here = here_end;
   }
-  return sets;
 }
 
 /// Area, box and second moments of one area's runs. A run of n pixels from u has the sums n, n * mean and
@@ -125,6 +116,26 @@ void measure(std::span<const Run> runs, BrightArea& area) {
   area.aspect_ratio = std::sqrt((half_sum + half_difference) / std::max(half_sum - half_difference, 1e-9));
 }
 
+/// Area n is made of the runs with that number.
+void collect_areas(std::span<const Run> runs, std::span<const std::size_t> numbers, BrightAreas& result) {
+  result.areas.clear();
+  for (const std::size_t n : numbers) {
+    if (n == result.areas.size()) result.areas.emplace_back();
+    ++result.areas[n].run_count;
+  }
+  std::size_t next = 0;
+  for (BrightArea& area : result.areas) {
+    area.first_run = next;
+    next += std::exchange(area.run_count, 0);
+  }
+  result.runs.resize(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    BrightArea& area = result.areas[numbers[i]];
+    result.runs[area.first_run + area.run_count++] = runs[i];
+  }
+  for (BrightArea& area : result.areas) measure(result.runs_of(area), area);
+}
+
 /// Runs that lie in `a` and, moved down by `rows`, in `b`. Both sorted, as is the result.
 std::vector<Run> intersection(std::span<const Run> a, std::span<const Run> b, int rows) {
   std::vector<Run> both;
@@ -147,36 +158,43 @@ std::vector<Run> intersection(std::span<const Run> a, std::span<const Run> b, in
 
 }  // namespace
 
-std::vector<Run> bright_runs(const cv::Mat& gray, int threshold) {
-  std::vector<Run> runs;
-  if (threshold > 255) return runs;
-  const auto limit = static_cast<std::uint8_t>(std::max(threshold, 0));
-  constexpr std::size_t usual = 1024;
-  runs.reserve(usual);
-  for (int v = 0; v < gray.rows; ++v) {
-    append_runs_of_row(gray.ptr<std::uint8_t>(v), gray.cols, v, limit, runs);
+const BrightAreas& BrightAreaFinder::find(const cv::Mat& gray, const LocalThresholds& thresholds) {
+  find_runs(gray, thresholds);
+  join_touching_runs(runs_, sets_);
+  sets_.number(numbers_);
+  collect_areas(runs_, numbers_, areas_);
+  return areas_;
+}
+
+void BrightAreaFinder::find_runs(const cv::Mat& gray, const LocalThresholds& thresholds) {
+  runs_.clear();
+  for (int tile_row = 0; tile_row < thresholds.tile_rows(); ++tile_row) {
+    active_.clear();
+    for (int column = 0; column < thresholds.tile_columns(); ++column) {
+      const std::uint8_t threshold = thresholds.of_tile(tile_row, column);
+      if (threshold != LocalThresholds::nothing_bright) active_.push_back({column, threshold});
+    }
+    if (active_.empty()) continue;
+    const int bottom = std::min((tile_row + 1) * tile, gray.rows);
+    for (int v = tile_row * tile; v < bottom; ++v) {
+      const auto* const pixels = gray.ptr<std::uint8_t>(v);
+      for (const ActiveTile& active : active_) {
+        const int left = active.column * tile;
+        const int count = std::min(tile, gray.cols - left);
+        const std::uint32_t bits = bright_bits(pixels + left, count, active.threshold);
+        if (bits != 0) append_runs(bits, left, count, v, runs_);
+      }
+    }
   }
-  return runs;
 }
 
 BrightAreas connected_areas(std::span<const Run> runs) {
-  const std::vector<std::size_t> number = touching_runs(runs).numbers();
+  DisjointSets sets;
+  join_touching_runs(runs, sets);
+  std::vector<std::size_t> numbers;
+  sets.number(numbers);
   BrightAreas result;
-  for (const std::size_t n : number) {
-    if (n == result.areas.size()) result.areas.emplace_back();
-    ++result.areas[n].run_count;
-  }
-  std::size_t next = 0;
-  for (BrightArea& area : result.areas) {
-    area.first_run = next;
-    next += std::exchange(area.run_count, 0);
-  }
-  result.runs.resize(runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    BrightArea& area = result.areas[number[i]];
-    result.runs[area.first_run + area.run_count++] = runs[i];
-  }
-  for (BrightArea& area : result.areas) measure(result.runs_of(area), area);
+  collect_areas(runs, numbers, result);
   return result;
 }
 

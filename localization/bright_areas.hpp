@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "localization/disjoint_sets.hpp"
+#include "localization/local_threshold.hpp"
+
 // The thresholded frame as runs of bright pixels. A frame of dots is nearly all dark, so runs hold the same
 // binary image as Fig. 2b in a few hundred numbers, and all that follows touches bright pixels only.
 namespace lodestar {
@@ -16,9 +19,6 @@ struct Run {
   int end = 0;
   friend bool operator==(const Run&, const Run&) = default;
 };
-
-/// The bright pixels (gray value >= threshold) of a CV_8UC1 frame, by row, then by column.
-std::vector<Run> bright_runs(const cv::Mat& gray, int threshold);
 
 /// One connected area: a stretch of BrightAreas::runs, and what its pixels sum up to.
 struct BrightArea {
@@ -41,6 +41,32 @@ struct BrightAreas {
   [[nodiscard]] std::span<const Run> runs_of(const BrightArea& area) const {
     return std::span(runs).subspan(area.first_run, area.run_count);
   }
+};
+
+/// Finds a frame's bright areas: pixels at or above their tile's threshold that touch, corners included. Keeps
+/// its memory from frame to frame.
+class BrightAreaFinder {
+ public:
+  /// `gray` is CV_8UC1, of the size that the thresholds are for. The result holds until the next call.
+  const BrightAreas& find(const cv::Mat& gray, const LocalThresholds& thresholds);
+
+  [[nodiscard]] const BrightAreas& areas() const { return areas_; }
+
+  /// The bright pixels of the last frame, by row, then by column.
+  [[nodiscard]] std::span<const Run> runs() const { return runs_; }
+
+ private:
+  void find_runs(const cv::Mat& gray, const LocalThresholds& thresholds);
+
+  struct ActiveTile {
+    int column = 0;
+    std::uint8_t threshold = 0;
+  };
+  std::vector<ActiveTile> active_;  ///< of one row of tiles
+  std::vector<Run> runs_;
+  DisjointSets sets_;
+  std::vector<std::size_t> numbers_;
+  BrightAreas areas_;
 };
 
 /// Parts runs (by row, then by column) into areas of pixels that touch, corners included.

@@ -12,18 +12,20 @@ namespace lodestar {
 struct MarkerDot {
   GridCell cell;
   Vec2 center_px = Vec2::Zero();
+  double sigma_px = 0.0;  ///< standard deviation of each coordinate by the frame's noise; 0: not known
 };
 
 /// A marker that was seen and decoded.
 struct DetectedMarker {
   int id = 0;
-  double confidence = 0.0;  ///< P(S) of Eq. (3)
+  double probability = 0.0;  ///< that the ID is right, by the evidence of all cells
+  double confidence = 0.0;   ///< P(S) of Eq. (3)
   Vec2 center_px =
       Vec2::Zero();  ///< centre of the marker's area, whose distance to the image centre ranks it
   Vec2 o_px = Vec2::Zero();
   Vec2 x_px = Vec2::Zero();
   Vec2 y_px = Vec2::Zero();
-  std::vector<MarkerDot> dots;  ///< all dots, O, X and Y among them
+  std::vector<MarkerDot> dots;  ///< those that were seen; O, X and Y among them as a rule
 };
 
 }  // namespace lodestar

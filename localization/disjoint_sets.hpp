@@ -10,7 +10,11 @@ namespace lodestar {
 /// The root of a set is its first member.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
+  explicit DisjointSets(std::size_t count = 0) { reset(count); }
+
+  /// Forgets all; each of `count` things is a set of its own again.
+  void reset(std::size_t count) {
+    parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
 
@@ -30,14 +34,13 @@ class DisjointSets {
   }
 
   /// The number of each thing's set; sets are numbered by their first members.
-  std::vector<std::size_t> numbers() {
-    std::vector<std::size_t> number(parent_.size());
+  void number(std::vector<std::size_t>& numbers) {
+    numbers.resize(parent_.size());
     std::size_t sets = 0;
     for (std::size_t i = 0; i < parent_.size(); ++i) {
       const std::size_t first = root(i);
-      number[i] = first == i ? sets++ : number[first];
+      numbers[i] = first == i ? sets++ : numbers[first];
     }
-    return number;
   }
 
  private:

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "localization/bright_areas.hpp"
+#include "localization/disc_light.hpp"
+#include "localization/local_threshold.hpp"
 #include "maps/geometry.hpp"
 
 namespace lodestar {
@@ -12,31 +16,50 @@ namespace lodestar {
 /// One bright dot of a frame.
 struct Dot {
   Vec2 center_px = Vec2::Zero();
+  double sigma_px = 0.0;         ///< standard deviation of each coordinate that the frame's noise causes
   double radius_px = 0.0;        ///< of a uniform disc with the same light; blur does not change it
   double background_gray = 0.0;  ///< around the dot
   double contrast_gray = 0.0;    ///< of its middle over the background
+  std::size_t area = 0;          ///< index of the bright area that it was found in
 };
 
 struct DotOptions {
-  int threshold = 200;       ///< gray value from which a pixel is bright (Fig. 2b)
-  double min_area_px = 1.0;  ///< smaller bright areas are noise; faint small dots are a pixel or two
-  double min_radius_px =
-      1.3;  ///< of the light, not of the bright pixels: smaller dots are hot pixels and glints
-  double max_area_px = 400.0;     ///< larger ones are tubes and lamps
+  std::optional<int> fixed_threshold;  ///< gray value (1..255) from which a pixel is bright, instead of:
+  LocalThresholdOptions threshold;
+  bool by_binary_center = false;  ///< the paper's centre: that of the bright pixels, whatever their gray
+  double noise_gray = 4.0;        ///< standard deviation of a pixel, for the dots' sigma
+  double min_area_px = 1.0;       ///< smaller bright areas are noise; faint small dots are a pixel or two
+  double min_radius_px = 0.7;     ///< of the light, not of the bright pixels: smaller dots are hot pixels
+  double max_area_px = 900.0;     ///< larger ones are tubes and lamps
   double max_aspect_ratio = 2.2;  ///< longer ones are tubes
   int erosion_px = 3;             ///< arm to arm of the cross that parts dots which touch; odd
-  double tail_px = 2.5;           ///< how far a dot's blurred edge reaches beyond its bright pixels
-  double center_margin_px = 0.8;  ///< light within so much of the dot's edge counts for its centre
+  double tail_px = 1.7;           ///< how far a dot's blurred edge reaches beyond its bright pixels
+  EdgeOptions edge;
 };
 
-/// The dots of a frame, and the eroded binary image (Fig. 2d) that each of them leaves.
-struct DotImage {
-  std::vector<Dot> dots;
-  std::vector<std::vector<Run>> eroded;  ///< for each dot
-};
+/// Finds the dots of a frame: threshold, limits on area and aspect ratio, erosion where dots touch (paper,
+/// section 4.1), and the dots' centres. Keeps its memory from frame to frame.
+class DotFinder {
+ public:
+  explicit DotFinder(const DotOptions& options = {}) : options_(options) {}
 
-/// Threshold, limits on area and aspect ratio, erosion, and the dots' centres (paper, section 4.1). Dots that
-/// the frame's border cuts are left out. `gray` is CV_8UC1.
-DotImage find_dots(const cv::Mat& gray, const DotOptions& options);
+  /// Dots that the frame's border cuts are left out. `gray` is CV_8UC1. The result holds until the next call.
+  std::span<const Dot> find(const cv::Mat& gray);
+
+  /// The last frame's pixels of the dot's bright area.
+  [[nodiscard]] std::span<const Run> pixels_of(const Dot& dot) const {
+    const BrightAreas& areas = area_finder_.areas();
+    return areas.runs_of(areas.areas[dot.area]);
+  }
+
+ private:
+  void append_dots_of_area(const cv::Mat& gray, std::size_t index);
+  void append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index);
+
+  DotOptions options_;
+  LocalThresholds thresholds_;
+  BrightAreaFinder area_finder_;
+  std::vector<Dot> dots_;
+};
 
 }  // namespace lodestar

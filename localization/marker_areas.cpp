@@ -48,7 +48,8 @@ std::vector<std::vector<std::size_t>> dilated_areas(std::span<const Dot> dots,
     }
   }
   std::vector<std::vector<std::size_t>> areas;
-  const std::vector<std::size_t> number = sets.numbers();
+  std::vector<std::size_t> number;
+  sets.number(number);
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] == areas.size()) areas.emplace_back();
     areas[number[i]].push_back(i);

@@ -57,12 +57,13 @@ bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
   const double radius_px =
       (dots[direction.o].radius_px + dots[direction.x].radius_px + dots[direction.y].radius_px) / 3.0;
   return nearly_equal(std::sqrt(area) / (marker_grid_size - 1), radii_per_pitch * radius_px,
-                      options.size_tolerance);
+                      options.size_tolerance + options.alike_tolerance_px / radius_px);
 }
 
-bool sizes_are_alike(std::span<const Dot> dots, double tolerance) {
+bool sizes_are_alike(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
   const auto [small, large] = std::ranges::minmax(dots, {}, &Dot::radius_px);
-  return nearly_equal(small.radius_px, large.radius_px, tolerance);
+  return large.radius_px - small.radius_px <=
+         options.alike_tolerance * small.radius_px + options.alike_tolerance_px;
 }
 
 /// One cell for each dot; nothing when a dot has none, or another dot's, or the corner that is always empty.
@@ -76,7 +77,7 @@ std::vector<MarkerDot> dots_in_cells(std::span<const Dot> dots, const MarkerGrid
     bool& cell_taken = taken[static_cast<std::size_t>(cell->row * marker_grid_size + cell->column)];
     if (cell_taken) return {};
     cell_taken = true;
-    result.push_back({*cell, dot.center_px});
+    result.push_back({*cell, dot.center_px, dot.sigma_px});
   }
   return result;
 }
@@ -204,7 +205,7 @@ int id_of(std::span<const MarkerDot> dots) {
 
 std::optional<MarkerReading> read_marker(std::span<const Dot> dots, const DirectionDots& direction,
                                          const MarkerDecoderOptions& options) {
-  if (!spans_a_grid(dots, direction, options) || !sizes_are_alike(dots, options.alike_tolerance)) {
+  if (!spans_a_grid(dots, direction, options) || !sizes_are_alike(dots, options)) {
     return std::nullopt;
   }
   const MarkerGrid through_direction_dots(dots[direction.o].center_px, dots[direction.x].center_px,

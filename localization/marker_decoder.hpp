@@ -17,7 +17,8 @@ struct MarkerDecoderOptions {
   double most_tilt_rad = radians(36.0);  ///< of the marker to the image, by how much it is foreshortened
   std::size_t least_dots_for_tilt = 5;   ///< fewer would fit too many grids, and must look upright
   double most_tilt_of_few_rad = radians(14.0);
-  double alike_tolerance = 0.12;  ///< how alike the dots' radii must be
+  double alike_tolerance = 0.1;      ///< how alike the dots' radii must be, as a share of them,
+  double alike_tolerance_px = 0.12;  ///< and besides, for dots of a few pixels
   double cell_tolerance =
       0.2;  ///< how far a dot may be from its cell, in pitches, before perspective is known
   double fit_tolerance = 0.08;  ///< and after

@@ -6,7 +6,7 @@
 #include "app/commands/command.hpp"
 #include "app/image_files.hpp"
 #include "app/overlay.hpp"
-#include "localization/paper_detector.hpp"
+#include "localization/marker_detector.hpp"
 
 namespace lodestar {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/overlay.hpp"
 #include "app/site.hpp"
 #include "localization/mount.hpp"
-#include "localization/paper_detector.hpp"
+#include "localization/marker_detector.hpp"
 #include "localization/pose_fix.hpp"
 #include "maps/input_error.hpp"
 

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "localization/bright_areas.hpp"
-#include "localization/paper_detector.hpp"
+#include "localization/marker_detector.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 
@@ -60,22 +60,28 @@ void threshold_alone(benchmark::State& state) {
 }
 BENCHMARK(threshold_alone)->Unit(benchmark::kMicrosecond);
 
-void threshold_as_runs(benchmark::State& state) {
+void local_thresholds(benchmark::State& state) {
   const cv::Mat frame = frame_of_three_markers();
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(bright_runs(frame, 200));
+  LocalThresholds thresholds;
+  for ([[maybe_unused]] auto _ : state) {
+    thresholds.find(frame, {});
+    benchmark::DoNotOptimize(thresholds.of_tile(0, 0));
+  }
 }
-BENCHMARK(threshold_as_runs)->Unit(benchmark::kMicrosecond);
+BENCHMARK(local_thresholds)->Unit(benchmark::kMicrosecond);
 
 void dots_of_a_frame(benchmark::State& state) {
   const cv::Mat frame = frame_of_three_markers();
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(find_dots(frame, {}));
+  DotFinder finder;
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(finder.find(frame).data());
 }
 BENCHMARK(dots_of_a_frame)->Unit(benchmark::kMicrosecond);
 
 void markers_of_a_frame(benchmark::State& state) {
   const cv::Mat frame = frame_of_three_markers();
+  MarkerDetector detector;
   for ([[maybe_unused]] auto _ : state) {
-    const std::vector<DetectedMarker> markers = detect_markers(frame);
+    const std::vector<DetectedMarker> markers = detector.detect(frame);
     if (markers.size() != 3) state.SkipWithError("a marker was not read");
     benchmark::DoNotOptimize(markers.data());
   }

@@ -26,6 +26,12 @@ cv::Mat thresholded(const cv::Mat& frame) {
   return binary;
 }
 
+LocalThresholds fixed_threshold(const cv::Mat& frame) {
+  LocalThresholds thresholds;
+  thresholds.set(frame.size(), 200);
+  return thresholds;
+}
+
 cv::Mat drawn(std::span<const Run> runs, cv::Size size) {
   cv::Mat image = cv::Mat::zeros(size, CV_8UC1);
   for (const Run& run : runs) image.row(run.row).colRange(run.begin, run.end) = 255;
@@ -45,11 +51,14 @@ class RandomFrames : public testing::TestWithParam<std::tuple<int, double>> {
 };
 
 TEST_P(RandomFrames, runs_are_the_thresholded_image) {
-  EXPECT_TRUE(same(drawn(bright_runs(frame_, 200), size_), thresholded(frame_)));
+  BrightAreaFinder finder;
+  finder.find(frame_, fixed_threshold(frame_));
+  EXPECT_TRUE(same(drawn(finder.runs(), size_), thresholded(frame_)));
 }
 
 TEST_P(RandomFrames, areas_are_those_of_opencv) {
-  const BrightAreas areas = connected_areas(bright_runs(frame_, 200));
+  BrightAreaFinder finder;
+  const BrightAreas& areas = finder.find(frame_, fixed_threshold(frame_));
   cv::Mat labels, stats, centers;
   const int count = cv::connectedComponentsWithStats(thresholded(frame_), labels, stats, centers, 8);
   ASSERT_EQ(static_cast<int>(areas.areas.size()), count - 1);
@@ -68,7 +77,8 @@ TEST_P(RandomFrames, areas_are_those_of_opencv) {
 }
 
 TEST_P(RandomFrames, erosion_area_by_area_is_that_of_the_whole_image) {
-  const BrightAreas areas = connected_areas(bright_runs(frame_, 200));
+  BrightAreaFinder finder;
+  const BrightAreas& areas = finder.find(frame_, fixed_threshold(frame_));
   for (const int side : {1, 3, 5}) {
     cv::Mat ours = cv::Mat::zeros(size_, CV_8UC1);
     for (const BrightArea& area : areas.areas) ours |= drawn(eroded(areas.runs_of(area), side), size_);
@@ -87,7 +97,8 @@ TEST(BrightAreas, aspect_ratio_tells_a_tube_at_any_angle_from_a_dot) {
   cv::Mat frame = cv::Mat::zeros(200, 200, CV_8UC1);
   cv::circle(frame, {40, 40}, 6, 255, cv::FILLED);
   cv::line(frame, {80, 80}, {140, 140}, 255, 5);
-  const BrightAreas areas = connected_areas(bright_runs(frame, 200));
+  BrightAreaFinder finder;
+  const BrightAreas& areas = finder.find(frame, fixed_threshold(frame));
   ASSERT_EQ(areas.areas.size(), 2U);
   EXPECT_NEAR(areas.areas[0].aspect_ratio, 1.0, 0.05);
   EXPECT_GT(areas.areas[1].aspect_ratio, 8.0);

@@ -1,4 +1,4 @@
-#include "localization/paper_detector.hpp"
+#include "localization/marker_detector.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ int random_id(Random& random) {
   return static_cast<int>(random.below(marker_id_count));
 }
 
-TEST(PaperDetector, reads_every_id_at_any_turn) {
+TEST(MarkerDetector, reads_every_id_at_any_turn) {
   Random random(1);
   const CameraModel camera = cropped(wide_camera(), 64);
   for (int id = 0; id < marker_id_count; ++id) {
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& parameter) { return parameter.param.name; });
 
 // Markers off the axis of a 90 degree view, the camera tilted by 15 degrees: foreshortened by more than that.
-TEST(PaperDetector, reads_markers_about_a_tilted_wide_frame) {
+TEST(MarkerDetector, reads_markers_about_a_tilted_wide_frame) {
   Random random(3);
   const CameraModel camera = wide_camera();
   for (const Vec2& place : {Vec2(200.0, 160.0), Vec2(440.0, 160.0), Vec2(200.0, 320.0), Vec2(440.0, 320.0)}) {
@@ -130,7 +130,7 @@ TEST(PaperDetector, reads_markers_about_a_tilted_wide_frame) {
   }
 }
 
-TEST(PaperDetector, confidence_in_ordinary_light_is_that_of_the_papers_tables) {
+TEST(MarkerDetector, confidence_in_ordinary_light_is_that_of_the_papers_tables) {
   Random random(4);
   const CameraModel camera = cropped(paper_camera(), 100);
   PaintedFrame frame(size_of(camera));
@@ -142,7 +142,7 @@ TEST(PaperDetector, confidence_in_ordinary_light_is_that_of_the_papers_tables) {
 }
 
 /// Three markers among a tube, a round lamp, a small lamp and glints of all sizes.
-TEST(PaperDetector, ignores_tubes_lamps_and_glints_and_ranks_by_distance_to_the_center) {
+TEST(MarkerDetector, ignores_tubes_lamps_and_glints_and_ranks_by_distance_to_the_center) {
   Random random(5);
   const CameraModel camera = wide_camera();
   for (int i = 0; i < 20; ++i) {
@@ -163,7 +163,7 @@ TEST(PaperDetector, ignores_tubes_lamps_and_glints_and_ranks_by_distance_to_the_
   }
 }
 
-TEST(PaperDetector, keeps_markers_30_cm_apart_apart) {
+TEST(MarkerDetector, keeps_markers_30_cm_apart_apart) {
   Random random(6);
   const CameraModel camera = wide_camera();
   const double apart_px = 0.30 * camera.fx_px / 1.5;
@@ -177,8 +177,9 @@ TEST(PaperDetector, keeps_markers_30_cm_apart_apart) {
   }
 }
 
-// The marker slides out of the frame; while any of its cells, even an empty one, may be cut, it is refused.
-TEST(PaperDetector, refuses_a_marker_that_the_border_cuts) {
+// The marker slides out of the frame; while any of its coded cells, even an empty one, may be cut, it is
+// refused. A direction dot may be missing.
+TEST(MarkerDetector, refuses_a_marker_that_the_border_cuts) {
   Random random(7);
   const CameraModel camera = cropped(wide_camera(), 80);
   int read = 0;
@@ -191,19 +192,19 @@ TEST(PaperDetector, refuses_a_marker_that_the_border_cuts) {
     double least_u = camera.width_px;
     for (int row = 0; row < marker_grid_size; ++row) {
       for (int column = 0; column < marker_grid_size; ++column) {
-        if (GridCell{row, column} == cell_always_empty) continue;
+        if (id_bit({row, column}) == 0) continue;
         least_u = std::min(least_u, dot_in_image(camera, view, {row, column}).x());
       }
     }
     EXPECT_TRUE(found.empty() || found == std::vector{id}) << "u " << u;
-    EXPECT_FALSE(least_u > 5.0 && found.empty()) << "u " << u;
+    EXPECT_FALSE(least_u > 12.0 && found.empty()) << "u " << u;
     EXPECT_FALSE(least_u < 1.0 && !found.empty()) << "u " << u;
     read += found.empty() ? 0 : 1;
   }
   EXPECT_GT(read, 40);
 }
 
-TEST(PaperDetector, refuses_a_marker_that_lacks_a_direction_dot) {
+TEST(MarkerDetector, refuses_a_marker_that_lacks_a_direction_dot) {
   Random random(8);
   const CameraModel camera = cropped(paper_camera(), 120);
   for (int i = 0; i < 60; ++i) {
@@ -218,20 +219,20 @@ TEST(PaperDetector, refuses_a_marker_that_lacks_a_direction_dot) {
   }
 }
 
-// A dirty dot below the threshold would change the ID: the marker is refused instead.
-TEST(PaperDetector, refuses_a_marker_with_a_coded_dot_too_dark_to_count) {
+// A dirty dot that is taken for an empty cell would change the ID: it counts, or the marker is refused.
+TEST(MarkerDetector, never_takes_a_dirty_dot_for_an_empty_cell) {
   Random random(9);
   const CameraModel camera = cropped(paper_camera(), 120);
-  for (const double gray : {130.0, 160.0, 180.0}) {
+  for (double gray = 70.0; gray <= 240.0; gray += 10.0) {
     const MarkerView view{.middle_px = {60.0, 60.0}, .depth_m = 2.6, .turn_rad = 0.3};
     PaintedFrame frame(size_of(camera));
     frame.marker(camera, view, 1782);
     frame.dot(camera, view, {1, 1}, gray);
-    EXPECT_THAT(ids_in(frame.finished(random)), IsEmpty()) << "gray " << gray;
+    EXPECT_THAT(ids_in(frame.finished(random)), testing::AnyOf(IsEmpty(), ElementsAre(1782))) << gray;
   }
 }
 
-TEST(PaperDetector, refuses_a_marker_whose_dot_a_lamp_swallows) {
+TEST(MarkerDetector, refuses_a_marker_whose_dot_a_lamp_swallows) {
   Random random(10);
   const CameraModel camera = cropped(paper_camera(), 140);
   const MarkerView view{.middle_px = {70.0, 70.0}, .depth_m = 2.0};
@@ -241,7 +242,7 @@ TEST(PaperDetector, refuses_a_marker_whose_dot_a_lamp_swallows) {
   EXPECT_THAT(ids_in(frame.finished(random)), IsEmpty());
 }
 
-TEST(PaperDetector, parts_dots_that_touch_in_too_bright_a_light) {
+TEST(MarkerDetector, parts_dots_that_touch_in_too_bright_a_light) {
   Random random(11);
   const CameraModel camera = cropped(paper_camera(), 160);
   const MarkerView view{.middle_px = {80.0, 80.0}, .depth_m = 1.5};
@@ -253,11 +254,12 @@ TEST(PaperDetector, parts_dots_that_touch_in_too_bright_a_light) {
   const Vec2 to = dot_in_image(camera, view, {0, 2});
   cv::line(gray, cv::Point(cvRound(from.x()), cvRound(from.y())), cv::Point(cvRound(to.x()), cvRound(to.y())),
            cv::Scalar(225), 1);
-  const DotImage dots = find_dots(gray, {});
-  EXPECT_EQ(dots.dots.size(), dots_of(1782).size());
+  DotFinder finder;
+  const std::span<const Dot> dots = finder.find(gray);
+  EXPECT_EQ(dots.size(), dots_of(1782).size());
 }
 
-TEST(PaperDetector, reads_a_part_of_a_larger_frame_as_that_part) {
+TEST(MarkerDetector, reads_a_part_of_a_larger_frame_as_that_part) {
   Random random(12);
   const CameraModel camera = wide_camera();
   PaintedFrame painted(size_of(camera));
@@ -275,7 +277,7 @@ TEST(PaperDetector, reads_a_part_of_a_larger_frame_as_that_part) {
             0.1);
 }
 
-TEST(PaperDetector, finds_nothing_where_nothing_is) {
+TEST(MarkerDetector, finds_nothing_where_nothing_is) {
   Random random(13);
   EXPECT_THAT(detect_markers(cv::Mat()), IsEmpty());
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(3, 2), cv::Size(65, 1), cv::Size(640, 480)}) {
@@ -292,7 +294,7 @@ TEST(PaperDetector, finds_nothing_where_nothing_is) {
   }
 }
 
-TEST(PaperDetector, never_reads_a_marker_into_dots_strewn_at_random) {
+TEST(MarkerDetector, never_reads_a_marker_into_dots_strewn_at_random) {
   Random random(14);
   for (int i = 0; i < 100; ++i) {
     PaintedFrame frame(cv::Size(120, 120));
@@ -303,7 +305,7 @@ TEST(PaperDetector, never_reads_a_marker_into_dots_strewn_at_random) {
   }
 }
 
-TEST(PaperDetector, refuses_frames_that_are_not_8_bit_gray) {
+TEST(MarkerDetector, refuses_frames_that_are_not_8_bit_gray) {
   EXPECT_THROW(detect_markers(cv::Mat(10, 10, CV_8UC3)), std::invalid_argument);
   EXPECT_THROW(detect_markers(cv::Mat(10, 10, CV_16UC1)), std::invalid_argument);
 }

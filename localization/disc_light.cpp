@@ -1,0 +1,166 @@
+#include "localization/disc_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "localization/wide_registers.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr int lanes = 8;
+using Floats [[gnu::vector_size(lanes * sizeof(float))]] = float;
+using Ints [[gnu::vector_size(lanes * sizeof(std::int32_t))]] = std::int32_t;
+using Bytes [[gnu::vector_size(lanes)]] = std::uint8_t;
+
+/// The pixels about a place, in blocks of lanes; all of them lie in the frame.
+struct Patch {
+  const std::uint8_t* first = nullptr;
+  std::size_t stride = 0;
+  int rows = 0;
+  int blocks = 0;        ///< of a row
+  float left_px = 0.0F;  ///< first pixel's place, from the middle of the disc
+  float top_px = 0.0F;
+};
+
+/// Blocks may reach beyond the disc, where weights are zero, but not beyond the frame.
+std::optional<Patch> patch_about(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
+  if (!(std::abs(center_px.x()) < 1e6 && std::abs(center_px.y()) < 1e6)) return std::nullopt;
+  int left = static_cast<int>(std::ceil(center_px.x() - reach_px));
+  const int right = static_cast<int>(std::floor(center_px.x() + reach_px));
+  const int top = static_cast<int>(std::ceil(center_px.y() - reach_px));
+  const int bottom = static_cast<int>(std::floor(center_px.y() + reach_px));
+  if (left < 0 || top < 0 || right >= gray.cols || bottom >= gray.rows) return std::nullopt;
+  Patch patch;
+  patch.blocks = (right - left + lanes) / lanes;
+  left = std::min(left, gray.cols - patch.blocks * lanes);
+  if (left < 0) return std::nullopt;
+  patch.first = gray.ptr<std::uint8_t>(top) + left;
+  patch.stride = gray.step[0];
+  patch.rows = bottom - top + 1;
+  patch.left_px = static_cast<float>(left - center_px.x());
+  patch.top_px = static_cast<float>(top - center_px.y());
+  return patch;
+}
+
+constexpr Floats steps{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
+
+double sum_of(const Floats& v) {
+  double sum = 0.0;
+  for (int i = 0; i < lanes; ++i) sum += static_cast<double>(v[i]);
+  return sum;
+}
+
+struct LightSums {
+  Floats mass;
+  Floats moment_x;
+  Floats moment_y;
+};
+
+LODESTAR_WIDE_REGISTERS
+void sum_light(const Patch& patch, float edge, float slope, float background, LightSums& sums) {
+  const Floats zero{};
+  const Floats one = zero + 1.0F;
+  Floats mass{};
+  Floats moment_x{};
+  Floats moment_y{};
+  for (int v = 0; v < patch.rows; ++v) {
+    const std::uint8_t* const row = patch.first + static_cast<std::size_t>(v) * patch.stride;
+    const float y = patch.top_px + static_cast<float>(v);
+    for (int block = 0; block < patch.blocks; ++block) {
+      Bytes bytes;
+      std::memcpy(&bytes, row + block * lanes, lanes);
+      const Floats light = __builtin_convertvector(__builtin_convertvector(bytes, Ints), Floats) - background;
+      const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
+      Floats weight = edge - (x * x + y * y) * slope;
+      weight = weight > zero ? weight : zero;
+      weight = weight < one ? weight : one;
+      const Floats part = weight * light;
+      mass += part;
+      moment_x += part * x;
+      moment_y += part * y;
+    }
+  }
+  sums = {mass, moment_x, moment_y};
+}
+
+struct EdgeSums {
+  Floats along_x;   ///< gray times the weight for x
+  Floats along_y;   ///< and for y
+  Floats gain;      ///< what both change by together, a pixel
+  Floats variance;  ///< sum of both weights' squares
+};
+
+LODESTAR_WIDE_REGISTERS
+void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSums& sums) {
+  const Floats zero{};
+  Floats along_x{};
+  Floats along_y{};
+  Floats gain{};
+  Floats variance{};
+  for (int v = 0; v < patch.rows; ++v) {
+    const std::uint8_t* const row = patch.first + static_cast<std::size_t>(v) * patch.stride;
+    const float y = patch.top_px + static_cast<float>(v);
+    for (int block = 0; block < patch.blocks; ++block) {
+      Bytes bytes;
+      std::memcpy(&bytes, row + block * lanes, lanes);
+      const Floats light = __builtin_convertvector(__builtin_convertvector(bytes, Ints), Floats);
+      const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
+      const Floats squared_distance = x * x + y * y;
+      const Floats t = (squared_distance - squared_radius) * per_width;
+      Floats inside = 1.0F - t * t;
+      inside = inside > zero ? inside : zero;
+      const Floats cubed = inside * inside * inside;
+      const Floats weight = cubed * inside;
+      const Floats light_weight = light * weight;
+      along_x += light_weight * x;
+      along_y += light_weight * y;
+      // d(w x)/dx + d(w y)/dy = 2 w + 2 d^2 dw/d(d^2), and dw/d(d^2) = -8 t (1 - t^2)^3 / width
+      gain += 2.0F * light_weight - (16.0F * per_width) * (light * squared_distance * t * cubed);
+      variance += weight * weight * squared_distance;
+    }
+  }
+  sums = {along_x, along_y, gain, variance};
+}
+
+}  // namespace
+
+std::optional<DiscLight> light_in_disc(const cv::Mat& gray, const Vec2& center_px, double radius_px,
+                                       double background_gray) {
+  const double reach = radius_px + 0.5;
+  const std::optional<Patch> patch = patch_about(gray, center_px, reach);
+  if (!patch) return std::nullopt;
+  // Weight 1 at radius - 1/2 and 0 at radius + 1/2, linear in d^2.
+  LightSums sums;
+  sum_light(*patch, static_cast<float>(reach * reach * 0.5 / radius_px), static_cast<float>(0.5 / radius_px),
+            static_cast<float>(background_gray), sums);
+  DiscLight light{.mass = sum_of(sums.mass), .center_px = center_px};
+  if (light.mass > 0.0) light.center_px += Vec2(sum_of(sums.moment_x), sum_of(sums.moment_y)) / light.mass;
+  return light;
+}
+
+std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_px, double radius_px,
+                                         const EdgeOptions& options) {
+  const double width = 2.0 * radius_px * options.half_width_px;
+  const double squared_radius = radius_px * radius_px;
+  const double reach_px = std::sqrt(squared_radius + width);
+  DiscCenter center{.center_px = start_px};
+  for (int i = 0; i < options.most_steps; ++i) {
+    const std::optional<Patch> patch = patch_about(gray, center.center_px, reach_px);
+    if (!patch) return std::nullopt;
+    EdgeSums sums;
+    sum_edge(*patch, static_cast<float>(squared_radius), static_cast<float>(1.0 / width), sums);
+    // The sum weighted by w x falls by half the gain as the weight moves on by a pixel.
+    const double gain = 0.5 * sum_of(sums.gain);
+    const Vec2 step = Vec2(sum_of(sums.along_x), sum_of(sums.along_y)) / gain;
+    if (!(gain > 0.0 && step.norm() < options.longest_step_px)) return std::nullopt;
+    center.center_px += step;
+    center.sigma_per_gray_px = std::sqrt(0.5 * sum_of(sums.variance)) / gain;
+    if (step.norm() < options.small_step_px) break;
+  }
+  return center;
+}
+
+}  // namespace lodestar

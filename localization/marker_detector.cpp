@@ -1,0 +1,237 @@
+#include "localization/marker_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
+#include "localization/confidence.hpp"
+
+namespace lodestar {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+void require_gray(const cv::Mat& gray) {
+  if (!gray.empty() && gray.type() != CV_8UC1) {
+    throw std::invalid_argument(
+        "found a frame that is not 8-bit gray, wanted one channel of 8 bits (CV_8UC1)");
+  }
+}
+
+std::vector<Dot> dots_at(std::span<const Dot> dots, const Indices& indices) {
+  std::vector<Dot> result;
+  result.reserve(indices.size());
+  for (const std::size_t i : indices) result.push_back(dots[i]);
+  return result;
+}
+
+/// `grid_place` tells where a direction dot must be that was not seen.
+template <typename GridPlace>
+DetectedMarker detected(int id, double probability, double confidence, std::vector<MarkerDot> dots,
+                        const GridPlace& grid_place) {
+  const auto place = [&](GridCell cell) -> Vec2 {
+    const auto dot = std::ranges::find(dots, cell, &MarkerDot::cell);
+    return dot != dots.end() ? dot->center_px : grid_place(cell);
+  };
+  DetectedMarker marker{.id = id, .probability = probability, .confidence = confidence};
+  marker.o_px = place(cell_of_o);
+  marker.x_px = place(cell_of_x);
+  marker.y_px = place(cell_of_y);
+  marker.center_px = 0.5 * (marker.x_px + marker.y_px);
+  marker.dots = std::move(dots);
+  return marker;
+}
+
+/// Eq. (1): the marker nearest to the image centre is the optimal one.
+void sort_by_distance_to_center(std::vector<DetectedMarker>& markers, const cv::Size& size) {
+  const Vec2 center(0.5 * (size.width - 1), 0.5 * (size.height - 1));
+  std::ranges::stable_sort(markers, {},
+                           [&](const DetectedMarker& marker) { return (marker.center_px - center).norm(); });
+}
+
+/// A dot of another size is a glint or a lamp.
+std::vector<Dot> dots_of_usual_size(const std::vector<Dot>& dots) {
+  constexpr double most_ratio = 1.3;
+  std::vector<double> radii;
+  for (const Dot& dot : dots) radii.push_back(dot.radius_px);
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  std::vector<Dot> result;
+  std::ranges::copy_if(dots, std::back_inserter(result), [&](const Dot& dot) {
+    return dot.radius_px < most_ratio * *middle && *middle < most_ratio * dot.radius_px;
+  });
+  return result;
+}
+
+/// Four by four places of a lattice, and how a marker may hang in them.
+struct Square {
+  MarkerGrid grid;  ///< of the square as it stands, its lower left place taken for O
+  std::vector<MarkerDot> dots;
+  std::vector<Dot> measured;
+};
+
+constexpr int quarter_turns = 4;
+
+/// Where a marker's cell comes to lie in the square when the marker hangs turned by quarters.
+GridCell turned(GridCell cell, int quarters) {
+  for (int i = 0; i < quarters; ++i) cell = {cell.column, marker_grid_size - 1 - cell.row};
+  return cell;
+}
+
+CellEvidence evidence_turned(const CellEvidence& square, int quarters) {
+  CellEvidence marker;
+  for (int row = 0; row < marker_grid_size; ++row) {
+    for (int column = 0; column < marker_grid_size; ++column) {
+      marker.at({row, column}) = square.at(turned(GridCell{row, column}, quarters));
+    }
+  }
+  return marker;
+}
+
+std::vector<MarkerDot> turned_back(std::vector<MarkerDot> dots, int quarters) {
+  for (MarkerDot& dot : dots) dot.cell = turned(dot.cell, quarter_turns - quarters);
+  return dots;
+}
+
+/// All squares that hold all of the lattice's dots.
+std::vector<Square> squares_of(const DotLattice& lattice, std::span<const Dot> dots) {
+  const auto [left, right] = std::ranges::minmax(lattice.dots, {}, &LatticeDot::column);
+  const auto [top, bottom] = std::ranges::minmax(lattice.dots, {}, &LatticeDot::row);
+  std::vector<Square> squares;
+  for (int column = right.column - marker_grid_size + 1; column <= left.column; ++column) {
+    for (int row = bottom.row - marker_grid_size + 1; row <= top.row; ++row) {
+      const auto place = [&](int c, int r) -> Vec2 {
+        return lattice.origin_px + (column + c) * lattice.column_px + (row + r) * lattice.row_px;
+      };
+      const int last = marker_grid_size - 1;
+      Square square{.grid = MarkerGrid(place(0, last), place(last, last), place(0, 0)), .dots = {}, .measured = {}};
+      for (const LatticeDot& dot : lattice.dots) {
+        const Dot& seen = dots[dot.index];
+        square.dots.push_back({{dot.row - row, dot.column - column}, seen.center_px, seen.sigma_px});
+        square.measured.push_back(seen);
+      }
+      square.grid = MarkerGrid::fitted(square.dots, square.grid);
+      squares.push_back(std::move(square));
+    }
+  }
+  return squares;
+}
+
+/// Of the dots beside the lattice, those that lie within the marker or right beside it.
+std::size_t strangers_in(const Square& square, std::span<const Dot> dots) {
+  const double reach_px = 3.0 * square.grid.pitch_px();
+  const Vec2 middle = 0.5 * (square.grid.center_px(cell_of_x) + square.grid.center_px(cell_of_y));
+  const auto near = std::ranges::count_if(
+      dots, [&](const Dot& dot) { return (dot.center_px - middle).norm() < reach_px; });
+  return static_cast<std::size_t>(near) - std::min(static_cast<std::size_t>(near), square.dots.size());
+}
+
+/// The paper's binary image of a dot: its pixels from 200 on, whatever threshold it was found by.
+std::vector<Run> paper_pixels(const cv::Mat& gray, std::span<const Run> runs) {
+  std::vector<Run> result;
+  for (const Run& run : runs) {
+    const auto* row = gray.ptr<std::uint8_t>(run.row);
+    for (int u = run.begin; u < run.end; ++u) {
+      if (row[u] < lowest_dot_gray) continue;
+      if (result.empty() || result.back().row != run.row || result.back().end != u) {
+        result.push_back({run.row, u, u});
+      }
+      ++result.back().end;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+DetectorOptions paper_method() {
+  DetectorOptions options;
+  options.dots.fixed_threshold = 200;
+  options.dots.by_binary_center = true;
+  options.dots.tail_px = 2.5;
+  options.dots.min_radius_px = 1.3;
+  options.lattice_search = false;
+  return options;
+}
+
+MarkerDetector::MarkerDetector(const DetectorOptions& options)
+    : options_(options), dot_finder_(options.dots), id_decoder_(options.registered_ids) {}
+
+std::vector<DetectedMarker> MarkerDetector::detect(const cv::Mat& gray) {
+  require_gray(gray);
+  const std::span<const Dot> dots = dot_finder_.find(gray);
+  std::vector<DetectedMarker> markers;
+  for (const Indices& area : dilated_areas(dots, options_.areas)) {
+    if (area.size() >= 3) append_markers_of_area(gray, dots_at(dots, area), markers);
+  }
+  sort_by_distance_to_center(markers, gray.size());
+  return markers;
+}
+
+void MarkerDetector::append_markers_of_area(const cv::Mat& gray, const std::vector<Dot>& dots,
+                                            std::vector<DetectedMarker>& markers) {
+  const std::vector<MarkerReading> readings = read_area(dots, options_.decoder);
+  for (const MarkerReading& reading : readings) {
+    const std::vector<Dot> own = dots_at(dots, reading.indices);
+    const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
+    const IdReading id = id_decoder_.read(cells);
+    const double probability = id.weight / id.all_weight;
+    if (probability < options_.least_probability) continue;
+    markers.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
+                               [&](GridCell cell) { return reading.grid.center_px(cell); }));
+  }
+  if (readings.empty() && options_.lattice_search) append_marker_of_lattice(gray, dots, markers);
+}
+
+/// Every way that a marker may hang on the lattice is weighed against all others.
+void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, const std::vector<Dot>& dots,
+                                              std::vector<DetectedMarker>& markers) {
+  const std::vector<Dot> usual = dots_of_usual_size(dots);
+  const std::optional<DotLattice> lattice = find_lattice(usual, options_.lattice);
+  if (!lattice) return;
+  const std::vector<Square> squares = squares_of(*lattice, usual);
+  const Square* best_square = nullptr;
+  IdReading best;
+  int best_turn = 0;
+  double all_weight = 0.0;
+  for (const Square& square : squares) {
+    const CellEvidence cells = look_at_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
+    for (int turn = 0; turn < quarter_turns; ++turn) {
+      const IdReading id = id_decoder_.read(evidence_turned(cells, turn));
+      all_weight += id.all_weight;
+      if (best_square && id.weight <= best.weight) continue;
+      best = id;
+      best_square = &square;
+      best_turn = turn;
+    }
+  }
+  if (!best_square) return;
+  const double probability = best.weight / all_weight;
+  const std::size_t strangers = strangers_in(*best_square, dots);
+  if (probability < options_.least_probability || 3 * strangers > best_square->dots.size()) return;
+  if (best.cost > (id_decoder_.knows_ids() ? options_.most_contradiction : 1.0)) return;
+  markers.push_back(detected(
+      best.id, probability, confidence_of(gray, best_square->measured),
+      turned_back(best_square->dots, best_turn),
+      [&](GridCell cell) { return best_square->grid.center_px(turned(cell, best_turn)); }));
+}
+
+/// The local 'and' of dilation area and eroded image (Fig. 2d) leaves the eroded dots of this marker, whose
+/// gray values Eq. (3) counts.
+double MarkerDetector::confidence_of(const cv::Mat& gray, const std::vector<Dot>& dots) const {
+  GrayHistogram histogram{};
+  for (const Dot& dot : dots) {
+    for (const Run& run : eroded(paper_pixels(gray, dot_finder_.pixels_of(dot)), options_.dots.erosion_px)) {
+      const auto* row = gray.ptr<std::uint8_t>(run.row);
+      for (int u = run.begin; u < run.end; ++u) ++histogram[row[u]];
+    }
+  }
+  return marker_confidence(histogram);
+}
+
+std::vector<DetectedMarker> detect_markers(const cv::Mat& gray, const DetectorOptions& options) {
+  return MarkerDetector(options).detect(gray);
+}
+
+}  // namespace lodestar
