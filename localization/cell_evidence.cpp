@@ -41,7 +41,8 @@ CellEvidence look_at_cells(const cv::Mat& gray, const MarkerGrid& grid, std::spa
     for (int column = 0; column < marker_grid_size; ++column) {
       const std::optional<double> seen = gray_about(gray, grid.center_px({row, column}), radius_px);
       if (!seen) continue;
-      const double share = (*seen - background) / contrast;
+      // Darker than the film is as strange as brighter: something hangs before it.
+      const double share = std::abs(*seen - background) / contrast;
       cells.at({row, column}) = std::clamp((share - options.unsure_contrast) * slope, -options.sure, 0.0);
     }
   }

@@ -14,10 +14,11 @@ struct CellEvidenceOptions {
   /// Log odds that a dot of the marker's size is one of its own, and that a cell as dark as the background is
   /// empty: one cell in 160,000 deceives (a dot that dirt covers wholly, a glint of a dot's size and place).
   double sure = 12.0;
-  /// Nothing can be said of a cell without a dot that is brighter than this share of the dots' contrast ...
-  double unsure_contrast = 0.2;
-  /// ... and one that is darker than this is surely empty.
-  double dark_contrast = 0.1;
+  /// A cell without a dot is surely empty when it differs from the background by less than this share of the
+  /// dots' contrast ...
+  double dark_contrast = 0.08;
+  /// ... and nothing can be said of it from here on.
+  double unsure_contrast = 0.16;
 };
 
 /// Looks at every cell of a marker. A cell with one of the marker's dots is bright. One without must be seen, and

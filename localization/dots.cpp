@@ -64,7 +64,8 @@ std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
 /// The centroid of the gray values above the local background within a disc wide enough to hold all of the
 /// dot's light tells its radius whatever the blur (light = pi r^2 contrast), and where to look for its edge,
 /// which tells its centre. The paper takes the centre of the binary dot, good to a few tenths of a pixel.
-std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, const DotOptions& options) {
+std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, const DotOptions& options,
+                                double noise_gray) {
   Dot dot;
   dot.center_px = {area.mean_u_px, area.mean_v_px};
   const std::optional<double> middle = middle_gray(gray, dot.center_px);
@@ -85,7 +86,7 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
       center_by_edge(gray, light->center_px, dot.radius_px, options.edge);
   if (!center) return std::nullopt;
   dot.center_px = center->center_px;
-  dot.sigma_px = options.noise_gray * center->sigma_per_gray_px;
+  dot.sigma_px = noise_gray * center->sigma_per_gray_px;
   return dot;
 }
 
@@ -116,6 +117,7 @@ std::span<const Dot> DotFinder::find(const cv::Mat& gray) {
   } else {
     thresholds_.find(gray, options_.threshold);
   }
+  noise_gray_ = std::clamp(thresholds_.noise_gray(), options_.least_noise_gray, options_.most_noise_gray);
   const BrightAreas& bright = area_finder_.find(gray, thresholds_);
   dots_.clear();
   for (std::size_t i = 0; i < bright.areas.size(); ++i) {
@@ -139,7 +141,7 @@ void DotFinder::append_dots_of_area(const cv::Mat& gray, std::size_t index) {
 
 void DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index) {
   if (area.aspect_ratio > options_.max_aspect_ratio) return;
-  std::optional<Dot> dot = measured_dot(gray, area, options_);
+  std::optional<Dot> dot = measured_dot(gray, area, options_, noise_gray_);
   if (!dot || is_found_already(*dot, area, dots_)) return;
   dot->area = index;
   dots_.push_back(*dot);

@@ -43,6 +43,10 @@ IdDecoder::IdDecoder(std::span<const int> registered_ids, double foreign_probabi
   if (!ids_.empty()) registered_prior_ = (1.0 - foreign) / static_cast<double>(ids_.size());
 }
 
+bool IdDecoder::accepts(int id) const {
+  return ids_.empty() || std::ranges::find(ids_, id) != ids_.end();
+}
+
 IdReading IdDecoder::read(const CellEvidence& cells) const {
   int plain = 0;  // what the evidence says bit by bit
   std::array<double, 12> cost_of_bit{};

@@ -44,6 +44,10 @@ class IdDecoder {
 
   [[nodiscard]] bool knows_ids() const { return !ids_.empty(); }
 
+  /// Is it one of the registered IDs, or are all alike? A foreign marker, or one of ours of which too much is
+  /// covered, reads as an ID that is not registered.
+  [[nodiscard]] bool accepts(int id) const;
+
  private:
   std::vector<int> ids_;
   double registered_prior_ = 0.0;  ///< of each registered ID

@@ -95,7 +95,11 @@ void LocalThresholds::find(const cv::Mat& gray, const LocalThresholdOptions& opt
       brightest_[i] = extremes.brightest;
     }
   }
-  const double by_noise = options.min_range_to_noise * lower_quartile(darkest_, brightest_);
+  const int quiet_range = lower_quartile(darkest_, brightest_);
+  // The largest of n Gaussian values lies about sqrt(2 ln n) sigmas out, a little less for n = 1024.
+  constexpr double sigmas_in_range = 6.5;
+  noise_gray_ = std::max(quiet_range / sigmas_in_range, 1.0);
+  const double by_noise = options.min_range_to_noise * quiet_range;
   const int least =
       std::clamp(static_cast<int>(std::lround(by_noise)), options.min_range_gray, options.max_min_range_gray);
   for (std::size_t k = 0; k < thresholds_.size(); ++k) {

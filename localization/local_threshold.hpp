@@ -25,6 +25,9 @@ class LocalThresholds {
   /// `gray` is CV_8UC1. What was found before is forgotten, its memory is used again.
   void find(const cv::Mat& gray, const LocalThresholdOptions& options);
 
+  /// Standard deviation of a dark pixel's noise, at least 1, as the ranges of the tiles without dots tell it.
+  [[nodiscard]] double noise_gray() const { return noise_gray_; }
+
   /// The same threshold (1..255) everywhere, as in the paper.
   void set(const cv::Size& frame, std::uint8_t threshold);
 
@@ -38,6 +41,7 @@ class LocalThresholds {
  private:
   void resize(const cv::Size& frame);
 
+  double noise_gray_ = 1.0;
   int rows_ = 0;
   int columns_ = 0;
   std::vector<std::uint8_t> darkest_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <stdexcept>
 
@@ -127,20 +128,13 @@ std::size_t strangers_in(const Square& square, std::span<const Dot> dots) {
   return static_cast<std::size_t>(near) - std::min(static_cast<std::size_t>(near), square.dots.size());
 }
 
-/// The paper's binary image of a dot: its pixels from 200 on, whatever threshold it was found by.
-std::vector<Run> paper_pixels(const cv::Mat& gray, std::span<const Run> runs) {
-  std::vector<Run> result;
-  for (const Run& run : runs) {
-    const auto* row = gray.ptr<std::uint8_t>(run.row);
-    for (int u = run.begin; u < run.end; ++u) {
-      if (row[u] < lowest_dot_gray) continue;
-      if (result.empty() || result.back().row != run.row || result.back().end != u) {
-        result.push_back({run.row, u, u});
-      }
-      ++result.back().end;
-    }
-  }
-  return result;
+/// Is the pixel in the paper's binary image of a dot after its erosion by a cross of three?
+bool is_inner(const cv::Mat& gray, int u, int v) {
+  const auto bright = [&](int column, int row) {
+    return gray.ptr<std::uint8_t>(row)[column] >= lowest_dot_gray;
+  };
+  return u > 0 && v > 0 && u + 1 < gray.cols && v + 1 < gray.rows && bright(u, v) && bright(u - 1, v) &&
+         bright(u + 1, v) && bright(u, v - 1) && bright(u, v + 1);
 }
 
 }  // namespace
@@ -177,7 +171,7 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, const std::vect
     const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
     const IdReading id = id_decoder_.read(cells);
     const double probability = id.weight / id.all_weight;
-    if (probability < options_.least_probability) continue;
+    if (probability < options_.least_probability || !id_decoder_.accepts(id.id)) continue;
     markers.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
                                [&](GridCell cell) { return reading.grid.center_px(cell); }));
   }
@@ -210,7 +204,7 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, const std::ve
   const double probability = best.weight / all_weight;
   const std::size_t strangers = strangers_in(*best_square, dots);
   if (probability < options_.least_probability || 3 * strangers > best_square->dots.size()) return;
-  if (best.cost > (id_decoder_.knows_ids() ? options_.most_contradiction : 1.0)) return;
+  if (!id_decoder_.accepts(best.id) || best.cost > (id_decoder_.knows_ids() ? options_.most_contradiction : 1.0)) return;
   markers.push_back(detected(
       best.id, probability, confidence_of(gray, best_square->measured),
       turned_back(best_square->dots, best_turn),
@@ -218,13 +212,14 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, const std::ve
 }
 
 /// The local 'and' of dilation area and eroded image (Fig. 2d) leaves the eroded dots of this marker, whose
-/// gray values Eq. (3) counts.
+/// gray values Eq. (3) counts. Whatever threshold found them, the paper's is 200.
 double MarkerDetector::confidence_of(const cv::Mat& gray, const std::vector<Dot>& dots) const {
   GrayHistogram histogram{};
   for (const Dot& dot : dots) {
-    for (const Run& run : eroded(paper_pixels(gray, dot_finder_.pixels_of(dot)), options_.dots.erosion_px)) {
-      const auto* row = gray.ptr<std::uint8_t>(run.row);
-      for (int u = run.begin; u < run.end; ++u) ++histogram[row[u]];
+    for (const Run& run : dot_finder_.pixels_of(dot)) {
+      for (int u = run.begin; u < run.end; ++u) {
+        if (is_inner(gray, u, run.row)) ++histogram[gray.ptr<std::uint8_t>(run.row)[u]];
+      }
     }
   }
   return marker_confidence(histogram);
