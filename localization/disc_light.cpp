@@ -90,7 +90,8 @@ struct EdgeSums {
   Floats along_x;   ///< gray times the weight for x
   Floats along_y;   ///< and for y
   Floats gain;      ///< what both change by together, a pixel
-  Floats variance;  ///< sum of both weights' squares
+  Floats squares;   ///< sum of both weights' squares
+  Floats shots;     ///< and of their products with the gray values
 };
 
 LODESTAR_WIDE_REGISTERS
@@ -99,7 +100,8 @@ void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSum
   Floats along_x{};
   Floats along_y{};
   Floats gain{};
-  Floats variance{};
+  Floats squares{};
+  Floats shots{};
   for (int v = 0; v < patch.rows; ++v) {
     const std::uint8_t* const row = patch.first + static_cast<std::size_t>(v) * patch.stride;
     const float y = patch.top_px + static_cast<float>(v);
@@ -119,10 +121,12 @@ void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSum
       along_y += light_weight * y;
       // d(w x)/dx + d(w y)/dy = 2 w + 2 d^2 dw/d(d^2), and dw/d(d^2) = -8 t (1 - t^2)^3 / width
       gain += 2.0F * light_weight - (16.0F * per_width) * (light * squared_distance * t * cubed);
-      variance += weight * weight * squared_distance;
+      const Floats square = weight * weight * squared_distance;
+      squares += square;
+      shots += square * light;
     }
   }
-  sums = {along_x, along_y, gain, variance};
+  sums = {along_x, along_y, gain, squares, shots};
 }
 
 }  // namespace
@@ -157,7 +161,8 @@ std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_
     const Vec2 step = Vec2(sum_of(sums.along_x), sum_of(sums.along_y)) / gain;
     if (!(gain > 0.0 && step.norm() < options.longest_step_px)) return std::nullopt;
     center.center_px += step;
-    center.sigma_per_gray_px = std::sqrt(0.5 * sum_of(sums.variance)) / gain;
+    center.variance_per_variance_px2 = 0.5 * sum_of(sums.squares) / (gain * gain);
+    center.variance_per_gray_px2 = 0.5 * sum_of(sums.shots) / (gain * gain);
     if (step.norm() < options.small_step_px) break;
   }
   return center;

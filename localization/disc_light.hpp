@@ -24,14 +24,16 @@ std::optional<DiscLight> light_in_disc(const cv::Mat& gray, const Vec2& center_p
 struct EdgeOptions {
   double half_width_px = 3.0;
   int most_steps = 2;
-  double small_step_px = 0.02;  ///< after such a step there is none
+  double small_step_px = 0.06;  ///< after such a step the error left is a tenth of it
   double longest_step_px = 1.0;
 };
 
-/// A dot's middle by its edge.
+/// A dot's middle by its edge. A pixel's variance v and a part s of its gray value g (shot noise) add up to the
+/// middle's variance v * variance_per_variance_px2 + s * variance_per_gray_px2, in each coordinate.
 struct DiscCenter {
   Vec2 center_px = Vec2::Zero();
-  double sigma_per_gray_px = 0.0;  ///< of each coordinate, for a gray value's noise of 1
+  double variance_per_variance_px2 = 0.0;
+  double variance_per_gray_px2 = 0.0;
 };
 
 /// Where a dot of this radius lies, nearly to the accuracy that noise allows. Only the edge tells where a dot

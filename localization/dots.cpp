@@ -61,11 +61,21 @@ std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
   return (pixels[0] + pixels[1] + pixels[2]) / 3.0;
 }
 
+/// Noise in the dark, and shot noise for the light above it.
+double sigma_of(const DiscCenter& center, double dark_noise_gray, double background_gray,
+                const DotOptions& options) {
+  const double dark = std::max(dark_noise_gray, options.least_noise_gray);
+  const double shot = options.shot_noise_gray_at_255 * options.shot_noise_gray_at_255 / 255.0;
+  const double above_background = std::max(
+      center.variance_per_gray_px2 - background_gray * center.variance_per_variance_px2, 0.0);
+  return std::sqrt(dark * dark * center.variance_per_variance_px2 + shot * above_background);
+}
+
 /// The centroid of the gray values above the local background within a disc wide enough to hold all of the
 /// dot's light tells its radius whatever the blur (light = pi r^2 contrast), and where to look for its edge,
 /// which tells its centre. The paper takes the centre of the binary dot, good to a few tenths of a pixel.
 std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, const DotOptions& options,
-                                double noise_gray) {
+                                double dark_noise_gray) {
   Dot dot;
   dot.center_px = {area.mean_u_px, area.mean_v_px};
   const std::optional<double> middle = middle_gray(gray, dot.center_px);
@@ -86,7 +96,7 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
       center_by_edge(gray, light->center_px, dot.radius_px, options.edge);
   if (!center) return std::nullopt;
   dot.center_px = center->center_px;
-  dot.sigma_px = noise_gray * center->sigma_per_gray_px;
+  dot.sigma_px = sigma_of(*center, dark_noise_gray, dot.background_gray, options);
   return dot;
 }
 
@@ -117,7 +127,6 @@ std::span<const Dot> DotFinder::find(const cv::Mat& gray) {
   } else {
     thresholds_.find(gray, options_.threshold);
   }
-  noise_gray_ = std::clamp(thresholds_.noise_gray(), options_.least_noise_gray, options_.most_noise_gray);
   const BrightAreas& bright = area_finder_.find(gray, thresholds_);
   dots_.clear();
   for (std::size_t i = 0; i < bright.areas.size(); ++i) {
@@ -141,7 +150,7 @@ void DotFinder::append_dots_of_area(const cv::Mat& gray, std::size_t index) {
 
 void DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index) {
   if (area.aspect_ratio > options_.max_aspect_ratio) return;
-  std::optional<Dot> dot = measured_dot(gray, area, options_, noise_gray_);
+  std::optional<Dot> dot = measured_dot(gray, area, options_, thresholds_.noise_gray());
   if (!dot || is_found_already(*dot, area, dots_)) return;
   dot->area = index;
   dots_.push_back(*dot);

@@ -27,10 +27,10 @@ struct DotOptions {
   std::optional<int> fixed_threshold;  ///< gray value (1..255) from which a pixel is bright, instead of:
   LocalThresholdOptions threshold;
   bool by_binary_center = false;  ///< the paper's centre: that of the bright pixels, whatever their gray
-  /// Standard deviation of a pixel on a dot's edge, for the dots' sigma: at least this, and more in a frame
-  /// whose dark parts are noisier; but not beyond the limit, for in a small part of a frame all is bright.
-  double least_noise_gray = 3.0;
-  double most_noise_gray = 12.0;
+  /// Shot noise of the sensor, standard deviation at gray 255: 255 / 4 is the root of a full well of 4000
+  /// electrons. The noise in the dark is told by each frame.
+  double shot_noise_gray_at_255 = 4.0;
+  double least_noise_gray = 0.5;  ///< in the dark: rounding to whole gray values, and a little
   double min_area_px = 1.0;       ///< smaller bright areas are noise; faint small dots are a pixel or two
   double min_radius_px = 0.7;     ///< of the light, not of the bright pixels: smaller dots are hot pixels
   double max_area_px = 900.0;     ///< larger ones are tubes and lamps
@@ -60,7 +60,6 @@ class DotFinder {
   void append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index);
 
   DotOptions options_;
-  double noise_gray_ = 0.0;
   LocalThresholds thresholds_;
   BrightAreaFinder area_finder_;
   std::vector<Dot> dots_;

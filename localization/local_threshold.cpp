@@ -75,6 +75,28 @@ void LocalThresholds::resize(const cv::Size& frame) {
   thresholds_.resize(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_));
 }
 
+/// The difference of two pixels varies twice as much as one; what the ceiling shows drops out of it.
+double LocalThresholds::noise_in_tiles(const cv::Mat& gray, int most_range) const {
+  constexpr int most_tiles = 64;
+  int tiles = 0;
+  int pairs = 0;
+  int squares = 0;
+  for (std::size_t i = 0; i < thresholds_.size() && tiles < most_tiles; ++i) {
+    if (brightest_[i] - darkest_[i] > most_range) continue;
+    const int row = static_cast<int>(i) / columns_ * tile;
+    const int column = static_cast<int>(i) % columns_ * tile;
+    const auto* const pixels = gray.ptr<std::uint8_t>(std::min(row + tile / 2, gray.rows - 1)) + column;
+    const int count = std::min(tile, gray.cols - column) - 1;
+    for (int u = 0; u < count; ++u) {
+      const int difference = pixels[u + 1] - pixels[u];
+      squares += difference * difference;
+    }
+    pairs += count;
+    ++tiles;
+  }
+  return pairs > 0 ? std::sqrt(0.5 * squares / pairs) : 0.0;
+}
+
 void LocalThresholds::set(const cv::Size& frame, std::uint8_t threshold) {
   resize(frame);
   std::ranges::fill(thresholds_, threshold);
@@ -96,9 +118,7 @@ void LocalThresholds::find(const cv::Mat& gray, const LocalThresholdOptions& opt
     }
   }
   const int quiet_range = lower_quartile(darkest_, brightest_);
-  // The largest of n Gaussian values lies about sqrt(2 ln n) sigmas out, a little less for n = 1024.
-  constexpr double sigmas_in_range = 6.5;
-  noise_gray_ = std::max(quiet_range / sigmas_in_range, 1.0);
+  noise_gray_ = noise_in_tiles(gray, quiet_range);
   const double by_noise = options.min_range_to_noise * quiet_range;
   const int least =
       std::clamp(static_cast<int>(std::lround(by_noise)), options.min_range_gray, options.max_min_range_gray);

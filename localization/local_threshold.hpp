@@ -25,7 +25,8 @@ class LocalThresholds {
   /// `gray` is CV_8UC1. What was found before is forgotten, its memory is used again.
   void find(const cv::Mat& gray, const LocalThresholdOptions& options);
 
-  /// Standard deviation of a dark pixel's noise, at least 1, as the ranges of the tiles without dots tell it.
+  /// Standard deviation of a pixel's noise where nothing is bright, by the differences of neighbouring pixels
+  /// in the quietest tiles.
   [[nodiscard]] double noise_gray() const { return noise_gray_; }
 
   /// The same threshold (1..255) everywhere, as in the paper.
@@ -40,8 +41,9 @@ class LocalThresholds {
 
  private:
   void resize(const cv::Size& frame);
+  [[nodiscard]] double noise_in_tiles(const cv::Mat& gray, int most_range) const;
 
-  double noise_gray_ = 1.0;
+  double noise_gray_ = 0.0;
   int rows_ = 0;
   int columns_ = 0;
   std::vector<std::uint8_t> darkest_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "maps/marker.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -54,8 +56,8 @@ Huber huber(double squared_sigmas, double scale) {
 
 bool add_dots(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, const CameraModel& camera,
               const PoseFixOptions& options, Normal& normal) {
-  const double per_variance = 1.0 / square(options.dot_sigma_px);
   for (const SurveyedDot& dot : dots) {
+    const double per_variance = 1.0 / square(dot.sigma_px);
     const std::optional<Projection> seen = project_dot(pose, dot.point_in_map, camera);
     if (!seen) return false;
     const Vec2 residual = seen->pixel - dot.center_px;
@@ -173,6 +175,19 @@ Vec3 center_of(std::span<const SurveyedDot> dots) {
   return center;
 }
 
+/// The middle of a horizontal disc's image less the image of its middle, as rays at unit depth. With the disc's
+/// points q(s, t) seen at depth z(s, t), s and t along the map's axes, the centroid of its image is off by
+/// r^2 / 4 (laplacian(q) / 2 + grad(q) . grad(ln J)), J the change of area, which is as z^-3. Both terms are
+/// multiples of grad(z) . grad(q) / z: -1 and -3.
+Vec2 disc_offset(const Vec2& normalized, double depth_m, const Eigen::Matrix3d& map_from_camera) {
+  Vec2 sum = Vec2::Zero();
+  for (const Eigen::Index axis : {0, 1}) {
+    const double depth_change = map_from_camera(axis, 2);
+    sum += depth_change * (map_from_camera.row(axis).head<2>().transpose() - depth_change * normalized);
+  }
+  return -square(marker_dot_radius_m / depth_m) * sum;
+}
+
 double log_determinant(const Mat6& covariance) {
   return covariance.ldlt().vectorD().array().log().sum();
 }
@@ -185,9 +200,11 @@ std::optional<Projection> project_dot(const Eigen::Isometry3d& map_from_camera, 
   const Vec3 p = map_from_camera.linear().transpose() * offset;
   if (!(p.z() > 1e-6)) return std::nullopt;
   const Vec2 normalized = p.head<2>() / p.z();
-  const Eigen::Matrix2d by_point = camera.distorted_jacobian(normalized) / p.z();
+  const Eigen::Matrix2d by_normalized = camera.distorted_jacobian(normalized);
+  const Eigen::Matrix2d by_point = by_normalized / p.z();
   Projection projection;
-  projection.pixel = camera.distorted(normalized);
+  projection.pixel =
+      camera.distorted(normalized) + by_normalized * disc_offset(normalized, p.z(), map_from_camera.linear());
   for (Eigen::Index k = 0; k < 2; ++k) {
     const Vec3 by_point_in_camera(by_point(k, 0), by_point(k, 1), -by_point.row(k).dot(normalized));
     const Vec3 by_point_in_map = map_from_camera.linear() * by_point_in_camera;
@@ -198,13 +215,12 @@ std::optional<Projection> project_dot(const Eigen::Isometry3d& map_from_camera, 
 
 double cost_of(const Eigen::Isometry3d& map_from_camera, std::span<const SurveyedDot> dots,
                const CameraModel& camera, const PoseFixOptions& options) {
-  const double per_variance = 1.0 / square(options.dot_sigma_px);
   const Eigen::Isometry3d camera_from_map = map_from_camera.inverse();
   double cost = prior_cost(map_from_camera, options.prior);
   for (const SurveyedDot& dot : dots) {
     const std::optional<Vec2> seen = camera.project(camera_from_map * dot.point_in_map);
     if (!seen) return std::numeric_limits<double>::infinity();
-    cost += huber((*seen - dot.center_px).squaredNorm() * per_variance, options.robust_scale).cost;
+    cost += huber((*seen - dot.center_px).squaredNorm() / square(dot.sigma_px), options.robust_scale).cost;
   }
   return cost;
 }

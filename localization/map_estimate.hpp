@@ -13,6 +13,7 @@ namespace lodestar {
 struct SurveyedDot {
   Vec3 point_in_map = Vec3::Zero();
   Vec2 center_px = Vec2::Zero();
+  double sigma_px = 0.03;  ///< standard deviation of each coordinate of the centre
 };
 
 struct MapEstimate {
@@ -21,8 +22,10 @@ struct MapEstimate {
   double cost = 0.0;  ///< minus twice the logarithm of the posterior density, up to a constant
 };
 
-/// Where a point of the map is seen from a pose, and the derivative by (position, rotation about the map's
+/// Where a dot at this point of the map is seen from a pose, and the derivative by (position, rotation about the map's
 /// axes): the pose moves to (translation + d.head(3), Exp(d.tail(3)) * rotation). Nothing behind the camera.
+/// A dot is a horizontal disc. To a tilted camera it is an ellipse whose middle is not the image of the disc's
+/// own: it lies off by some f (radius / distance)^2 sin(2 tilt) / 2, 0.005 px at 20 degrees and 1.5 m.
 struct Projection {
   Vec2 pixel;
   Eigen::Matrix<double, 2, 6> jacobian;

@@ -18,10 +18,12 @@ struct KnownMarker {
   std::vector<SurveyedDot> dots;
 };
 
-KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker) {
-  const auto surveyed = [&](GridCell cell, const Vec2& center_px) {
+KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
+                         const PoseFixOptions& options) {
+  const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
     const Vec2 in_marker = cell_in_marker(cell);
-    return SurveyedDot{map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px};
+    return SurveyedDot{map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
+                       sigma_px > 0.0 ? std::hypot(sigma_px, options.model_sigma_px) : options.dot_sigma_px};
   };
   KnownMarker known{.id = seen.id,
                     .confidence = seen.confidence,
@@ -29,21 +31,21 @@ KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& ma
                                        surveyed(cell_of_y, seen.y_px)},
                     .dots = {}};
   known.dots.reserve(seen.dots.size());
-  for (const MarkerDot& dot : seen.dots) known.dots.push_back(surveyed(dot.cell, dot.center_px));
+  for (const MarkerDot& dot : seen.dots) known.dots.push_back(surveyed(dot.cell, dot.center_px, dot.sigma_px));
   return known;
 }
 
 /// Registered markers in the order of the detections. One ID cannot hang in two places: seen twice, it tells
 /// nothing.
 std::vector<KnownMarker> known_markers(const std::vector<DetectedMarker>& markers,
-                                       const MarkerRegistry& registry) {
+                                       const MarkerRegistry& registry, const PoseFixOptions& options) {
   std::vector<KnownMarker> known;
   known.reserve(markers.size());
   for (const DetectedMarker& marker : markers) {
     const auto times = std::ranges::count(markers, marker.id, &DetectedMarker::id);
     const RegisteredMarker* registered = registry.find(marker.id);
     if (registered == nullptr || times > 1 || marker.dots.empty()) continue;
-    known.push_back(known_marker(marker, map_from_marker(registry, *registered)));
+    known.push_back(known_marker(marker, map_from_marker(registry, *registered), options));
   }
   return known;
 }
@@ -159,7 +161,7 @@ PoseFix fix_from(Stamp stamp, const MapEstimate& estimate, std::span<const Known
 std::optional<PoseFix> fix_pose(Stamp stamp, const std::vector<DetectedMarker>& markers,
                                 const MarkerRegistry& registry, const CameraModel& camera,
                                 const PoseFixOptions& options) {
-  std::vector<KnownMarker> known = known_markers(markers, registry);
+  std::vector<KnownMarker> known = known_markers(markers, registry, options);
   // A marker that hangs elsewhere than surveyed contradicts the others. Three or more can tell which; of two
   // that contradict each other nobody knows, and a robot must not guess.
   while (!known.empty()) {

@@ -27,7 +27,8 @@ struct PosePrior {
 
 struct PoseFixOptions {
   PosePrior prior;
-  double dot_sigma_px = 0.03;    ///< standard deviation of a dot's centre, for each coordinate
+  double dot_sigma_px = 0.03;    ///< standard deviation of a dot's coordinate, where the dot does not tell
+  double model_sigma_px = 0.004;  ///< added to what it tells: print, lens, pixels that sample an edge
   double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
   double robust_scale = 3.0;     ///< Huber's loss starts at so many sigmas
 };
@@ -52,10 +53,6 @@ struct PoseFix {
 /// A marker that contradicts those which agree (it hangs elsewhere than surveyed) is left out, and so is an
 /// ID that is seen twice. Nothing when no registered marker is left, when two contradict each other, or when
 /// the dots agree with no pose.
-///
-/// Dots count as points. The centroid of a disc seen at an angle lies off its centre's image by
-/// f (radius / distance)^2 sin(2 angle) / 2: below 0.001 px in a camera that looks up, 0.015 px at 30
-/// degrees.
 std::optional<PoseFix> fix_pose(Stamp stamp, const std::vector<DetectedMarker>& markers,
                                 const MarkerRegistry& registry, const CameraModel& camera,
                                 const PoseFixOptions& options);

@@ -260,7 +260,8 @@ TEST(FixPose, uses_the_mounts_tilt) {
   const Eigen::Isometry3d view = view_from({1.1, 1.9, 0.3}, 1.0, radians(2.0), radians(-3.0));
   const auto fix = fix_pose(Stamp{}, seen(view, registry, camera, 0.0, random), registry, camera, options);
   ASSERT_TRUE(fix.has_value());
-  EXPECT_LT(error_of(*fix, view).cwiseAbs().maxCoeff(), 1e-6);
+  // Not exactly: these dots are images of points, not of discs.
+  EXPECT_LT(error_of(*fix, view).cwiseAbs().maxCoeff(), 1e-5);
 }
 
 TEST(FixPose, height_prior_sharpens_the_height) {
