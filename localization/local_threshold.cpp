@@ -77,7 +77,7 @@ void LocalThresholds::resize(const cv::Size& frame) {
 
 /// The difference of two pixels varies twice as much as one; what the ceiling shows drops out of it.
 double LocalThresholds::noise_in_tiles(const cv::Mat& gray, int most_range) const {
-  constexpr int most_tiles = 64;
+  constexpr int most_tiles = 32;
   int tiles = 0;
   int pairs = 0;
   int squares = 0;

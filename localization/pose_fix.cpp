@@ -78,24 +78,25 @@ bool fits(const MapEstimate& estimate, std::span<const KnownMarker> markers, con
   });
 }
 
-struct Guess {
-  Eigen::Isometry3d map_from_camera;
-  double cost = 0.0;  ///< over all dots
-};
-
-/// By the optimal marker, the first: what P3P makes of it, and what it looks like with the prior's tilt. The
-/// most promising one first.
-std::vector<Guess> guesses(const KnownMarker& optimal, std::span<const SurveyedDot> dots,
-                           const CameraModel& camera, const PoseFixOptions& options) {
-  std::vector<Guess> result;
-  result.reserve(5);
+/// What P3P makes of the optimal marker, the first, and what the prior's tilt makes of it; the pose that explains
+/// all dots best comes first.
+std::vector<Eigen::Isometry3d> guesses(const KnownMarker& optimal, std::span<const SurveyedDot> dots,
+                                       const CameraModel& camera, const PoseFixOptions& options) {
+  struct Guess {
+    Eigen::Isometry3d map_from_camera;
+    double cost = 0.0;
+  };
+  std::vector<Guess> scored;
+  scored.reserve(5);
   const auto add = [&](const Eigen::Isometry3d& guess) {
-    result.push_back({guess, cost_of(guess, dots, camera, options)});
+    scored.push_back({guess, cost_of(guess, dots, camera, options)});
   };
   if (const auto level = level_guess(optimal.dots, camera, options.prior)) add(*level);
   for (const Eigen::Isometry3d& camera_from_map : p3p_guesses(optimal.direction_dots, camera))
     add(camera_from_map.inverse());
-  std::ranges::sort(result, {}, &Guess::cost);
+  std::ranges::sort(scored, {}, &Guess::cost);
+  std::vector<Eigen::Isometry3d> result;
+  for (const Guess& guess : scored) result.push_back(guess.map_from_camera);
   return result;
 }
 
@@ -111,17 +112,24 @@ MapEstimate with_mirrored_view(const MapEstimate& estimate, std::span<const Surv
 }
 
 /// The maximum of the posterior: of the guesses, the first that leads to a pose that fits all markers, or
-/// else the best.
+/// else the best. Where the tilt is known, the pose with that tilt leads there and nothing else need be tried.
 std::optional<MapEstimate> best_estimate(std::span<const KnownMarker> markers,
                                          std::span<const SurveyedDot> dots, const CameraModel& camera,
                                          const PoseFixOptions& options) {
   std::optional<MapEstimate> best;
-  for (const Guess& guess : guesses(markers.front(), dots, camera, options)) {
-    const std::optional<MapEstimate> estimate =
-        maximize_posterior(guess.map_from_camera, dots, camera, options);
-    if (!estimate || (best && best->cost <= estimate->cost)) continue;
+  const auto leads_to_a_fit = [&](const Eigen::Isometry3d& guess) {
+    const std::optional<MapEstimate> estimate = maximize_posterior(guess, dots, camera, options);
+    if (!estimate || (best && best->cost <= estimate->cost)) return false;
     best = estimate;
-    if (fits(*best, markers, camera, options.max_residual_px)) break;
+    return fits(*best, markers, camera, options.max_residual_px);
+  };
+  const auto level = options.prior.tilt_sigma_rad
+                         ? level_guess(markers.front().dots, camera, options.prior)
+                         : std::nullopt;
+  if (!level || !leads_to_a_fit(*level)) {
+    for (const Eigen::Isometry3d& guess : guesses(markers.front(), dots, camera, options)) {
+      if (leads_to_a_fit(guess)) break;
+    }
   }
   if (!best) return std::nullopt;
   return with_mirrored_view(*best, dots, camera, options);
