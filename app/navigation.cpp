@@ -1,9 +1,21 @@
 #include "app/navigation.hpp"
 
 namespace lodestar {
+namespace {
+
+DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options) {
+  options.registered_ids = registered_ids(registry);
+  return options;
+}
+
+}  // namespace
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
-    : world_(world), options_(options), planner_(world.map, options.planner), filter_(options.filter) {}
+    : world_(world),
+      options_(options),
+      detector_(expecting(world.registry, options.detector)),
+      planner_(world.map, options.planner),
+      filter_(options.filter) {}
 
 NavigationStep Navigation::step(const SensorInput& input) {
   // Travel comes first: a frame was exposed before the newest wheel reading, and the filter corrects the
@@ -26,10 +38,10 @@ NavigationStep Navigation::step(const SensorInput& input) {
   return {.fixes = std::move(fixes), .estimate = estimate, .stop = stop, .command = command};
 }
 
-std::vector<UsedFix> Navigation::see(const std::vector<Frame>& frames, PoseFilter& filter) const {
+std::vector<UsedFix> Navigation::see(const std::vector<Frame>& frames, PoseFilter& filter) {
   std::vector<UsedFix> fixes;
   for (const Frame& frame : frames) {
-    const std::vector<DetectedMarker> markers = detect_markers(frame.gray, options_.detector);
+    const std::vector<DetectedMarker> markers = detector_.detect(frame.gray);
     const std::optional<PoseFix> fix =
         fix_pose(frame.stamp, markers, world_.registry, world_.camera, options_.fix);
     if (!fix) continue;

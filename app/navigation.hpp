@@ -73,10 +73,11 @@ class Navigation {
   [[nodiscard]] bool arrived() const { return drive_ && drive_->arrived(); }
 
  private:
-  std::vector<UsedFix> see(const std::vector<Frame>& frames, PoseFilter& filter) const;
+  std::vector<UsedFix> see(const std::vector<Frame>& frames, PoseFilter& filter);
 
   KnownWorld world_;
   NavigationOptions options_;
+  MarkerDetector detector_;
   GridPlanner planner_;
   PoseFilter filter_;
   std::optional<PoseEstimate> estimate_;

@@ -44,8 +44,7 @@ class IdDecoder {
 
   [[nodiscard]] bool knows_ids() const { return !ids_.empty(); }
 
-  /// Is it one of the registered IDs, or are all alike? A foreign marker, or one of ours of which too much is
-  /// covered, reads as an ID that is not registered.
+  /// Is it one of the registered IDs, or are all alike?
   [[nodiscard]] bool accepts(int id) const;
 
  private:

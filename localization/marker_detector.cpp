@@ -171,7 +171,7 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, const std::vect
     const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
     const IdReading id = id_decoder_.read(cells);
     const double probability = id.weight / id.all_weight;
-    if (probability < options_.least_probability || !id_decoder_.accepts(id.id)) continue;
+    if (probability < options_.least_probability) continue;
     markers.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
                                [&](GridCell cell) { return reading.grid.center_px(cell); }));
   }

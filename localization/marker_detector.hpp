@@ -20,9 +20,9 @@ struct DetectorOptions {
   MarkerDecoderOptions decoder;
   LatticeOptions lattice;
   CellEvidenceOptions evidence;
-  /// IDs of the registered markers. With them no other is reported, and a marker is read whose cells cannot
-  /// all be seen, when only one of them fits. Without them every cell must be sure, and each of the 4096 IDs is
-  /// as likely as any other.
+  /// IDs of the registered markers. With them a marker is read whose cells cannot all be seen, when only one of
+  /// them fits; another ID is reported when every cell is sure of it and it differs from theirs in more than
+  /// one. Without them every cell must be sure, and each of the 4096 IDs is as likely as any other.
   std::vector<int> registered_ids;
   double least_probability = 0.99;  ///< that the ID is right; less is refused
   /// With registered IDs, the log odds of the cells that may contradict a marker found by its lattice: one sure

@@ -12,6 +12,13 @@ const RegisteredMarker* MarkerRegistry::find(int id) const {
   return found;
 }
 
+std::vector<int> registered_ids(const MarkerRegistry& registry) {
+  std::vector<int> ids;
+  ids.reserve(registry.markers.size());
+  for (const RegisteredMarker& marker : registry.markers) ids.push_back(marker.id);
+  return ids;
+}
+
 Eigen::Isometry3d map_from_marker(const MarkerRegistry& registry, const RegisteredMarker& marker) {
   Eigen::Isometry3d registry_from_marker =
       lifted({marker.position_m.head<2>(), marker.yaw_rad}, marker.position_m.z());

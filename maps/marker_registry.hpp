@@ -25,6 +25,9 @@ struct MarkerRegistry {
   [[nodiscard]] const RegisteredMarker* find(int id) const;
 };
 
+/// All IDs, in the order of the markers.
+std::vector<int> registered_ids(const MarkerRegistry& registry);
+
 /// Marker frame to map frame. The marker's z axis points down, so its y axis points to yaw - 90 degrees.
 Eigen::Isometry3d map_from_marker(const MarkerRegistry& registry, const RegisteredMarker& marker);
 
