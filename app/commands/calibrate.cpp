@@ -1,0 +1,97 @@
+#include <filesystem>
+#include <fmt/core.h>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/camera_set.hpp"
+#include "app/commands/command.hpp"
+#include "maps/camera_model.hpp"
+
+namespace lodestar {
+namespace {
+
+struct CameraArguments {
+  CalibrationBoard board;
+  CameraCalibrationOptions options;
+  std::string output;
+  bool json = false;
+  std::vector<std::string> images;
+};
+
+ExitCode calibrate_camera_from_images(const CameraArguments& arguments) {
+  const CameraSet set = read_camera_set(arguments.images, arguments.board);
+  const CameraCalibration calibration =
+      calibrate_camera(set.views, set.width_px, set.height_px, arguments.options);
+  fmt::print("{}",
+             arguments.json ? json_report(set, calibration).dump(2) + "\n" : text_report(set, calibration));
+  for (const std::string& line : complaints(set, calibration, arguments.options)) {
+    fmt::print(stderr, "lodestar: {}\n", line);
+  }
+  if (!calibration.flaws.empty()) return job_failed;
+  const std::filesystem::path output(arguments.output);
+  save_camera(calibration.fit->camera, output.stem().string(), output);
+  fmt::print(stderr, "lodestar: wrote {}\n", arguments.output);
+  return done;
+}
+
+void add_board(CLI::App* command, CalibrationBoard& board) {
+  const std::map<std::string, BoardKind> kinds{{"chessboard", BoardKind::chessboard},
+                                               {"charuco", BoardKind::charuco}};
+  constexpr double longest_m = 10.0;
+  const CLI::Range side_m(1e-4, longest_m);
+  command->add_option("--board", board.kind, "chessboard or charuco")
+      ->required()
+      ->transform(CLI::CheckedTransformer(kinds));
+  command
+      ->add_option("--cols", board.columns,
+                   "Chessboard: inner corners in a row (one less than squares). ChArUco: squares in a row")
+      ->required()
+      ->check(CLI::Range(3, 200));
+  command->add_option("--rows", board.rows, "The same in a column")->required()->check(CLI::Range(3, 200));
+  command->add_option("--square-m", board.square_m, "Side of a square, as measured on the print")
+      ->required()
+      ->check(side_m);
+  command->add_option("--marker-m", board.marker_m, "ChArUco: side of a marker")->check(side_m);
+  command->add_option("--dictionary", board.dictionary, "ChArUco: dictionary of the markers, DICT_5X5_100");
+}
+
+Command camera_command(CLI::App* calibrate) {
+  const auto arguments = std::make_shared<CameraArguments>();
+  CLI::App* command = calibrate->add_subcommand(
+      "camera", "Intrinsics and distortion from images of a board; exit 1, and no file, for a poor set");
+  add_board(command, arguments->board);
+  const std::map<std::string, LensModel> models{
+      {"pinhole", LensModel::pinhole}, {"rational", LensModel::rational}, {"fisheye", LensModel::fisheye}};
+  command->add_option("--model", arguments->options.model, "pinhole (the default), rational or fisheye")
+      ->transform(CLI::CheckedTransformer(models));
+  command->add_option("--max-rms-px", arguments->options.most_rms_px, "Largest reprojection error to accept")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "Report as JSON");
+  command->add_option("-o,--output", arguments->output, "Camera file to write, camera_info YAML")->required();
+  command->add_option("images", arguments->images, "Images, or folders of images")->required();
+  command->callback([command] {
+    const bool is_charuco = command->get_option("--board")->as<BoardKind>() == BoardKind::charuco;
+    for (const char* name : {"--marker-m", "--dictionary"}) {
+      const bool is_given = command->count(name) > 0;
+      if (is_charuco && !is_given) throw CLI::RequiredError(name);
+      if (!is_charuco && is_given) throw CLI::ExcludesError(name, "--board chessboard");
+    }
+    if (is_charuco &&
+        command->get_option("--marker-m")->as<double>() >= command->get_option("--square-m")->as<double>())
+      throw CLI::ValidationError("--marker-m", "must be less than --square-m");
+  });
+  return {command, [arguments] { return calibrate_camera_from_images(*arguments); }};
+}
+
+}  // namespace
+
+std::vector<Command> calibrate_commands(CLI::App& lodestar) {
+  CLI::App* calibrate =
+      lodestar.add_subcommand("calibrate", "Measure a camera, or where it sits on the robot");
+  calibrate->require_subcommand(1);
+  return {camera_command(calibrate)};
+}
+
+}  // namespace lodestar
