@@ -6,7 +6,12 @@
 
 #include "app/camera_set.hpp"
 #include "app/commands/command.hpp"
+#include "app/mount_set.hpp"
+#include "app/robot_mount.hpp"
+#include "app/site.hpp"
+#include "maps/atomic_file.hpp"
 #include "maps/camera_model.hpp"
+#include "maps/input_error.hpp"
 
 namespace lodestar {
 namespace {
@@ -85,13 +90,83 @@ Command camera_command(CLI::App* calibrate) {
   return {command, [arguments] { return calibrate_camera_from_images(*arguments); }};
 }
 
+struct MountArguments {
+  std::string markers;
+  std::string camera;
+  std::string robot;
+  std::string output;
+  bool json = false;
+  std::vector<std::string> inputs;  ///< the log, and before it the site when there is one
+};
+
+/// What a log is read with.
+struct MountInput {
+  MarkerRegistry registry;
+  CameraModel camera;
+  std::filesystem::path robot_file;
+};
+
+/// The site's files, or those named by options, which go before.
+MountInput input_of(const MountArguments& arguments) {
+  std::optional<Site> site;
+  if (arguments.inputs.size() == 2) site = load_site(arguments.inputs.front());
+  if (!site && (arguments.markers.empty() || arguments.camera.empty() || arguments.robot.empty())) {
+    throw InputError("found one folder, wanted SITE LOG, or LOG with --markers, --camera and --robot");
+  }
+  return {.registry = arguments.markers.empty() ? site->registry : load_registry(arguments.markers),
+          .camera = arguments.camera.empty() ? site->cameras.at(site->default_camera)
+                                             : load_camera(arguments.camera),
+          .robot_file = arguments.robot.empty() ? site->robot_file : std::filesystem::path(arguments.robot)};
+}
+
+ExitCode calibrate_mount_from_log(const MountArguments& arguments) {
+  const MountInput input = input_of(arguments);
+  const Robot robot = load_robot(input.robot_file);
+  const MountSet set =
+      read_mount_set(load_drive_log(arguments.inputs.back()), input.registry, input.camera, robot);
+  const MountCalibrationOptions options;
+  const MountCalibration calibration = calibrate_mount(set.frames, input.camera, belief_of(robot), options);
+  fmt::print("{}",
+             arguments.json ? json_report(set, calibration).dump(2) + "\n" : text_report(set, calibration));
+  for (const std::string& line : complaints(set, calibration, options)) {
+    fmt::print(stderr, "lodestar: {}\n", line);
+  }
+  if (!calibration.flaws.empty()) return job_failed;
+  write_file_atomically(arguments.output,
+                        with_camera_mount(input.robot_file, measured_keys(*calibration.estimate)));
+  fmt::print(stderr, "lodestar: wrote {}\n", arguments.output);
+  return done;
+}
+
+Command mount_command(CLI::App* calibrate) {
+  const auto arguments = std::make_shared<MountArguments>();
+  CLI::App* command = calibrate->add_subcommand(
+      "mount",
+      "Where the camera sits on the robot, from a log of five turns on the spot and a straight drive; "
+      "exit 1, and no file, for a log that does not tell");
+  command->add_option("--markers", arguments->markers, "Marker registry, instead of the site's");
+  command->add_option("--camera", arguments->camera, "Calibrated camera, instead of the site's default");
+  command->add_option("--robot", arguments->robot,
+                      "robot.yaml: what is believed so far, instead of the site's");
+  command->add_flag("--json", arguments->json, "Report as JSON");
+  command->add_option("-o,--output", arguments->output, "Robot file to write")->required();
+  command
+      ->add_option(
+          "log", arguments->inputs,
+          "[SITE] LOG. A log is a folder of images named by their stamp in seconds, and wheels.csv with "
+          "the columns stamp_s,left_m,right_m")
+      ->required()
+      ->expected(1, 2);
+  return {command, [arguments] { return calibrate_mount_from_log(*arguments); }};
+}
+
 }  // namespace
 
 std::vector<Command> calibrate_commands(CLI::App& lodestar) {
   CLI::App* calibrate =
       lodestar.add_subcommand("calibrate", "Measure a camera, or where it sits on the robot");
   calibrate->require_subcommand(1);
-  return {camera_command(calibrate)};
+  return {camera_command(calibrate), mount_command(calibrate)};
 }
 
 }  // namespace lodestar
