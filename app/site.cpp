@@ -101,7 +101,8 @@ Site load_site(const std::filesystem::path& folder) {
   if (!site.cameras.contains(site.default_camera)) {
     yaml.refuse("default_camera", "'" + site.default_camera + "'", "one of the keys of cameras");
   }
-  site.robot = load_robot(folder / yaml.text("robot"));
+  site.robot_file = folder / yaml.text("robot");
+  site.robot = load_robot(site.robot_file);
   site.start = read_start(yaml.mapping("start"));
   for (StrictYaml& goal : yaml.list_of_mappings("goals")) site.goals.push_back(read_goal(goal));
   if (site.goals.empty()) yaml.refuse("goals", "an empty list", "at least one goal");

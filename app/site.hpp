@@ -40,6 +40,7 @@ struct Site {
   MarkerRegistry registry;
   std::map<std::string, CameraModel> cameras;
   std::string default_camera;
+  std::filesystem::path robot_file;
   Robot robot;
   Pose2 start;
   std::vector<Goal> goals;

@@ -14,3 +14,14 @@ target_link_libraries(opencv_imgproc INTERFACE opencv_core)
 target_link_libraries(opencv_imgcodecs INTERFACE opencv_imgproc)
 target_link_libraries(opencv_features2d INTERFACE opencv_imgproc)
 target_link_libraries(opencv_calib3d INTERFACE opencv_features2d)
+
+# ChArUco boards need aruco, which Debian ships with all of contrib: used where it is there.
+find_library(OPENCV_aruco_LIBRARY opencv_aruco)
+if(OPENCV_aruco_LIBRARY)
+  add_library(opencv_aruco SHARED IMPORTED GLOBAL)
+  set_target_properties(opencv_aruco PROPERTIES
+    IMPORTED_LOCATION ${OPENCV_aruco_LIBRARY}
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE_DIR}
+    INTERFACE_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE_DIR})
+  target_link_libraries(opencv_aruco INTERFACE opencv_calib3d)
+endif()

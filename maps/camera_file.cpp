@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <span>
 #include <stdexcept>
 #include <string>
 
+#include "maps/atomic_file.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
@@ -174,12 +177,41 @@ CameraModel load_file_storage(const fs::path& file, const std::string& text) {
   }
 }
 
+std::string_view model_name(Distortion distortion) {
+  if (distortion == Distortion::equidistant) return "equidistant";
+  if (distortion == Distortion::rational_polynomial) return "rational_polynomial";
+  return "plumb_bob";
+}
+
+std::size_t written_count(Distortion distortion) {
+  if (distortion == Distortion::equidistant) return 4;
+  return distortion == Distortion::rational_polynomial ? 8 : 5;
+}
+
 }  // namespace
 
 CameraModel load_camera(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   return text.starts_with("%YAML:1.0") ? load_file_storage(file, text) : load_camera_info(file);
+}
+
+void save_camera(const CameraModel& camera, const std::string& name, const fs::path& file) {
+  const std::size_t count = written_count(camera.distortion);
+  const std::span coefficients = std::span(camera.coefficients).first(count);
+  const auto [fx, fy, cx, cy] = std::array{camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
+  std::string text = fmt::format("image_width: {}\nimage_height: {}\ncamera_name: {}\n", camera.width_px,
+                                 camera.height_px, YAML::Dump(YAML::Node(name)));
+  text += fmt::format("camera_matrix: {{rows: 3, cols: 3, data: [{}, 0, {}, 0, {}, {}, 0, 0, 1]}}\n", fx, cx,
+                      fy, cy);
+  text += fmt::format("distortion_model: {}\n", model_name(camera.distortion));
+  text += fmt::format("distortion_coefficients: {{rows: 1, cols: {}, data: [{}]}}\n", count,
+                      fmt::join(coefficients, ", "));
+  text += "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n";
+  text +=
+      fmt::format("projection_matrix: {{rows: 3, cols: 4, data: [{}, 0, {}, 0, 0, {}, {}, 0, 0, 0, 1, 0]}}\n",
+                  fx, cx, fy, cy);
+  write_file_atomically(file, text);
 }
 
 }  // namespace lodestar

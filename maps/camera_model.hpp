@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "maps/geometry.hpp"
 
@@ -41,5 +42,9 @@ struct CameraModel {
 
 /// Reads a ROS camera_info YAML file, or an OpenCV FileStorage one (`%YAML:1.0`). Throws InputError.
 CameraModel load_camera(const std::filesystem::path& file);
+
+/// Writes a ROS camera_info YAML file, atomically, from which load_camera reads the same model back, bit for
+/// bit. `name` becomes camera_name. Throws InputError when it cannot be written.
+void save_camera(const CameraModel& camera, const std::string& name, const std::filesystem::path& file);
 
 }  // namespace lodestar

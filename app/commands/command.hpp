@@ -21,6 +21,7 @@ std::vector<Command> detect_commands(CLI::App& lodestar);
 std::vector<Command> plan_commands(CLI::App& lodestar);
 std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
+std::vector<Command> calibrate_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
 
 }  // namespace lodestar

@@ -131,6 +131,27 @@ TEST(CameraFile, reads_opencv_file_storage) {
   EXPECT_EQ(camera.coefficients[0], -0.2);
 }
 
+TEST(CameraFile, is_read_back_as_it_was_written) {
+  Random random(4);
+  const TemporaryFolder folder;
+  for (CameraModel camera : cameras) {
+    camera.fx_px *= random.uniform(0.9, 1.1);  // digits to the last bit
+    camera.cy_px += random.uniform();
+    const bool has_distortion = camera.distortion != Distortion::none;
+    for (double& k : camera.coefficients) k *= has_distortion ? random.uniform(0.9, 1.1) : 0.0;
+    save_camera(camera, "ceiling: #1", folder / "camera.yaml");
+    const CameraModel back = load_camera(folder / "camera.yaml");
+    EXPECT_EQ(back.width_px, camera.width_px);
+    EXPECT_EQ(back.height_px, camera.height_px);
+    EXPECT_EQ(back.fx_px, camera.fx_px);
+    EXPECT_EQ(back.fy_px, camera.fy_px);
+    EXPECT_EQ(back.cx_px, camera.cx_px);
+    EXPECT_EQ(back.cy_px, camera.cy_px);
+    EXPECT_EQ(back.distortion, camera.distortion);
+    EXPECT_EQ(back.coefficients, camera.coefficients);
+  }
+}
+
 TEST(CameraFile, refuses_what_is_wrong_with_its_line) {
   EXPECT_EQ(error_of(good), "no error");
   EXPECT_THAT(error_of(with("image_width: 640", "image_width: 0")), HasSubstr("camera.yaml:1: found '0'"));
