@@ -70,20 +70,32 @@ void draw_dots(cv::Mat& picture, const DetectedMarker& marker, const Enlarged& e
   }
 }
 
-/// From O to a third of a pitch beyond the direction dot, with an arrow's head and the axis' name.
-void draw_axis(cv::Mat& picture, const Vec2& from, const Vec2& to, const char* name, const cv::Scalar& color,
-               const Enlarged& enlarged) {
-  const Vec2 beyond = to + (to - from) * (0.8 / (marker_grid_size - 1));
-  cv::arrowedLine(picture, enlarged(from), enlarged(beyond), color, 2, cv::LINE_AA, fraction_bits, 0.08);
-  const cv::Point tip = enlarged(beyond + (to - from).normalized() * 6.0) / (1 << fraction_bits);
-  write_text(picture, name, tip + cv::Point(-7, 7), 0.6, color);
+/// Where the arrow from O through a direction dot ends, most of a pitch beyond it, and its axis' name stands.
+struct ArrowEnd {
+  Vec2 tip_px;
+  Vec2 name_px;
+};
+
+ArrowEnd arrow_end(const Vec2& from, const Vec2& to) {
+  const Vec2 tip = to + (to - from) * (0.8 / (marker_grid_size - 1));
+  return {tip, tip + (to - from).normalized() * 6.0};
 }
 
+void draw_axis(cv::Mat& picture, const Vec2& from, const Vec2& to, const char* name, const cv::Scalar& color,
+               const Enlarged& enlarged) {
+  const ArrowEnd end = arrow_end(from, to);
+  cv::arrowedLine(picture, enlarged(from), enlarged(end.tip_px), color, 2, cv::LINE_AA, fraction_bits, 0.08);
+  write_text(picture, name, enlarged(end.name_px) / (1 << fraction_bits) + cv::Point(-7, 7), 0.6, color);
+}
+
+/// The marker with the circles about its dots and the names of its axes.
 cv::Rect surroundings_of(const DetectedMarker& marker, const Enlarged& enlarged) {
   std::vector<cv::Point> points;
   for (const MarkerDot& dot : marker.dots) points.push_back(enlarged(dot.center_px) / (1 << fraction_bits));
-  cv::Rect box = cv::boundingRect(points);
-  const int margin = enlarged.length(2.2 * half_pitch_px(marker)) / (1 << fraction_bits) + 8;
+  for (const Vec2& to : {marker.x_px, marker.y_px})
+    points.push_back(enlarged(arrow_end(marker.o_px, to).name_px) / (1 << fraction_bits));
+  const cv::Rect box = cv::boundingRect(points);
+  const int margin = std::max(enlarged.length(half_pitch_px(marker)) / (1 << fraction_bits), 10) + 8;
   return {box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin};
 }
 

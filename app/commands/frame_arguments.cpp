@@ -3,9 +3,11 @@
 namespace lodestar {
 
 void add_frame_arguments(CLI::App& command, FrameArguments& arguments) {
-  command.add_option("--draw", arguments.draw, "Folder for a PNG of each frame with all that was seen in it");
+  command.add_option("--draw", arguments.draw, "Folder for a PNG of each frame with all that was seen in it")
+      ->type_name("FOLDER");
   command.add_option("--frames", arguments.most_frames, "Stop after so many frames")
-      ->check(CLI::PositiveNumber);
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000'000));
   command.add_flag("-q,--quiet", arguments.quiet, "No summary on stderr");
   command
       .add_option("input", arguments.inputs,
@@ -13,12 +15,8 @@ void add_frame_arguments(CLI::App& command, FrameArguments& arguments) {
                   "/dev/video0 (until Ctrl-C)")
       ->required();
   command.footer(
-      "The file column holds an image's path, and clip.avi#12 for the 13th frame of a video or camera.\n"
-      "Stamps are in seconds: a video's own time, a camera's since the machine started; for an image its "
-      "name\n"
-      "when that is a number (12.40.png), else its place in the list, from 0. Images may be of 8 or 16 bits, "
-      "gray\n"
-      "or in colour; transparency is ignored.");
+      "Images may be of 8 or 16 bits, gray or in colour; transparency is ignored. In the results, file is\n"
+      "an image's path, and clip.avi#12 for the 13th frame of a video or camera.");
 }
 
 FrameInputs open_inputs(const FrameArguments& arguments, const std::optional<CameraModel>& camera) {

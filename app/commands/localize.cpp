@@ -126,13 +126,19 @@ std::string words_of_refusal(const std::vector<OverlayMarker>& markers) {
   return registered ? "REFUSED: the dots agree with no pose" : "REFUSED: no marker of the registry";
 }
 
+/// To hundredths of a degree, and never minus zero.
+double in_words_deg(double angle_rad) {
+  constexpr double per_degree = 100.0;
+  return std::round(degrees(angle_rad) * per_degree) / per_degree + 0.0;
+}
+
 std::vector<std::string> words_of_pose(const Row& row, const char* who) {
   constexpr double mm = 1000.0;
   const Vec3 p = row.pose.translation();
   const RollPitchYaw angles = angles_of(row.pose.linear());
   return {fmt::format("{} at x {:.3f} m, y {:.3f} m, z {:.3f} m, yaw {:.2f} deg (roll {:.2f}, pitch {:.2f})",
-                      who, p.x(), p.y(), p.z(), degrees(angles.yaw_rad), degrees(angles.roll_rad),
-                      degrees(angles.pitch_rad)),
+                      who, p.x(), p.y(), p.z(), in_words_deg(angles.yaw_rad), in_words_deg(angles.roll_rad),
+                      in_words_deg(angles.pitch_rad)),
           fmt::format("one sigma: x {:.1f} mm, y {:.1f} mm, yaw {:.3f} deg; from {} dots of {}",
                       mm * row.sigma_x_m, mm * row.sigma_y_m, degrees(row.sigma_yaw_rad), row.dots,
                       fmt::join(row.ids, "+"))};
@@ -206,6 +212,10 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
       ->check(CLI::IsMember({"csv", "tum", "json"}))
       ->capture_default_str();
   add_frame_arguments(*command, arguments->frames);
+  command->footer(
+      command->get_footer() +
+      "\nStamps are in seconds: a video's own time, a camera's since the machine started; an image's "
+      "is its\nname when that is a number (12.40.png), else its place in the list, from 0.");
   return {{command, [arguments] { return localize(*arguments); }}};
 }
 

@@ -109,6 +109,50 @@ TEST(Markers, check_names_overlapping_markers_with_their_line) {
   EXPECT_THAT(ran.out, HasSubstr("differ in one dot"));
 }
 
+TEST(Markers, check_reports_the_smallest_distances_and_their_pairs_as_json) {
+  const ScratchFolder scratch;
+  write_text(scratch.path() / "markers.yaml",
+             "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
+             "  - {id: 447, x_m: 1.0, y_m: 2.0, z_m: 2.6, yaw_deg: 0}\n"
+             "  - {id: 446, x_m: 4.0, y_m: 6.0, z_m: 2.6, yaw_deg: 45}\n");
+  const Ran ran = run_lodestar("markers check --json markers.yaml", scratch.path());
+  EXPECT_EQ(ran.exit_code, 0) << "a warning is no error";
+  const auto report = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(report["upright"]["smallest_distance"], 1);
+  EXPECT_EQ(report["upright"]["closest_pairs"][0]["ids"], (std::vector<int>{447, 446}));
+  EXPECT_EQ(report["upright"]["closest_pairs"][0]["apart_m"], 5.0);
+  EXPECT_GE(report["turned_or_mirrored"]["smallest_distance"], 0);
+  EXPECT_EQ(report["issues"][0]["kind"], "similar-ids");
+}
+
+TEST(Markers, that_are_generated_pass_the_check_at_their_distance) {
+  const ScratchFolder scratch;
+  const Ran made =
+      run_lodestar("markers generate --count 40 --min-hamming 4 --seed 5 --format yaml", scratch.path());
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  write_text(scratch.path() / "new.yaml", made.out);
+  const Ran checked = run_lodestar("markers check --json new.yaml", scratch.path());
+  ASSERT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+  const auto report = nlohmann::json::parse(checked.out);
+  EXPECT_EQ(report["markers"], 40);
+  EXPECT_GE(report["upright"]["smallest_distance"], 4);
+  EXPECT_GE(report["turned_or_mirrored"]["smallest_distance"], 4);
+  EXPECT_TRUE(report["issues"].empty());
+
+  const Ran more =
+      run_lodestar("markers generate --count 5 --min-hamming 3 --avoid new.yaml", scratch.path());
+  EXPECT_EQ(more.exit_code, 0) << more.err;
+  EXPECT_EQ(rows_of(more.out).size(), 5U) << "one ID a line";
+}
+
+TEST(Markers, generate_says_how_many_there_are_when_there_are_not_enough) {
+  const ScratchFolder scratch;
+  const Ran ran = run_lodestar("markers generate --plain --count 257 --min-hamming 3", scratch.path());
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_THAT(ran.err, HasSubstr("found 256 IDs that are 3 cells apart, wanted 257"));
+}
+
 TEST(Markers, of_the_lab_are_in_order) {
   const ScratchFolder scratch;
   const std::string lab = std::string(LODESTAR_SOURCE_DIR) + "/sites/lab/";
