@@ -30,10 +30,11 @@ std::vector<fs::path> matches_of(const std::string& pattern) {
 
 }  // namespace
 
-FrameInputs::FrameInputs(const std::vector<std::string>& arguments, FrameInputOptions options)
-    : options_(std::move(options)) {
+FrameInputs::FrameInputs(const std::vector<std::string>& arguments, const FrameInputOptions& options)
+    : options_(options) {
   for (const std::string& argument : arguments) {
-    if (fs::exists(argument)) {
+    std::error_code ignored;  // what cannot be looked at is not there
+    if (fs::exists(argument, ignored)) {
       add(argument);
       continue;
     }

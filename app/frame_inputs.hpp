@@ -21,7 +21,7 @@ class FrameInputs final : public FrameSource {
  public:
   /// Throws InputError for a path that does not exist, a pattern that matches nothing, a folder without
   /// images, or no argument at all. Videos and devices are opened when their turn comes.
-  FrameInputs(const std::vector<std::string>& arguments, FrameInputOptions options);
+  FrameInputs(const std::vector<std::string>& arguments, const FrameInputOptions& options);
 
   /// Throws InputError for a frame that cannot be read or is not of the camera's size.
   std::optional<SourceFrame> next() override;

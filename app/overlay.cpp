@@ -99,18 +99,30 @@ cv::Rect surroundings_of(const DetectedMarker& marker, const Enlarged& enlarged)
   return {box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin};
 }
 
-/// Below the marker, or above it where the picture ends; never beyond the picture's sides.
-void draw_label(cv::Mat& picture, const OverlayMarker& shown, const Enlarged& enlarged) {
+/// Below the marker, or above it where the picture ends or something else is shown there; never beyond the
+/// picture's sides. `taken` gains the label's place.
+void draw_label(cv::Mat& picture, const OverlayMarker& shown, const Enlarged& enlarged,
+                std::vector<cv::Rect>& taken) {
   const DetectedMarker& marker = shown.marker;
   std::string label = fmt::format("ID {}  confidence {:.2f}", marker.id, marker.confidence);
   if (!shown.objection.empty()) label += "  " + shown.objection;
   const cv::Rect around = surroundings_of(marker, enlarged);
-  const cv::Size size = cv::getTextSize(label, font, label_size, 2, nullptr);
-  cv::Point at(around.x + (around.width - size.width) / 2, around.br().y + size.height);
-  if (at.y + 6 > picture.rows) at.y = around.y;
-  at.x = std::clamp(at.x, 6, std::max(picture.cols - size.width - 6, 6));
-  at.y = std::clamp(at.y, size.height + 6, picture.rows - 6);
-  write_text(picture, label, at, label_size, shown.objection.empty() ? label_color : objection_color);
+  const cv::Size size = cv::getTextSize(label, font, label_size, 2, nullptr) + cv::Size(0, 8);
+  const int left =
+      std::clamp(around.x + (around.width - size.width) / 2, 6, std::max(picture.cols - size.width - 6, 6));
+  const int lowest = picture.rows - size.height;
+  cv::Rect place({left, std::clamp(around.br().y, 0, lowest)}, size);
+  for (const int top : {around.br().y, around.y - size.height}) {
+    const cv::Rect candidate({left, top}, size);
+    const bool is_free =
+        std::ranges::none_of(taken, [&](const cv::Rect& other) { return (candidate & other).area() > 0; });
+    if (top < 0 || top > lowest || !is_free) continue;
+    place = candidate;
+    break;
+  }
+  taken.push_back(place);
+  write_text(picture, label, {place.x, place.br().y - 8}, label_size,
+             shown.objection.empty() ? label_color : objection_color);
 }
 
 /// The largest size, up to the usual one, at which all lines fit the width.
@@ -154,7 +166,9 @@ cv::Mat draw_overlay(const Overlay& overlay) {
     draw_axis(picture, marker.o_px, marker.y_px, "Y", y_color, enlarged);
     draw_dots(picture, marker, enlarged);
   }
-  for (const OverlayMarker& shown : overlay.markers) draw_label(picture, shown, enlarged);
+  std::vector<cv::Rect> taken;
+  for (const OverlayMarker& shown : overlay.markers) taken.push_back(surroundings_of(shown.marker, enlarged));
+  for (const OverlayMarker& shown : overlay.markers) draw_label(picture, shown, enlarged, taken);
   if (!overlay.words.empty()) picture.push_back(panel_of(overlay, picture.cols));
   return picture;
 }

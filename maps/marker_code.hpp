@@ -51,7 +51,7 @@ struct MarkerCodeOptions {
 /// 256 IDs at distance 3, 128 at distance 4 where views do not count. Where they do, bases and constants
 /// differ in how many words they lead to, and those that lead to more are found by climbing: change one of
 /// them a little, keep what is no worse, begin elsewhere when that has long brought nothing. It finds about
-/// 105 IDs at distance 3 and 64 at distance 4. More than 128 and 72 cannot be: together with their mirror
+/// 110 IDs at distance 3 and 64 at distance 4. More than 128 and 72 cannot be: together with their mirror
 /// images they make a plain code twice as large.
 std::vector<int> choose_marker_ids(int count, const std::vector<int>& taken,
                                    const MarkerCodeOptions& options);

@@ -18,8 +18,9 @@ struct DetectArguments {
 };
 
 void print_csv(const std::string& file, const DetectedMarker& m) {
-  fmt::print("{},{},{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", file, m.id, m.confidence,
-             m.o_px.x(), m.o_px.y(), m.x_px.x(), m.x_px.y(), m.y_px.x(), m.y_px.y(), m.dots.size());
+  fmt::print("{},{},{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", csv_cell(file), m.id,
+             m.confidence, m.o_px.x(), m.o_px.y(), m.x_px.x(), m.x_px.y(), m.y_px.x(), m.y_px.y(),
+             m.dots.size());
 }
 
 nlohmann::ordered_json as_json(const Vec2& point) {
@@ -36,7 +37,7 @@ void print_json(const std::string& file, const std::vector<DetectedMarker>& mark
                                {"y", as_json(marker.y_px)},
                                {"dots", marker.dots.size()}});
   }
-  fmt::print("{}\n", line.dump());
+  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 Overlay overlay_of(const SourceFrame& frame, const std::vector<DetectedMarker>& markers) {

@@ -30,4 +30,15 @@ std::optional<OverlayFolder> open_overlays(const FrameArguments& arguments, cons
   return OverlayFolder(arguments.draw, inputs.image_folders());
 }
 
+std::string csv_cell(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) {
+    if (c == '"') quoted.push_back('"');
+    quoted.push_back(c);
+  }
+  quoted.push_back('"');
+  return quoted;
+}
+
 }  // namespace lodestar

@@ -24,4 +24,7 @@ FrameInputs open_inputs(const FrameArguments& arguments, const std::optional<Cam
 /// Nothing when no drawings are wanted.
 std::optional<OverlayFolder> open_overlays(const FrameArguments& arguments, const FrameInputs& inputs);
 
+/// A name as one cell of a CSV row: in quotes when it holds a comma, a quote or a line's end (RFC 4180).
+std::string csv_cell(const std::string& name);
+
 }  // namespace lodestar

@@ -74,7 +74,7 @@ void print_csv(const Row& row) {
   const Vec3 p = row.pose.translation();
   const RollPitchYaw angles = angles_of(row.pose.linear());
   fmt::print("{},{:.6f},{},{:.6f},{:.6f},{:.6f},{:.5f},{:.5f},{:.5f},{:.6f},{:.6f},{:.5f},{:.4f},{}\n",
-             row.file, seconds(row.stamp), fmt::join(row.ids, "+"), p.x(), p.y(), p.z(),
+             csv_cell(row.file), seconds(row.stamp), fmt::join(row.ids, "+"), p.x(), p.y(), p.z(),
              degrees(angles.yaw_rad), degrees(angles.roll_rad), degrees(angles.pitch_rad), row.sigma_x_m,
              row.sigma_y_m, degrees(row.sigma_yaw_rad), row.confidence, row.dots);
 }
@@ -103,7 +103,7 @@ void print_json(const Row& row) {
                                     {"sigma_yaw_deg", degrees(row.sigma_yaw_rad)},
                                     {"confidence", row.confidence},
                                     {"dots", row.dots}};
-  fmt::print("{}\n", line.dump());
+  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 void print_row(const std::string& format, const Row& row) {

@@ -148,8 +148,10 @@ void print_yaml(const std::vector<int>& ids, const MarkerCodeOptions& code) {
              code.min_distance, code.all_views ? " in every view" : "", code.seed);
   fmt::print("format: lodestar-markers\nversion: 1\nalignment: {{x_m: 0, y_m: 0, yaw_deg: 0}}\nmarkers:\n");
   for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::size_t column = i % columns;
+    const std::size_t row = i / columns;
     fmt::print("  - {{id: {}, x_m: {}, y_m: {}, z_m: 0, yaw_deg: 0}}\n", ids[i],
-               spacing_m * static_cast<double>(i % columns), spacing_m * static_cast<double>(i / columns));
+               spacing_m * static_cast<double>(column), spacing_m * static_cast<double>(row));
   }
 }
 

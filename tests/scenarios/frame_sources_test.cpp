@@ -149,6 +149,45 @@ TEST_F(FrameSources, drawings_are_named_after_their_frames_and_show_the_refused_
   }
 }
 
+TEST_F(FrameSources, a_name_with_a_comma_is_one_cell_and_one_of_no_text_is_still_json) {
+  fs::copy_file(path("frames/0.5.png"), path("a,b.png"));
+  fs::copy_file(path("frames/0.5.png"), path("\xff.png"));
+  EXPECT_THAT(run(localize_ + "a,b.png").out, HasSubstr("\n\"a,b.png\",0.000000,"));
+  EXPECT_THAT(run("detect a,b.png").out, HasSubstr("\n\"a,b.png\",447,"));
+  EXPECT_TRUE(nlohmann::json::accept(run(localize_ + "--format json \xff.png").out));
+  EXPECT_TRUE(nlohmann::json::accept(run("detect --format json \xff.png").out));
+}
+
+TEST_F(FrameSources, the_tilt_of_the_mount_and_how_well_it_holds_count_for_every_source) {
+  const std::string base = "localize --markers markers.yaml --camera camera.yaml --quiet frames/0.5.png ";
+  const auto sigma_x = [&](const std::string& options) {
+    const Ran ran = run(base + options);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    return std::stod(column(rows_of(ran.out), 9).at(0));
+  };
+  const double upright = sigma_x("--upright");
+  const double nearly = sigma_x("--tilt-sigma-deg 0.3");
+  const double free = sigma_x("");
+  EXPECT_LT(upright, nearly);
+  EXPECT_LT(nearly, free);
+
+  // 10 cm behind the robot's middle and 2 cm to its left, as high as it was when the pictures were taken.
+  std::string robot = read_text(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab/robot.yaml");
+  const std::size_t at = robot.find("camera_mount:");
+  robot.replace(at, robot.find('\n', at) - at,
+                "camera_mount: {x_m: -0.10, y_m: 0.02, z_m: 0.6, roll_deg: 0, pitch_deg: 0, yaw_deg: 0}");
+  write_text(path("robot.yaml"), robot);
+  const Ran ran = run(base + "--upright --mount robot.yaml");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto row = rows_of(ran.out).at(1);
+  const Vec2 robot_in_map = Pose2{{1.2, 2.1}, radians(75.0)} * Vec2(0.10, -0.02);
+  EXPECT_NEAR(std::stod(row[3]), robot_in_map.x(), 0.003);
+  EXPECT_NEAR(std::stod(row[4]), robot_in_map.y(), 0.003);
+  EXPECT_NEAR(std::stod(row[5]), 0.0, 0.01) << "it stands on the floor";
+  EXPECT_NEAR(std::stod(row[6]), 75.0, 0.2);
+}
+
 TEST_F(FrameSources, drawings_of_a_video_are_numbered) {
   if (!film("drive.avi", 2)) GTEST_SKIP() << "OpenCV cannot write MJPG here";
   ASSERT_EQ(run("detect --draw seen drive.avi").exit_code, 0);
