@@ -1,35 +1,40 @@
 #pragma once
 
 #include <filesystem>
-#include <opencv2/core/mat.hpp>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "maps/camera_model.hpp"
-#include "maps/stamp.hpp"
+#include "app/frame_source.hpp"
 
 namespace lodestar {
 
-struct ImageFile {
-  std::string file;  ///< as it is to be named in results
-  Stamp stamp;   ///< the file name when that is a number of seconds, else its place in the list, in seconds
-  cv::Mat gray;  ///< CV_8UC1
-};
+/// Does the file begin as images do, whatever it is called? Only such files, and those with an image's
+/// ending, are read as images.
+bool is_image(const std::filesystem::path& file);
 
-/// Images named on the command line, one at a time, so that any number of them fits in memory.
-class ImageFiles {
+/// Puts files in the order in which they were taken: by time when each name is a number of seconds, else by
+/// name with numbers in it compared as numbers (frame2 before frame10).
+void sort_as_taken(std::vector<std::filesystem::path>& files);
+
+/// The images of a folder, as taken. Throws InputError for a folder that cannot be read or holds no image.
+std::vector<std::filesystem::path> images_in(const std::filesystem::path& folder);
+
+/// The image as 8-bit gray. Colour becomes luma, an alpha channel is dropped, 16 bits are scaled to 8
+/// (65535 to 255). Throws InputError for a file that is empty, cut short, or no image, and for
+/// floating-point pixels.
+cv::Mat read_gray(const std::filesystem::path& file);
+
+/// Image files in the order given. Stamp: the file name when that is a number of seconds, else the file's
+/// place in the list, in seconds.
+class ImageFiles final : public FrameSource {
  public:
-  /// Each argument is an image or a folder of images (taken in the order of their names). Throws InputError
-  /// for a path that does not exist, a folder without images, or no argument at all.
-  explicit ImageFiles(const std::vector<std::string>& arguments);
+  explicit ImageFiles(std::vector<std::filesystem::path> files, std::size_t first_place = 0)
+      : files_(std::move(files)), first_place_(first_place) {}
 
-  /// The next image, as 8-bit gray; nothing after the last. Throws InputError when it cannot be read, or when
-  /// its size is not the camera's.
-  std::optional<ImageFile> next(const std::optional<CameraModel>& camera);
+  std::optional<SourceFrame> next() override;
 
  private:
   std::vector<std::filesystem::path> files_;
+  std::size_t first_place_;
   std::size_t next_ = 0;
 };
 

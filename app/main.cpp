@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 #include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
 
 #include "app/commands/command.hpp"
 #include "maps/input_error.hpp"
@@ -28,6 +29,7 @@ ExitCode run_chosen(const std::vector<Command>& commands) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);  // no hidden threads: runs side by side are ours to arrange
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we say ourselves what is wrong
   CLI::App app{"Indoor navigation for mobile robots under a ceiling of infrared dot markers", "lodestar"};
   app.set_version_flag("--version", LODESTAR_VERSION);
   app.require_subcommand(1);

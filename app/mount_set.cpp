@@ -82,11 +82,14 @@ std::string complaint(MountFlaw flaw, const MountSet& set, const MountCalibratio
 MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, const CameraModel& camera,
                         const Robot& robot) {
   const PoseFixOptions options = loose_options(robot);
+  DetectorOptions expected;
+  expected.registered_ids = registered_ids(registry);
+  MarkerDetector detector(expected);
   MountSet set{.images = log.images.size()};
   for (const LoggedImage& image : log.images) {
     const std::optional<WheelTravel> travel = log.travel_at(image.stamp);
     if (!travel) continue;
-    const std::vector<DetectedMarker> markers = detect_markers(read_logged_image(image.file, camera));
+    const std::vector<DetectedMarker> markers = detector.detect(read_logged_image(image.file, camera));
     const std::optional<PoseFix> fix = fix_pose(image.stamp, markers, registry, camera, options);
     if (!fix) continue;
     set.frames.push_back({.dots = dots_of_fix(*fix, markers, registry),

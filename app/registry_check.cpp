@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <fmt/format.h>
 
 #include "maps/marker.hpp"
+#include "maps/marker_code.hpp"
 
 namespace lodestar {
 namespace {
@@ -39,8 +39,16 @@ bool parted_by_axes_of(const Pose2& a, const Pose2& b) {
   return (low.array() >= half_side_m).any() || (high.array() <= -half_side_m).any();
 }
 
-int hamming(int a, int b) {
-  return std::popcount(static_cast<unsigned>(a) ^ static_cast<unsigned>(b));
+double apart_m(const RegisteredMarker& a, const RegisteredMarker& b) {
+  return (a.position_m - b.position_m).norm();
+}
+
+void note(DistanceReport& report, int distance, const RegisteredMarker& a, const RegisteredMarker& b) {
+  if (report.closest_pairs.empty() || distance < report.smallest) {
+    report.smallest = distance;
+    report.closest_pairs.clear();
+  }
+  if (distance == report.smallest) report.closest_pairs.push_back({a.id, b.id, apart_m(a, b)});
 }
 
 void find_overlaps(const MarkerRegistry& registry, std::vector<RegistryIssue>& issues) {
@@ -74,19 +82,55 @@ void find_outsiders(const MarkerRegistry& registry, const OccupancyMap& map,
   }
 }
 
+void find_similar_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>& issues) {
+  const std::vector<RegisteredMarker>& markers = registry.markers;
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    for (std::size_t j = i + 1; j < markers.size(); ++j) {
+      const RegisteredMarker& a = markers[i];
+      const RegisteredMarker& b = markers[j];
+      if (id_distance(a.id, b.id) == 1) {
+        issues.push_back(
+            {IssueKind::similar_ids,
+             false,
+             {a.id, b.id},
+             a.line,
+             fmt::format("markers {} and {}, {:.2f} m apart, differ in one dot: when it is lost, or "
+                         "a glint stands there, the one is read as the other",
+                         a.id, b.id, apart_m(a, b))});
+      }
+      if (turned_distance(a.id, b.id) == 0) {
+        issues.push_back({IssueKind::mirror_images,
+                          false,
+                          {a.id, b.id},
+                          a.line,
+                          fmt::format("markers {} and {}, {:.2f} m apart, are each other's mirror image",
+                                      a.id, b.id, apart_m(a, b))});
+      }
+    }
+  }
+}
+
 }  // namespace
 
-HammingReport hamming_report(const MarkerRegistry& registry) {
-  HammingReport report;
+DistanceReport upright_distances(const MarkerRegistry& registry) {
+  DistanceReport report;
   for (std::size_t i = 0; i < registry.markers.size(); ++i) {
     for (std::size_t j = i + 1; j < registry.markers.size(); ++j) {
-      const std::pair pair(registry.markers[i].id, registry.markers[j].id);
-      const int distance = hamming(pair.first, pair.second);
-      if (report.closest_pairs.empty() || distance < report.smallest) {
-        report.smallest = distance;
-        report.closest_pairs.clear();
-      }
-      if (distance == report.smallest) report.closest_pairs.push_back(pair);
+      const RegisteredMarker& a = registry.markers[i];
+      const RegisteredMarker& b = registry.markers[j];
+      note(report, id_distance(a.id, b.id), a, b);
+    }
+  }
+  return report;
+}
+
+DistanceReport turned_distances(const MarkerRegistry& registry) {
+  DistanceReport report;
+  for (std::size_t i = 0; i < registry.markers.size(); ++i) {
+    for (std::size_t j = i; j < registry.markers.size(); ++j) {
+      const RegisteredMarker& a = registry.markers[i];
+      const RegisteredMarker& b = registry.markers[j];
+      note(report, turned_distance(a.id, b.id), a, b);
     }
   }
   return report;
@@ -97,17 +141,7 @@ std::vector<RegistryIssue> check_registry(const MarkerRegistry& registry,
   std::vector<RegistryIssue> issues;
   find_overlaps(registry, issues);
   if (map) find_outsiders(registry, *map, issues);
-  const HammingReport report = hamming_report(registry);
-  if (report.smallest == 1) {
-    for (const auto& [a, b] : report.closest_pairs) {
-      const RegisteredMarker* first = registry.find(a);
-      issues.push_back({IssueKind::similar_ids,
-                        false,
-                        {a, b},
-                        first ? first->line : 0,
-                        fmt::format("IDs {} and {} differ in one dot", a, b)});
-    }
-  }
+  find_similar_ids(registry, issues);
   return issues;
 }
 

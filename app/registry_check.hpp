@@ -9,7 +9,7 @@
 
 namespace lodestar {
 
-enum class IssueKind { overlapping, outside_map, similar_ids };
+enum class IssueKind { overlapping, outside_map, similar_ids, mirror_images };
 
 /// Something wrong (error) or doubtful with a registry.
 struct RegistryIssue {
@@ -20,15 +20,29 @@ struct RegistryIssue {
   std::string words;
 };
 
-/// How far apart the IDs of a registry are: the number of dots that must be misread to take one for another.
-struct HammingReport {
-  int smallest = 0;  ///< 0 when there are fewer than two markers
-  std::vector<std::pair<int, int>> closest_pairs;
+/// Two markers; `first` may be `second` where a marker is compared with its own turned views.
+struct MarkerPair {
+  int first = 0;
+  int second = 0;
+  double apart_m = 0.0;  ///< on the ceiling, from O to O
+  friend bool operator==(const MarkerPair&, const MarkerPair&) = default;
 };
 
-HammingReport hamming_report(const MarkerRegistry& registry);
+/// How far apart the IDs of a registry are: the number of cells, dots lost or glints won, that must be
+/// misread to take one for another.
+struct DistanceReport {
+  int smallest = 0;  ///< 0 when nothing was compared
+  std::vector<MarkerPair> closest_pairs;
+};
 
-/// Markers whose printed squares overlap, markers outside the map (where one is given), IDs one dot apart.
+/// Read upright: the IDs' Hamming distance. Needs two markers.
+DistanceReport upright_distances(const MarkerRegistry& registry);
+
+/// One of them turned by quarters or mirrored, each marker with itself too.
+DistanceReport turned_distances(const MarkerRegistry& registry);
+
+/// Markers whose printed squares overlap, markers outside the map (where one is given), IDs one dot apart,
+/// markers that are each other's mirror image.
 std::vector<RegistryIssue> check_registry(const MarkerRegistry& registry,
                                           const std::optional<OccupancyMap>& map);
 

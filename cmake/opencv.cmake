@@ -2,7 +2,7 @@
 # bring headers and libraries only, so each module becomes an imported target here: opencv_core, opencv_imgproc, ...
 
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-foreach(module IN ITEMS core imgproc imgcodecs features2d calib3d)
+foreach(module IN ITEMS core imgproc imgcodecs videoio features2d calib3d)
   find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
   add_library(opencv_${module} SHARED IMPORTED GLOBAL)
   set_target_properties(opencv_${module} PROPERTIES
@@ -12,6 +12,7 @@ foreach(module IN ITEMS core imgproc imgcodecs features2d calib3d)
 endforeach()
 target_link_libraries(opencv_imgproc INTERFACE opencv_core)
 target_link_libraries(opencv_imgcodecs INTERFACE opencv_imgproc)
+target_link_libraries(opencv_videoio INTERFACE opencv_imgcodecs)
 target_link_libraries(opencv_features2d INTERFACE opencv_imgproc)
 target_link_libraries(opencv_calib3d INTERFACE opencv_features2d)
 

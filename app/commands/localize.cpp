@@ -1,12 +1,13 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.hpp"
-#include "app/image_files.hpp"
-#include "app/overlay.hpp"
+#include "app/commands/frame_arguments.hpp"
 #include "app/site.hpp"
 #include "localization/mount.hpp"
 #include "localization/marker_detector.hpp"
@@ -21,10 +22,9 @@ struct LocalizeArguments {
   std::string camera;
   std::string mount;
   std::string format = "csv";
-  std::string draw;
   bool upright = false;
   double tilt_sigma_deg = -1.0;
-  std::vector<std::string> inputs;
+  FrameArguments frames;
 };
 
 /// One row of the results: the camera's pose in the map, or the robot's when its mount is known.
@@ -54,8 +54,8 @@ PoseFixOptions fix_options(const LocalizeArguments& arguments, const std::option
   return options;
 }
 
-Row row_of(const ImageFile& image, const PoseFix& fix, const std::optional<Robot>& robot) {
-  Row row{.file = image.file, .stamp = image.stamp, .ids = fix.ids};
+Row row_of(const SourceFrame& frame, const PoseFix& fix, const std::optional<Robot>& robot) {
+  Row row{.file = frame.name, .stamp = frame.stamp, .ids = fix.ids};
   Eigen::Matrix3d covariance = fix.covariance({0, 1, 5}, {0, 1, 5});
   row.pose = fix.map_from_camera;
   if (robot) {
@@ -74,7 +74,7 @@ void print_csv(const Row& row) {
   const Vec3 p = row.pose.translation();
   const RollPitchYaw angles = angles_of(row.pose.linear());
   fmt::print("{},{:.6f},{},{:.6f},{:.6f},{:.6f},{:.5f},{:.5f},{:.5f},{:.6f},{:.6f},{:.5f},{:.4f},{}\n",
-             row.file, seconds(row.stamp), fmt::join(row.ids, "+"), p.x(), p.y(), p.z(),
+             csv_cell(row.file), seconds(row.stamp), fmt::join(row.ids, "+"), p.x(), p.y(), p.z(),
              degrees(angles.yaw_rad), degrees(angles.roll_rad), degrees(angles.pitch_rad), row.sigma_x_m,
              row.sigma_y_m, degrees(row.sigma_yaw_rad), row.confidence, row.dots);
 }
@@ -103,7 +103,7 @@ void print_json(const Row& row) {
                                     {"sigma_yaw_deg", degrees(row.sigma_yaw_rad)},
                                     {"confidence", row.confidence},
                                     {"dots", row.dots}};
-  fmt::print("{}\n", line.dump());
+  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 void print_row(const std::string& format, const Row& row) {
@@ -112,28 +112,82 @@ void print_row(const std::string& format, const Row& row) {
   if (format == "json") print_json(row);
 }
 
+/// Why a marker that was read says nothing of the pose; empty when it does.
+std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry,
+                         const std::optional<PoseFix>& fix) {
+  if (registry.find(marker.id) == nullptr) return "not registered";
+  if (fix && !std::ranges::count(fix->ids, marker.id)) return "contradicts the others";
+  return {};
+}
+
+std::string words_of_refusal(const std::vector<OverlayMarker>& markers) {
+  if (markers.empty()) return "REFUSED: no marker read";
+  const bool registered = std::ranges::any_of(markers, &std::string::empty, &OverlayMarker::objection);
+  return registered ? "REFUSED: the dots agree with no pose" : "REFUSED: no marker of the registry";
+}
+
+/// To hundredths of a degree, and never minus zero.
+double in_words_deg(double angle_rad) {
+  constexpr double per_degree = 100.0;
+  return std::round(degrees(angle_rad) * per_degree) / per_degree + 0.0;
+}
+
+std::vector<std::string> words_of_pose(const Row& row, const char* who) {
+  constexpr double mm = 1000.0;
+  const Vec3 p = row.pose.translation();
+  const RollPitchYaw angles = angles_of(row.pose.linear());
+  return {fmt::format("{} at x {:.3f} m, y {:.3f} m, z {:.3f} m, yaw {:.2f} deg (roll {:.2f}, pitch {:.2f})",
+                      who, p.x(), p.y(), p.z(), in_words_deg(angles.yaw_rad), in_words_deg(angles.roll_rad),
+                      in_words_deg(angles.pitch_rad)),
+          fmt::format("one sigma: x {:.1f} mm, y {:.1f} mm, yaw {:.3f} deg; from {} dots of {}",
+                      mm * row.sigma_x_m, mm * row.sigma_y_m, degrees(row.sigma_yaw_rad), row.dots,
+                      fmt::join(row.ids, "+"))};
+}
+
+Overlay overlay_of(const SourceFrame& frame, const std::vector<DetectedMarker>& markers,
+                   const MarkerRegistry& registry, const std::optional<PoseFix>& fix,
+                   const std::optional<Robot>& robot) {
+  Overlay overlay{.gray = frame.gray, .markers = {}, .words = {}, .accepted = fix.has_value()};
+  for (const DetectedMarker& marker : markers)
+    overlay.markers.push_back({marker, objection_to(marker, registry, fix)});
+  if (fix) {
+    overlay.words = words_of_pose(row_of(frame, *fix, robot), robot ? "Robot" : "Camera");
+  } else {
+    overlay.words = {words_of_refusal(overlay.markers)};
+  }
+  overlay.words.push_back(fmt::format("{}   {:.3f} s", frame.name, seconds(frame.stamp)));
+  return overlay;
+}
+
 ExitCode localize(const LocalizeArguments& arguments) {
   const MarkerRegistry registry = load_registry(arguments.markers);
   const CameraModel camera = load_camera(arguments.camera);
   std::optional<Robot> robot;
   if (!arguments.mount.empty()) robot = load_robot(arguments.mount);
   const PoseFixOptions options = fix_options(arguments, robot);
-  ImageFiles images(arguments.inputs);
+  FrameInputs inputs = open_inputs(arguments.frames, camera);
+  std::optional<OverlayFolder> overlays = open_overlays(arguments.frames, inputs);
 
   if (arguments.format == "csv") {
     fmt::print(
         "file,stamp,ids,x,y,z,yaw_deg,roll_deg,pitch_deg,sigma_x,sigma_y,sigma_yaw_deg,confidence,dots\n");
   }
+  DetectorOptions expected = detector_options(arguments.frames);
+  expected.registered_ids = registered_ids(registry);
+  MarkerDetector detector(expected);
+  int frames = 0;
   int found = 0;
-  while (const std::optional<ImageFile> image = images.next(camera)) {
-    const std::vector<DetectedMarker> markers = detect_markers(image->gray);
-    const std::optional<PoseFix> fix = fix_pose(image->stamp, markers, registry, camera, options);
-    if (!arguments.draw.empty())
-      write_overlay(arguments.draw, image->file, draw_markers(image->gray, markers));
+  while (const std::optional<SourceFrame> frame = inputs.next()) {
+    const std::vector<DetectedMarker> markers = detector.detect(frame->gray);
+    const std::optional<PoseFix> fix = fix_pose(frame->stamp, markers, registry, camera, options);
+    ++frames;
+    if (overlays) overlays->write(*frame, draw_overlay(overlay_of(*frame, markers, registry, fix, robot)));
     if (!fix) continue;
     ++found;
-    print_row(arguments.format, row_of(*image, *fix, robot));
+    print_row(arguments.format, row_of(*frame, *fix, robot));
+    if (inputs.live()) std::fflush(stdout);
   }
+  if (!arguments.frames.quiet) fmt::print(stderr, "pose in {} of {} frames\n", found, frames);
   return found > 0 ? done : job_failed;
 }
 
@@ -143,7 +197,8 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<LocalizeArguments>();
   CLI::App* command = lodestar.add_subcommand(
       "localize",
-      "Where was the camera (or, with --mount, the robot) when it took these images; exit 1 when none tells");
+      "Where the camera (with --mount: the robot) was when it took these frames; exit 1 "
+      "when none of them tells");
   command->add_option("--markers", arguments->markers, "Marker registry")->required();
   command->add_option("--camera", arguments->camera, "Calibrated camera, camera_info YAML")->required();
   command->add_option("--mount", arguments->mount, "robot.yaml: gives the robot's pose, on a flat floor");
@@ -154,11 +209,16 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
                    "The tilt is that of the mount, within so much")
       ->check(CLI::Range(0.0, 45.0))
       ->excludes(upright);
-  command->add_option("--format", arguments->format, "csv, tum, or json: one line an image")
+  command
+      ->add_option("--format", arguments->format,
+                   "One line a frame with a pose. csv; json; tum: stamp x y z qx qy qz qw")
       ->check(CLI::IsMember({"csv", "tum", "json"}))
       ->capture_default_str();
-  command->add_option("--draw", arguments->draw, "Folder for pictures of what was seen");
-  command->add_option("images", arguments->inputs, "Images, or folders of images")->required();
+  add_frame_arguments(*command, arguments->frames);
+  command->footer(
+      command->get_footer() +
+      "\nStamps are in seconds: a video's own time, a camera's since the machine started; an image's "
+      "is its\nname when that is a number (12.40.png), else its place in the list, from 0.");
   return {{command, [arguments] { return localize(*arguments); }}};
 }
 

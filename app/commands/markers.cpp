@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,7 @@
 #include "app/registry_check.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker.hpp"
+#include "maps/marker_code.hpp"
 #include "maps/marker_registry.hpp"
 
 namespace lodestar {
@@ -16,6 +18,15 @@ struct MarkersArguments {
   std::string registry;
   std::string map;
   std::string format = "text";
+  bool json = false;
+};
+
+struct GenerateArguments {
+  int count = 0;
+  MarkerCodeOptions code;
+  bool plain = false;
+  std::string avoid;
+  std::string format = "ids";
 };
 
 nlohmann::ordered_json as_json(const MarkerRegistry& registry, const RegisteredMarker& marker) {
@@ -61,14 +72,23 @@ std::string_view to_string(IssueKind kind) {
       return "outside-map";
     case IssueKind::similar_ids:
       return "similar-ids";
+    case IssueKind::mirror_images:
+      return "mirror-images";
   }
   return "";
 }
 
-void print_json(const HammingReport& hamming, const std::vector<RegistryIssue>& issues, std::size_t markers) {
-  nlohmann::ordered_json report{{"markers", markers},
-                                {"smallest_hamming_distance", hamming.smallest},
-                                {"closest_pairs", hamming.closest_pairs},
+nlohmann::ordered_json as_json(const DistanceReport& report) {
+  nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
+  for (const MarkerPair& pair : report.closest_pairs)
+    pairs.push_back({{"ids", {pair.first, pair.second}}, {"apart_m", pair.apart_m}});
+  return {{"smallest_distance", report.smallest}, {"closest_pairs", pairs}};
+}
+
+void print_json(const MarkerRegistry& registry, const std::vector<RegistryIssue>& issues) {
+  nlohmann::ordered_json report{{"markers", registry.markers.size()},
+                                {"upright", as_json(upright_distances(registry))},
+                                {"turned_or_mirrored", as_json(turned_distances(registry))},
                                 {"issues", nlohmann::ordered_json::array()}};
   for (const RegistryIssue& issue : issues) {
     report["issues"].push_back({{"kind", to_string(issue.kind)},
@@ -80,55 +100,149 @@ void print_json(const HammingReport& hamming, const std::vector<RegistryIssue>& 
   fmt::print("{}\n", report.dump(2));
 }
 
-void print_text(const std::string& file, const HammingReport& hamming,
-                const std::vector<RegistryIssue>& issues, std::size_t markers) {
+void print_distances(const char* how, const DistanceReport& report) {
+  if (report.closest_pairs.empty()) return;
+  const std::size_t pairs = report.closest_pairs.size();
+  fmt::print("{}: the closest markers differ in {} of the 16 cells ({} {})\n", how, report.smallest, pairs,
+             pairs == 1 ? "pair" : "pairs");
+  constexpr std::size_t enough = 10;
+  for (std::size_t i = 0; i < std::min(enough, pairs); ++i) {
+    const MarkerPair& pair = report.closest_pairs[i];
+    if (pair.first == pair.second) {
+      fmt::print("  {} and itself\n", pair.first);
+    } else {
+      fmt::print("  {} and {}, {:.2f} m apart\n", pair.first, pair.second, pair.apart_m);
+    }
+  }
+  if (pairs > enough) fmt::print("  ... and {} more (--json lists all)\n", pairs - enough);
+}
+
+void print_text(const std::string& file, const MarkerRegistry& registry,
+                const std::vector<RegistryIssue>& issues) {
   for (const RegistryIssue& issue : issues) {
     fmt::print("{}:{}: {}: {}\n", file, issue.line, issue.error ? "error" : "warning", issue.words);
   }
-  fmt::print("{} markers; the closest IDs are {} dots apart ({} pairs)\n", markers, hamming.smallest,
-             hamming.closest_pairs.size());
-  constexpr std::size_t enough = 10;
-  for (std::size_t i = 0; i < std::min(enough, hamming.closest_pairs.size()); ++i) {
-    fmt::print("  {} and {}\n", hamming.closest_pairs[i].first, hamming.closest_pairs[i].second);
-  }
+  fmt::print("{} markers\n", registry.markers.size());
+  print_distances("upright", upright_distances(registry));
+  print_distances("turned or mirrored", turned_distances(registry));
 }
 
 ExitCode check(const MarkersArguments& arguments) {
   const MarkerRegistry registry = load_registry(arguments.registry);
   std::optional<OccupancyMap> map;
   if (!arguments.map.empty()) map = load_map(arguments.map).map;
-  const HammingReport hamming = hamming_report(registry);
   const std::vector<RegistryIssue> issues = check_registry(registry, map);
-  if (arguments.format == "json") {
-    print_json(hamming, issues, registry.markers.size());
+  if (arguments.json || arguments.format == "json") {
+    print_json(registry, issues);
   } else {
-    print_text(arguments.registry, hamming, issues, registry.markers.size());
+    print_text(arguments.registry, registry, issues);
   }
   return std::ranges::any_of(issues, &RegistryIssue::error) ? job_failed : done;
+}
+
+/// A registry to start a survey with: the places are a grid that nothing overlaps in.
+void print_yaml(const std::vector<int>& ids, const MarkerCodeOptions& code) {
+  constexpr int columns = 10;
+  constexpr double spacing_m = 0.5;
+  fmt::print("# {} IDs, {} cells apart{}; seed {}. The places are not surveyed.\n", ids.size(),
+             code.min_distance, code.all_views ? " in every view" : "", code.seed);
+  fmt::print("format: lodestar-markers\nversion: 1\nalignment: {{x_m: 0, y_m: 0, yaw_deg: 0}}\nmarkers:\n");
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::size_t column = i % columns;
+    const std::size_t row = i / columns;
+    fmt::print("  - {{id: {}, x_m: {}, y_m: {}, z_m: 0, yaw_deg: 0}}\n", ids[i],
+               spacing_m * static_cast<double>(column), spacing_m * static_cast<double>(row));
+  }
+}
+
+ExitCode generate(const GenerateArguments& arguments) {
+  std::vector<int> taken;
+  if (!arguments.avoid.empty()) {
+    for (const RegisteredMarker& marker : load_registry(arguments.avoid).markers) taken.push_back(marker.id);
+  }
+  MarkerCodeOptions code = arguments.code;
+  code.all_views = !arguments.plain;
+  const std::vector<int> ids = choose_marker_ids(arguments.count, taken, code);
+  if (static_cast<int>(ids.size()) < arguments.count) {
+    fmt::print(stderr, "found {} IDs that are {} cells apart{}, wanted {}\n", ids.size(), code.min_distance,
+               code.all_views ? " in every view" : "", arguments.count);
+    return job_failed;
+  }
+  if (arguments.format == "yaml") {
+    print_yaml(ids, code);
+  } else {
+    fmt::print("{}\n", fmt::join(ids, "\n"));
+  }
+  return done;
+}
+
+CLI::App* add_generate(CLI::App& markers, GenerateArguments& arguments) {
+  CLI::App* command = markers.add_subcommand(
+      "generate", "Choose IDs that are not mistaken for each other; exit 1 when there are not so many");
+  command->add_option("--count", arguments.count, "How many IDs")
+      ->required()
+      ->type_name("N")
+      ->check(CLI::Range(1, marker_id_count));
+  command
+      ->add_option("--min-hamming", arguments.code.min_distance,
+                   "Any two differ in so many cells. 1: nothing is gained; 2: a lost dot or a glint is "
+                   "noticed; 3: it is "
+                   "corrected; 4: and two are noticed")
+      ->check(CLI::Range(1, 12))
+      ->capture_default_str();
+  command
+      ->add_option("--min-dots", arguments.code.min_dots,
+                   "Of each marker, O, X and Y among them; fewer say little of whether it is a marker")
+      ->check(CLI::Range(3, 15))
+      ->capture_default_str();
+  command->add_flag("--plain", arguments.plain,
+                    "Compare upright markers only. Else they differ as much however one of them is turned or "
+                    "mirrored, and each from itself");
+  command
+      ->add_option("--avoid", arguments.avoid, "Registry from whose markers the new ones must differ as much")
+      ->type_name("FILE");
+  command->add_option("--seed", arguments.code.seed, "Of the choice; the same seed gives the same IDs")
+      ->capture_default_str();
+  command
+      ->add_option("--format", arguments.format,
+                   "ids: one a line; yaml: a registry with places yet to be surveyed")
+      ->check(CLI::IsMember({"ids", "yaml"}))
+      ->capture_default_str();
+  return command;
 }
 
 }  // namespace
 
 std::vector<Command> markers_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<MarkersArguments>();
-  CLI::App* markers = lodestar.add_subcommand("markers", "Look at a marker registry");
+  CLI::App* markers =
+      lodestar.add_subcommand("markers", "Look at a marker registry, or choose IDs for a new one");
   markers->require_subcommand(1);
 
-  CLI::App* list_command = markers->add_subcommand("list", "The markers as they lie on the map");
+  CLI::App* list_command =
+      markers->add_subcommand("list", "The markers as they lie on the map, through the registry's alignment");
   list_command->add_option("registry", arguments->registry, "Marker registry")->required();
   list_command->add_option("--format", arguments->format, "text, csv or json")
       ->check(CLI::IsMember({"text", "csv", "json"}))
       ->capture_default_str();
 
-  CLI::App* check_command =
-      markers->add_subcommand("check", "Look for mistakes; exit 1 when there are errors");
+  CLI::App* check_command = markers->add_subcommand(
+      "check",
+      "Look for mistakes, and for markers that may be mistaken for each other; exit 1 "
+      "when there are errors");
   check_command->add_option("registry", arguments->registry, "Marker registry")->required();
   check_command->add_option("--map", arguments->map, "Occupancy map: markers must hang above it");
   check_command->add_option("--format", arguments->format, "text or json")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
 
+  check_command->add_flag("--json", arguments->json, "The same as --format json");
+
+  const auto generated = std::make_shared<GenerateArguments>();
+  CLI::App* generate_command = add_generate(*markers, *generated);
+
   return {{list_command, [arguments] { return list(*arguments); }},
+          {generate_command, [generated] { return generate(*generated); }},
           {check_command, [arguments] { return check(*arguments); }}};
 }
 

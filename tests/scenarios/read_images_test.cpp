@@ -4,60 +4,17 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "drivers/image_former.hpp"
-
 #include "tests/scenarios/command_line.hpp"
+#include "tests/scenarios/shots.hpp"
 
 // The commands that work on files, as a user meets them: images of a known world in, rows out.
 namespace lodestar {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> row;
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-/// A folder with a registry, a camera and frames taken straight up at known places.
-class ReadImages : public ::testing::Test {
- protected:
-  ReadImages() {
-    write_text(scratch_.path() / "markers.yaml",
-               "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
-               "  - {id: 447, x_m: 1.0, y_m: 2.0, z_m: 2.6, yaw_deg: 30}\n"
-               "  - {id: 1782, x_m: 1.5, y_m: 2.0, z_m: 2.6, yaw_deg: -110}\n");
-    write_text(
-        scratch_.path() / "camera.yaml",
-        "image_width: 640\nimage_height: 480\ncamera_name: ceiling\n"
-        "camera_matrix: {rows: 3, cols: 3, data: [755.139, 0, 320.252, 0, 753.926, 239.661, 0, 0, 1]}\n"
-        "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n");
-    fs::create_directories(scratch_.path() / "frames");
-    take("0.5", Pose2{{1.2, 2.1}, radians(75.0)});
-    take("1.5", Pose2{{1.3, 1.9}, radians(-160.0)});
-  }
-
-  void take(const std::string& name, const Pose2& camera) {
-    ImageFormer former(load_registry(scratch_.path() / "markers.yaml"),
-                       load_camera(scratch_.path() / "camera.yaml"), SimulatedCameraOptions{}, 1);
-    const Eigen::Isometry3d view = lifted(camera, 0.6);
-    cv::imwrite((scratch_.path() / "frames" / (name + ".png")).string(), former.expose(view, view, frame_++));
-  }
-
-  ScratchFolder scratch_;
-  std::uint64_t frame_ = 0;
-};
-
-TEST_F(ReadImages, localize_prints_a_row_for_each_image) {
+TEST_F(Shots, localize_prints_a_row_for_each_image) {
   const Ran ran =
       run_lodestar("localize --markers markers.yaml --camera camera.yaml --upright frames", scratch_.path());
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
@@ -77,7 +34,7 @@ TEST_F(ReadImages, localize_prints_a_row_for_each_image) {
   EXPECT_THAT(rows[1][2], HasSubstr("+")) << "both markers are in view and used together";
 }
 
-TEST_F(ReadImages, localize_prints_tum_with_eight_columns) {
+TEST_F(Shots, localize_prints_tum_with_eight_columns) {
   const Ran ran = run_lodestar(
       "localize --markers markers.yaml --camera camera.yaml --upright --format tum frames", scratch_.path());
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
@@ -89,7 +46,7 @@ TEST_F(ReadImages, localize_prints_tum_with_eight_columns) {
   }
 }
 
-TEST_F(ReadImages, localize_has_exit_code_1_when_no_marker_is_registered) {
+TEST_F(Shots, localize_has_exit_code_1_when_no_marker_is_registered) {
   write_text(scratch_.path() / "others.yaml",
              "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
              "  - {id: 5, x_m: 1.0, y_m: 2.0, z_m: 2.6, yaw_deg: 30}\n");
@@ -98,7 +55,7 @@ TEST_F(ReadImages, localize_has_exit_code_1_when_no_marker_is_registered) {
       1);
 }
 
-TEST_F(ReadImages, detect_puts_the_marker_nearest_to_the_centre_first) {
+TEST_F(Shots, detect_puts_the_marker_nearest_to_the_centre_first) {
   const Ran ran = run_lodestar("detect --draw seen frames/0.5.png", scratch_.path());
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_THAT(ran.out, StartsWith("file,id,confidence,o_u,o_v,x_u,x_v,y_u,y_v,dots\n"));
@@ -109,7 +66,7 @@ TEST_F(ReadImages, detect_puts_the_marker_nearest_to_the_centre_first) {
   EXPECT_FALSE(cv::imread((scratch_.path() / "seen" / "0.5.png").string()).empty());
 }
 
-TEST_F(ReadImages, detect_has_exit_code_1_when_there_is_no_marker) {
+TEST_F(Shots, detect_has_exit_code_1_when_there_is_no_marker) {
   cv::imwrite((scratch_.path() / "dark.png").string(), cv::Mat::zeros(480, 640, CV_8UC1));
   EXPECT_EQ(run_lodestar("detect dark.png", scratch_.path()).exit_code, 1);
 }
@@ -150,6 +107,50 @@ TEST(Markers, check_names_overlapping_markers_with_their_line) {
   EXPECT_EQ(ran.exit_code, 1);
   EXPECT_THAT(ran.out, HasSubstr("markers.yaml:5: error: markers 447 and 446 overlap"));
   EXPECT_THAT(ran.out, HasSubstr("differ in one dot"));
+}
+
+TEST(Markers, check_reports_the_smallest_distances_and_their_pairs_as_json) {
+  const ScratchFolder scratch;
+  write_text(scratch.path() / "markers.yaml",
+             "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
+             "  - {id: 447, x_m: 1.0, y_m: 2.0, z_m: 2.6, yaw_deg: 0}\n"
+             "  - {id: 446, x_m: 4.0, y_m: 6.0, z_m: 2.6, yaw_deg: 45}\n");
+  const Ran ran = run_lodestar("markers check --json markers.yaml", scratch.path());
+  EXPECT_EQ(ran.exit_code, 0) << "a warning is no error";
+  const auto report = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(report["upright"]["smallest_distance"], 1);
+  EXPECT_EQ(report["upright"]["closest_pairs"][0]["ids"], (std::vector<int>{447, 446}));
+  EXPECT_EQ(report["upright"]["closest_pairs"][0]["apart_m"], 5.0);
+  EXPECT_GE(report["turned_or_mirrored"]["smallest_distance"], 0);
+  EXPECT_EQ(report["issues"][0]["kind"], "similar-ids");
+}
+
+TEST(Markers, that_are_generated_pass_the_check_at_their_distance) {
+  const ScratchFolder scratch;
+  const Ran made =
+      run_lodestar("markers generate --count 40 --min-hamming 4 --seed 5 --format yaml", scratch.path());
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  write_text(scratch.path() / "new.yaml", made.out);
+  const Ran checked = run_lodestar("markers check --json new.yaml", scratch.path());
+  ASSERT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+  const auto report = nlohmann::json::parse(checked.out);
+  EXPECT_EQ(report["markers"], 40);
+  EXPECT_GE(report["upright"]["smallest_distance"], 4);
+  EXPECT_GE(report["turned_or_mirrored"]["smallest_distance"], 4);
+  EXPECT_TRUE(report["issues"].empty());
+
+  const Ran more =
+      run_lodestar("markers generate --count 5 --min-hamming 3 --avoid new.yaml", scratch.path());
+  EXPECT_EQ(more.exit_code, 0) << more.err;
+  EXPECT_EQ(rows_of(more.out).size(), 5U) << "one ID a line";
+}
+
+TEST(Markers, generate_says_how_many_there_are_when_there_are_not_enough) {
+  const ScratchFolder scratch;
+  const Ran ran = run_lodestar("markers generate --plain --count 257 --min-hamming 3", scratch.path());
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_THAT(ran.err, HasSubstr("found 256 IDs that are 3 cells apart, wanted 257"));
 }
 
 TEST(Markers, of_the_lab_are_in_order) {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "app/frame_inputs.hpp"
+#include "app/overlay.hpp"
+#include "localization/marker_detector.hpp"
+
+namespace lodestar {
+
+/// What every command that looks at frames takes.
+struct FrameArguments {
+  std::vector<std::string> inputs;
+  std::string draw;
+  std::string method = "lodestar";
+  int most_frames = 0;  ///< 0: all
+  bool quiet = false;
+};
+
+void add_frame_arguments(CLI::App& command, FrameArguments& arguments);
+
+FrameInputs open_inputs(const FrameArguments& arguments, const std::optional<CameraModel>& camera);
+
+/// As --method says: the paper's own way, or all that has been learned since.
+DetectorOptions detector_options(const FrameArguments& arguments);
+
+/// Nothing when no drawings are wanted.
+std::optional<OverlayFolder> open_overlays(const FrameArguments& arguments, const FrameInputs& inputs);
+
+/// A name as one cell of a CSV row: in quotes when it holds a comma, a quote or a line's end (RFC 4180).
+std::string csv_cell(const std::string& name);
+
+}  // namespace lodestar

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+
+#include "maps/stamp.hpp"
+
+namespace lodestar {
+
+/// One picture to look at, and what to call it.
+struct SourceFrame {
+  std::string name;     ///< in results: `shots/0.5.png`; the 13th frame of a video or device is `clip.avi#12`
+  std::string picture;  ///< a file name for a drawing of it, without ending: `0.5`, `clip-000012`
+  Stamp stamp;
+  cv::Mat gray;  ///< CV_8UC1, not written to again: whoever keeps it keeps it unchanged
+};
+
+/// Image files, a video or a camera: one frame after another, so that any number of them fits in memory.
+class FrameSource {
+ public:
+  FrameSource() = default;
+  FrameSource(const FrameSource&) = delete;
+  FrameSource& operator=(const FrameSource&) = delete;
+  virtual ~FrameSource() = default;
+
+  /// The next frame; nothing after the last. Throws InputError when it cannot be read.
+  virtual std::optional<SourceFrame> next() = 0;
+};
+
+}  // namespace lodestar
