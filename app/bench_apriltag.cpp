@@ -47,7 +47,7 @@ class AprilTag final : public SquareTags {
     return pattern;
   }
 
-  std::vector<TagSighting> read(const cv::Mat& gray) override {
+  std::vector<TagSighting> find(const cv::Mat& gray) override {
     // With a sigma and without decimation the library blurs the very image that it is given.
     const bool is_spoilt = detector_->quad_sigma != 0.0F && detector_->quad_decimate <= 1.0F;
     if (is_spoilt) gray.copyTo(copy_);
@@ -96,7 +96,7 @@ class AprilTag final : public SquareTags {
 
   std::unique_ptr<apriltag_family_t, Destroy> family_;
   std::unique_ptr<apriltag_detector_t, Destroy> detector_;
-  std::unique_ptr<zarray_t, Destroy> found_;  ///< by the last read()
+  std::unique_ptr<zarray_t, Destroy> found_;  ///< by the last find()
   cv::Mat copy_;
 };
 

@@ -18,7 +18,8 @@ class Aruco final : public SquareTags {
  public:
   explicit Aruco(const Settings& settings)
       : dictionary_(aruco::getPredefinedDictionary(aruco::DICT_4X4_50)),
-        parameters_(aruco::DetectorParameters::create()) {
+        parameters_(aruco::DetectorParameters::create()),
+        offset_px_(settings.refinement == aruco::CORNER_REFINE_APRILTAG ? 0.5 : 0.0) {
     parameters_->cornerRefinementMethod = settings.refinement;
     parameters_->cornerRefinementWinSize = settings.window_px;
     parameters_->cornerRefinementMaxIterations = 50;
@@ -40,14 +41,15 @@ class Aruco final : public SquareTags {
     return pattern;
   }
 
-  std::vector<TagSighting> read(const cv::Mat& gray) override {
+  std::vector<TagSighting> find(const cv::Mat& gray) override {
     std::vector<std::vector<cv::Point2f>> corners;
     std::vector<int> ids;
     aruco::detectMarkers(gray, dictionary_, corners, ids, parameters_);
     std::vector<TagSighting> tags;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       TagSighting& tag = tags.emplace_back(TagSighting{.id = ids[i], .index = i});
-      for (std::size_t k = 0; k < 4; ++k) tag.corners_px[k] = Vec2(corners[i][k].x, corners[i][k].y);
+      for (std::size_t k = 0; k < 4; ++k)
+        tag.corners_px[k] = Vec2(corners[i][k].x - offset_px_, corners[i][k].y - offset_px_);
     }
     return tags;
   }
@@ -82,6 +84,8 @@ class Aruco final : public SquareTags {
 
   cv::Ptr<aruco::Dictionary> dictionary_;
   cv::Ptr<aruco::DetectorParameters> parameters_;
+  /// AprilTag's lines keep AprilTag's pixels, whose centres count as a half.
+  double offset_px_;
 };
 
 MethodChoice choice(const std::string& refinement, const Settings& settings) {

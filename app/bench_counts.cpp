@@ -1,13 +1,10 @@
 #include "app/bench_counts.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 #include "app/bench_hard_scene.hpp"
 #include "app/bench_truth.hpp"
+#include "app/parallel.hpp"
 
 namespace lodestar {
 namespace {
@@ -51,17 +48,17 @@ FrameCounts count_scene(HardFrames kind, BenchMethod& method, int frames, Random
     former.cover(view.covers);
     const cv::Mat gray =
         former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(i));
-    const MethodResult result = method.run(gray, scene.registry, camera, view.tilt);
+    const std::vector<ReadMarker> readings = method.read(gray);
     const std::vector<TrueMarker> truth =
         markers_in_view(method, scene.registry, view.map_from_camera, camera);
-    const ReadingCount count = judged(result.markers, truth);
+    const ReadingCount count = judged(readings, truth);
     ++counts.frames;
     counts.right += count.right;
     counts.wrong += count.wrong;
     counts.frames_with_wrong += count.wrong > 0 ? 1 : 0;
     counts.markers += static_cast<int>(std::ranges::count_if(
         truth, [&](const TrueMarker& marker) { return is_in_full_view(marker, pitch_px, view, camera); }));
-    for (const ReadMarker& reading : result.markers)
+    for (const ReadMarker& reading : readings)
       if (reading.probability) counts.stated.push_back({*reading.probability, is_right(reading, truth)});
   }
   return counts;
@@ -73,31 +70,14 @@ FrameCounts count_frames(HardFrames kind, const MethodChoice& choice, int frames
                          const std::function<void(int frames)>& done) {
   const int scenes = (frames + frames_per_scene - 1) / frames_per_scene;
   std::vector<FrameCounts> parts(static_cast<std::size_t>(scenes));
-  std::atomic<int> next = 0;
-  std::mutex failure_mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    try {
-      const std::unique_ptr<BenchMethod> method = choice.make();
-      for (int i = next++; i < scenes; i = next++) {
-        const int count = std::min(frames_per_scene, frames - i * frames_per_scene);
-        const Random random =
-            Random(seed).stream(static_cast<std::uint64_t>(kind)).stream(static_cast<std::uint64_t>(i));
-        parts[static_cast<std::size_t>(i)] = count_scene(kind, *method, count, random);
-        done(count);
-      }
-    } catch (...) {
-      const std::lock_guard lock(failure_mutex);
-      failure = std::current_exception();
-      next = scenes;
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    for (int i = 0; i < std::min(cores, scenes); ++i) workers.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
+  in_parallel(scenes, [&](int i) {
+    const std::unique_ptr<BenchMethod> method = choice.make();
+    const int count = std::min(frames_per_scene, frames - i * frames_per_scene);
+    const auto stream = static_cast<std::uint64_t>(i);
+    const Random random = Random(seed).stream(static_cast<std::uint64_t>(kind)).stream(stream);
+    parts[static_cast<std::size_t>(i)] = count_scene(kind, *method, count, random);
+    done(count);
+  });
   FrameCounts counts;
   for (const FrameCounts& part : parts) add(part, counts);
   return counts;

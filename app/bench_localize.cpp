@@ -191,10 +191,10 @@ Sweep run_sweep(const std::string& name, const std::vector<MethodChoice>& method
   return sweep;
 }
 
-std::vector<TriedSettings> try_settings(const std::vector<MethodChoice>& choices, int trials,
-                                        std::uint64_t seed) {
+std::vector<TriedSettings> try_settings(const BenchScene& scene, const std::vector<MethodChoice>& choices,
+                                        int trials, std::uint64_t seed) {
   std::vector<TriedSettings> tried;
-  for (const MethodChoice& choice : choices) tried.push_back({choice, measure({}, choice, trials, seed)});
+  for (const MethodChoice& choice : choices) tried.push_back({choice, measure(scene, choice, trials, seed)});
   return tried;
 }
 

@@ -61,8 +61,8 @@ struct TriedSettings {
   ScenePoint point;
 };
 
-std::vector<TriedSettings> try_settings(const std::vector<MethodChoice>& choices, int trials,
-                                        std::uint64_t seed);
+std::vector<TriedSettings> try_settings(const BenchScene& scene, const std::vector<MethodChoice>& choices,
+                                        int trials, std::uint64_t seed);
 
 /// Those that read most; among equals, with the least lateral error of an upright pose.
 const TriedSettings& best_of(const std::vector<TriedSettings>& tried);

@@ -9,6 +9,14 @@
 namespace lodestar {
 namespace {
 
+std::vector<ReadMarker> readings_of(const std::vector<DetectedMarker>& markers) {
+  std::vector<ReadMarker> readings;
+  readings.reserve(markers.size());
+  for (const DetectedMarker& marker : markers)
+    readings.push_back({marker.id, marker.center_px, marker.confidence});
+  return readings;
+}
+
 class Lodestar final : public BenchMethod {
  public:
   void hang(const MarkerRegistry& /*registry*/, ImageFormer& /*former*/) const override {}
@@ -16,6 +24,8 @@ class Lodestar final : public BenchMethod {
   [[nodiscard]] int id_at(const MarkerRegistry& registry, std::size_t i) const override {
     return registry.markers[i].id;
   }
+
+  std::vector<ReadMarker> read(const cv::Mat& gray) override { return readings_of(detect_markers(gray)); }
 
   MethodResult run(const cv::Mat& gray, const MarkerRegistry& registry, const CameraModel& camera,
                    const Eigen::Matrix3d& tilt) override {
@@ -30,8 +40,7 @@ class Lodestar final : public BenchMethod {
     if (fix) result.upright = fix->map_from_camera;
     if (const auto free = fix_pose(Stamp{}, markers, registry, camera, {}))
       result.free = free->map_from_camera;
-    for (const DetectedMarker& marker : markers)
-      result.markers.push_back({marker.id, marker.center_px, marker.confidence});
+    result.markers = readings_of(markers);
     return result;
   }
 };

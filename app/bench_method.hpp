@@ -39,7 +39,9 @@ class BenchMethod {
   /// The ID that hangs at the place of the registry's i-th marker.
   [[nodiscard]] virtual int id_at(const MarkerRegistry& registry, std::size_t i) const = 0;
 
-  /// `tilt` is as in PosePrior.
+  virtual std::vector<ReadMarker> read(const cv::Mat& gray) = 0;
+
+  /// Reads and measures. `tilt` is as in PosePrior.
   virtual MethodResult run(const cv::Mat& gray, const MarkerRegistry& registry, const CameraModel& camera,
                            const Eigen::Matrix3d& tilt) = 0;
 };

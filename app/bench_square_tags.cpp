@@ -24,6 +24,13 @@ Vec2 middle_of(const TagSighting& tag) {
   return sum;
 }
 
+std::vector<ReadMarker> readings_of(const std::vector<TagSighting>& tags) {
+  std::vector<ReadMarker> readings;
+  readings.reserve(tags.size());
+  for (const TagSighting& tag : tags) readings.push_back({tag.id, middle_of(tag), std::nullopt});
+  return readings;
+}
+
 /// Least squares of all corners, from a guess on.
 std::optional<Eigen::Isometry3d> fitted(const std::optional<Eigen::Isometry3d>& guess,
                                         const std::vector<SurveyedDot>& corners, const CameraModel& camera,
@@ -53,10 +60,14 @@ void SquareTags::hang(const MarkerRegistry& registry, ImageFormer& former) const
   }
 }
 
+std::vector<ReadMarker> SquareTags::read(const cv::Mat& gray) {
+  return readings_of(find(gray));
+}
+
 MethodResult SquareTags::run(const cv::Mat& gray, const MarkerRegistry& registry, const CameraModel& camera,
                              const Eigen::Matrix3d& tilt) {
   const auto before = std::chrono::steady_clock::now();
-  std::vector<TagSighting> tags = read(gray);
+  std::vector<TagSighting> tags = find(gray);
   const auto known = std::ranges::partition(tags, [&](const TagSighting& tag) {
     return tag.id >= 0 && static_cast<std::size_t>(tag.id) < registry.markers.size();
   });
@@ -69,7 +80,7 @@ MethodResult SquareTags::run(const cv::Mat& gray, const MarkerRegistry& registry
   const std::chrono::duration<double, std::micro> elapsed = std::chrono::steady_clock::now() - before;
 
   MethodResult result{.free = own, .microseconds = elapsed.count()};
-  for (const TagSighting& tag : tags) result.markers.push_back({tag.id, middle_of(tag), std::nullopt});
+  result.markers = readings_of(tags);
   if (known_tags == 0) return result;
   std::vector<SurveyedDot> corners;
   for (const TagSighting& tag : std::span(tags).first(known_tags)) {

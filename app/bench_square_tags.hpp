@@ -12,7 +12,7 @@ namespace lodestar {
 struct TagSighting {
   int id = 0;
   std::array<Vec2, 4> corners_px{Vec2(0.0, 0.0), Vec2(0.0, 0.0), Vec2(0.0, 0.0), Vec2(0.0, 0.0)};
-  std::size_t index = 0;  ///< among all that were read
+  std::size_t index = 0;  ///< among all that were found
 };
 
 /// A tag's modules row by row from the top: true is white. Its black frame and one white module about it
@@ -35,14 +35,15 @@ class SquareTags : public BenchMethod {
   [[nodiscard]] int id_at(const MarkerRegistry& /*registry*/, std::size_t i) const override {
     return static_cast<int>(i);
   }
+  std::vector<ReadMarker> read(const cv::Mat& gray) final;
   MethodResult run(const cv::Mat& gray, const MarkerRegistry& registry, const CameraModel& camera,
                    const Eigen::Matrix3d& tilt) override;
 
  protected:
   [[nodiscard]] virtual TagPattern pattern(int id) const = 0;
-  virtual std::vector<TagSighting> read(const cv::Mat& gray) = 0;
+  virtual std::vector<TagSighting> find(const cv::Mat& gray) = 0;
 
-  /// camera_from_tag by the library's own estimate, of a tag of the last read().
+  /// camera_from_tag by the library's own estimate, of a tag of the last find().
   [[nodiscard]] virtual std::optional<Eigen::Isometry3d> own_pose(const TagSighting& tag,
                                                                   const CameraModel& camera) const = 0;
 };

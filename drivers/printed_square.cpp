@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace lodestar {
@@ -104,11 +105,65 @@ class Sight {
   double middle_;
 };
 
-/// Samples per pixel and axis, an odd number so that one lies on the pixel's centre; large plain patches take
-/// fewer.
-int samples_per_pixel(const Window& window) {
-  constexpr int most_fine_px = 200 * 200;
-  return window.width() * window.height() > most_fine_px ? 3 : 7;
+/// Puts light over a pixel, `opacity` of it opaque; `gray` is weighed with its opacity already.
+void lay_over(std::int16_t& pixel, double opacity, double gray) {
+  const double units = LightImage::units_per_gray * std::clamp(gray, 0.0, LightImage::brightest_gray);
+  pixel = static_cast<std::int16_t>(pixel * (1.0 - std::clamp(opacity, 0.0, 1.0)) + units + 0.5);
+}
+
+/// Share of a blurred stripe of this width (all in sigmas) on a point so far from its first edge.
+double share_of_stripe(double from_edge, double width) {
+  const auto beyond = [](double x) {
+    if (std::abs(x) > reach_sigmas) return x > 0.0 ? 1.0 : 0.0;
+    return 0.5 * std::erfc(-x / std::numbers::sqrt2);
+  };
+  return beyond(from_edge) - beyond(from_edge - width);
+}
+
+/// A square without a pattern: two crossed stripes in closed form. Its size in the picture is taken as that
+/// in its middle, which changes nothing but the blur of its edges.
+void paint_plain(const PrintedSquare& square, const Sight& sight, const Window& window,
+                 const Vignetting& vignetting, double sigma_px, LightImage& image) {
+  const Vec2 middle(0.5 * (window.left + window.right), 0.5 * (window.top + window.bottom));
+  const Vec2 by_u = sight.place(middle + Vec2(0.5, 0.0)) - sight.place(middle - Vec2(0.5, 0.0));
+  const Vec2 by_v = sight.place(middle + Vec2(0.0, 0.5)) - sight.place(middle - Vec2(0.0, 0.5));
+  const double width = 1.0 / (sigma_px * std::hypot(by_u.x(), by_v.x()));
+  const double height = 1.0 / (sigma_px * std::hypot(by_u.y(), by_v.y()));
+  for (int v = window.top; v <= window.bottom; ++v) {
+    for (int u = window.left; u <= window.right; ++u) {
+      const Vec2 place = sight.place(Vec2(u, v));
+      const double share =
+          share_of_stripe(place.x() * width, width) * share_of_stripe(place.y() * height, height);
+      if (share > 0.0)
+        lay_over(image.row(v)[u], share, share * square.gray.front() * vignetting.at(Vec2(u, v)));
+    }
+  }
+}
+
+/// A square with a pattern, sampled finely.
+void paint_pattern(const PrintedSquare& square, const Sight& sight, const Window& window,
+                   const Vignetting& vignetting, double sigma_px, LightImage& image) {
+  constexpr int fine = 5;  // samples per pixel and axis: odd, so that one lies on the pixel's centre
+  const Vec2 middle(0.5 * (window.left + window.right), 0.5 * (window.top + window.bottom));
+  const double width = (sight.place(middle + Vec2(1.0 / fine, 0.0)) - sight.place(middle)).norm();
+  // A margin beyond the window, so that what lies just outside of the picture blurs into it.
+  const int margin = static_cast<int>(std::ceil(reach_sigmas * sigma_px)) * fine;
+  cv::Mat2f samples(window.height() * fine + 2 * margin, window.width() * fine + 2 * margin);
+  for (int j = 0; j < samples.rows; ++j) {
+    for (int i = 0; i < samples.cols; ++i) {
+      const Vec2 pixel(window.left - 0.5 + (i - margin + 0.5) / fine,
+                       window.top - 0.5 + (j - margin + 0.5) / fine);
+      samples(j, i) = sample(square, sight.place(pixel), width);
+    }
+  }
+  cv::GaussianBlur(samples, samples, {}, fine * sigma_px);
+  for (int v = window.top; v <= window.bottom; ++v) {
+    for (int u = window.left; u <= window.right; ++u) {
+      const cv::Vec2f& seen =
+          samples(margin + (v - window.top) * fine + fine / 2, margin + (u - window.left) * fine + fine / 2);
+      lay_over(image.row(v)[u], seen[0], seen[1] * vignetting.at(Vec2(u, v)));
+    }
+  }
 }
 
 }  // namespace
@@ -121,33 +176,9 @@ void paint_square(const PrintedSquare& square, const Eigen::Isometry3d& camera_f
   const std::optional<Window> window = window_of(square, camera_from_square, camera, reach_sigmas * sigma_px);
   if (!window || window->width() <= 0 || window->height() <= 0) return;
 
-  const int fine = samples_per_pixel(*window);
   const Sight sight(square, camera_from_square, camera);
-  const Vec2 middle(0.5 * (window->left + window->right), 0.5 * (window->top + window->bottom));
-  const double width = (sight.place(middle + Vec2(1.0 / fine, 0.0)) - sight.place(middle)).norm();
-  // A margin beyond the window, so that what lies just outside of the picture blurs into it.
-  const int margin = static_cast<int>(std::ceil(reach_sigmas * sigma_px)) * fine;
-  cv::Mat2f samples(window->height() * fine + 2 * margin, window->width() * fine + 2 * margin);
-  for (int j = 0; j < samples.rows; ++j) {
-    for (int i = 0; i < samples.cols; ++i) {
-      const Vec2 pixel(window->left - 0.5 + (i - margin + 0.5) / fine,
-                       window->top - 0.5 + (j - margin + 0.5) / fine);
-      samples(j, i) = sample(square, sight.place(pixel), width);
-    }
-  }
-  cv::GaussianBlur(samples, samples, {}, fine * sigma_px);
-
-  for (int v = window->top; v <= window->bottom; ++v) {
-    std::int16_t* pixels = image.row(v);
-    for (int u = window->left; u <= window->right; ++u) {
-      const cv::Vec2f& seen = samples(margin + (v - window->top) * fine + fine / 2,
-                                      margin + (u - window->left) * fine + fine / 2);
-      const double light =
-          std::clamp<double>(seen[1] * vignetting.at(Vec2(u, v)), 0.0, LightImage::brightest_gray);
-      const double below = pixels[u] * (1.0 - std::clamp<double>(seen[0], 0.0, 1.0));
-      pixels[u] = static_cast<std::int16_t>(below + LightImage::units_per_gray * light + 0.5);
-    }
-  }
+  const auto paint = square.modules == 1 ? paint_plain : paint_pattern;
+  paint(square, sight, *window, vignetting, sigma_px, image);
 }
 
 }  // namespace lodestar

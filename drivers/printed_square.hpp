@@ -18,7 +18,7 @@ struct PrintedSquare {
   std::vector<double> gray;  ///< of each module, row by row from the top; on the axis, before noise
 };
 
-/// Lays the square, blurred, over the picture: the pattern is sampled several times a pixel, blurred by the
+/// Lays the square, blurred, over the picture: a pattern is sampled several times a pixel, blurred by the
 /// same Gaussian as all else, and read at the pixels' centres. Nothing when it is behind the camera or shows
 /// its back.
 void paint_square(const PrintedSquare& square, const Eigen::Isometry3d& camera_from_map,

@@ -22,5 +22,6 @@ std::vector<Command> plan_commands(CLI::App& lodestar);
 std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
+Command bench_localize_command(CLI::App& bench);
 
 }  // namespace lodestar
