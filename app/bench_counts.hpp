@@ -30,7 +30,7 @@ enum class HardFrames {
 
 /// Counts in all cores; the counts depend on nothing but the seed. `done` hears of frames done, from any
 /// thread.
-FrameCounts count_frames(HardFrames kind, const MethodChoice& method, int frames, std::uint64_t seed,
+FrameCounts count_frames(HardFrames kind, const MethodChoice& choice, int frames, std::uint64_t seed,
                          const std::function<void(int frames)>& done);
 
 }  // namespace lodestar

@@ -23,7 +23,8 @@ MarkerRegistry some_markers(int aside, double spacing_m, double ceiling_m, Rando
   constexpr int id_step = 797;  // coprime to 4096: no ID comes twice
   const auto first_id = static_cast<int>(random.below(marker_id_count));
   for (int i = 0; i < aside * aside; ++i) {
-    const Vec2 place(i % aside - 0.5 * (aside - 1), i / aside - 0.5 * (aside - 1));
+    const int row = i / aside;
+    const Vec2 place(i % aside - 0.5 * (aside - 1), row - 0.5 * (aside - 1));
     const Vec2 shift(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
     const Vec2 at = spacing_m * place + shift;
     registry.markers.push_back({.id = (first_id + i * id_step) % marker_id_count,

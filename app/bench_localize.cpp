@@ -43,7 +43,7 @@ double microseconds_of_threshold(const cv::Mat& gray, cv::Mat& binary) {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - before).count();
 }
 
-double median(std::vector<double> values) {
+double median(const std::vector<double>& values) {
   return percentile(values, 0.5).value_or(0.0);
 }
 

@@ -36,7 +36,7 @@ struct ScenePoint {
 
 /// Frames of a scene, each of its own view, through one method. Equal seeds give equal views, light and noise
 /// to every method.
-ScenePoint measure(const BenchScene& scene, const MethodChoice& method, int trials, std::uint64_t seed);
+ScenePoint measure(const BenchScene& scene, const MethodChoice& choice, int trials, std::uint64_t seed);
 
 struct Sweep {
   std::string name;

@@ -7,8 +7,8 @@
 namespace lodestar {
 
 struct BenchLocalizeOptions {
-  int trials = 30;   ///< frames at each point; ten times as many for ours where it is judged
-  int frames = 400;  ///< of each kind of hard frames
+  int trials = 20;   ///< frames at each point; ten times as many for ours where it is judged
+  int frames = 200;  ///< of each kind of hard frames
   std::uint64_t seed = 1;
   std::vector<std::string> peers;   ///< "apriltag", "aruco"
   std::vector<std::string> sweeps;  ///< of sweep_names()

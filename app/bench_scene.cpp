@@ -59,8 +59,8 @@ CameraModel bench_camera() {
 MarkerRegistry bench_registry(const BenchScene& scene, Random random) {
   MarkerRegistry registry;
   for (int group = 0; group < groups_aside * groups_aside; ++group) {
-    const Vec3 middle(between_groups_m * (group % groups_aside), between_groups_m * (group / groups_aside),
-                      scene.height_m);
+    const int row = group / groups_aside;
+    const Vec3 middle(between_groups_m * (group % groups_aside), between_groups_m * row, scene.height_m);
     for (int i = 0; i < scene.markers; ++i) {
       const double direction = 2.0 * std::numbers::pi * i / scene.markers + 0.5 * std::numbers::pi;
       const double radius_m = scene.markers > 1 ? triangle_radius_m : 0.0;
