@@ -174,7 +174,7 @@ std::string plot_svg(const std::string& title, const std::string& unit, const st
   svg += grid_svg(extent, axes.logarithmic);
   if (!axes.x_name.empty())
     svg += fmt::format("<text class='unit' x='{}' y='{}' text-anchor='end'>{}</text>", width - right,
-                       height - 1.0, escaped(axes.x_name));
+                       height - 4.0, escaped(axes.x_name));
   for (const PlotSeries& one : series) svg += curve_svg(one, extent);
   svg += legend_svg(series);
   return svg + "</svg>\n";
