@@ -144,7 +144,7 @@ std::vector<PositionTrial> move(Stand& stand) {
 }  // namespace
 
 IdentificationResult bench_identification(const BenchPaperOptions& options) {
-  constexpr int trials = 200;
+  const int trials = options.identification_trials;
   constexpr int different_ids = 100;
   constexpr int id_step = 37;  // coprime to 4096: the 100 IDs are spread over all of them
   Random random = Random(options.seed).stream(1);

@@ -12,7 +12,7 @@ constexpr double height = 220.0;
 constexpr double left = 60.0;
 constexpr double right = 12.0;
 constexpr double top = 34.0;
-constexpr double bottom = 30.0;
+constexpr double bottom = 32.0;
 constexpr std::size_t most_points = 900;
 
 struct Extent {
@@ -29,14 +29,30 @@ double round_step(double extent, double count) {
   return 10.0 * power;
 }
 
-/// Always with zero on it: an error's size means something only beside none.
-Extent extent_of(const std::vector<PlotSeries>& series) {
+/// Values as they are laid on the sheet: themselves, or their decimal logarithms.
+std::vector<PlotSeries> scaled(std::vector<PlotSeries> series, bool logarithmic) {
+  if (!logarithmic) return series;
+  for (PlotSeries& one : series) {
+    std::erase_if(one.points, [](const Vec2& point) { return !(point.y() > 0.0); });
+    for (Vec2& point : one.points) point.y() = std::log10(point.y());
+  }
+  return series;
+}
+
+/// Linear ones always with zero on it, for an error's size means something only beside none; logarithmic ones
+/// in whole decades.
+Extent extent_of(const std::vector<PlotSeries>& series, bool logarithmic) {
   Extent extent;
   for (const PlotSeries& one : series) {
     for (const Vec2& point : one.points) {
       extent.low = extent.low.cwiseMin(point);
       extent.high = extent.high.cwiseMax(point);
     }
+  }
+  if (logarithmic && extent.low.x() <= extent.high.x()) {
+    extent.low.y() = std::floor(extent.low.y());
+    extent.high.y() = std::max(std::ceil(extent.high.y()), extent.low.y() + 1.0);
+    return extent;
   }
   extent.low.y() = std::min(extent.low.y(), 0.0);
   extent.high.y() = std::max(extent.high.y(), extent.low.y() + 1e-6);
@@ -67,7 +83,7 @@ Vec2 on_sheet(const Vec2& point, const Extent& extent) {
   return {left + share.x() * (width - left - right), height - bottom - share.y() * (height - top - bottom)};
 }
 
-std::string grid_svg(const Extent& extent) {
+std::string grid_svg(const Extent& extent, bool logarithmic) {
   std::string svg;
   const double step_x = round_step(extent.high.x() - extent.low.x(), 10.0);
   for (double x = std::ceil(extent.low.x() / step_x) * step_x; x <= extent.high.x(); x += step_x) {
@@ -75,13 +91,13 @@ std::string grid_svg(const Extent& extent) {
     svg += fmt::format("<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g}</text>", at,
                        height - bottom + 16.0, x);
   }
-  const double step_y = round_step(extent.high.y() - extent.low.y(), 5.0);
+  const double step_y = logarithmic ? 1.0 : round_step(extent.high.y() - extent.low.y(), 5.0);
   for (int k = static_cast<int>(std::ceil(extent.low.y() / step_y)); k * step_y <= extent.high.y(); ++k) {
     const double at = on_sheet({0.0, k * step_y}, extent).y();
     svg += fmt::format("<line class='grid' x1='{0:.1f}' x2='{1:.1f}' y1='{2:.1f}' y2='{2:.1f}'/>", left,
                        width - right, at);
     svg += fmt::format("<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='end'>{:g}</text>", left - 6.0,
-                       at + 4.0, k * step_y);
+                       at + 4.0, logarithmic ? std::pow(10.0, k) : k * step_y);
   }
   return svg;
 }
@@ -147,14 +163,18 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string plot_svg(const std::string& title, const std::string& unit,
-                     const std::vector<PlotSeries>& series) {
-  const Extent extent = extent_of(series);
+std::string plot_svg(const std::string& title, const std::string& unit, const std::vector<PlotSeries>& given,
+                     const PlotAxes& axes) {
+  const std::vector<PlotSeries> series = scaled(given, axes.logarithmic);
+  const Extent extent = extent_of(series, axes.logarithmic);
   std::string svg =
       fmt::format("<svg viewBox='0 0 {} {}' role='img' aria-label='{}'>", width, height, escaped(title));
   svg += fmt::format("<text class='title' x='{}' y='20'>{} <tspan class='unit'>({})</tspan></text>", left,
                      escaped(title), escaped(unit));
-  svg += grid_svg(extent);
+  svg += grid_svg(extent, axes.logarithmic);
+  if (!axes.x_name.empty())
+    svg += fmt::format("<text class='unit' x='{}' y='{}' text-anchor='end'>{}</text>", width - right,
+                       height - 4.0, escaped(axes.x_name));
   for (const PlotSeries& one : series) svg += curve_svg(one, extent);
   svg += legend_svg(series);
   return svg + "</svg>\n";

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
+
+#include "app/parallel.hpp"
 
 namespace lodestar {
 
@@ -31,33 +30,14 @@ RunSummary summarize(const RunRecord& record) {
 std::vector<RunSummary> replay_runs(const Site& site, const ReplayOptions& options, int runs,
                                     const std::function<void(int)>& done) {
   std::vector<RunSummary> summaries(static_cast<std::size_t>(runs));
-  std::atomic<int> next = 0;
   std::atomic<int> finished = 0;
-  std::mutex failure_mutex;
-  std::exception_ptr failure;
-
-  const auto work = [&] {
-    try {
-      for (int i = next++; i < runs; i = next++) {
-        ReplayOptions run = options;
-        run.seed = options.seed + static_cast<std::uint64_t>(i);
-        run.progress = nullptr;
-        summaries[static_cast<std::size_t>(i)] = summarize(replay(site, run));
-        done(++finished);
-      }
-    } catch (...) {
-      const std::lock_guard lock(failure_mutex);
-      failure = std::current_exception();
-      next = runs;
-    }
-  };
-
-  {
-    std::vector<std::jthread> workers;
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    for (int i = 0; i < std::min(cores, runs); ++i) workers.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
+  in_parallel(runs, [&](int i) {
+    ReplayOptions run = options;
+    run.seed = options.seed + static_cast<std::uint64_t>(i);
+    run.progress = nullptr;
+    summaries[static_cast<std::size_t>(i)] = summarize(replay(site, run));
+    done(++finished);
+  });
   return summaries;
 }
 

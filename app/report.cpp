@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "app/page.hpp"
 #include "app/plot.hpp"
 #include "app/run_statistics.hpp"
 
@@ -11,26 +12,6 @@ namespace lodestar {
 namespace {
 
 constexpr double mm_per_m = 1000.0;
-
-constexpr const char* style = R"(
-:root { color-scheme: light dark; --ink: #222; --soft: #777; --line: #ddd; --page: #fff;
-  --a: #1f5fbf; --b: #d0342c; --band: #9db8dd55; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e6e6e6; --soft: #9a9a9a; --line: #444; --page: #16181b;
-  --a: #6ea8ff; --b: #ff7a70; --band: #6ea8ff33; } }
-body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--page); max-width: 960px;
-  margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.5rem; margin: 0 0 .3rem; } h2 { font-size: 1.1rem; margin: 2rem 0 .5rem; }
-p.lead { color: var(--soft); margin: 0 0 1rem; }
-table { border-collapse: collapse; width: 100%; } th, td { text-align: right; padding: .3rem .6rem;
-  border-bottom: 1px solid var(--line); font-variant-numeric: tabular-nums; }
-th:first-child, td:first-child { text-align: left; }
-img { width: 100%; border: 1px solid var(--line); background: #fff; }
-svg { width: 100%; margin: .6rem 0; break-inside: avoid; }
-svg text { fill: var(--ink); font: 12px system-ui, sans-serif; } svg .title { font-size: 14px; font-weight: 600; }
-svg .unit, svg .tick { fill: var(--soft); font-weight: 400; } svg .grid { stroke: var(--line); }
-.a, .b { fill: none; stroke-width: 1.3; stroke-linejoin: round; } .a { stroke: var(--a); } .b { stroke: var(--b); }
-.band { fill: var(--band); stroke: none; } .key.a { fill: var(--a); } .key.b { fill: var(--b); }
-)";
 
 std::string base64(const std::string& bytes) {
   constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -124,11 +105,7 @@ std::string drive_plots(const RunRecord& record) {
 
 std::string report_html(const RunRecord& record, const std::string& map_png) {
   const nlohmann::ordered_json summary = summary_of(record);
-  std::string html = fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width\">"
-      "<title>Lodestar: {}, seed {}</title><style>{}</style></head><body>\n",
-      escaped(record.site), record.seed, style);
+  std::string html;
   html += fmt::format(
       "<h1>{}: {}</h1>\n<p class=\"lead\">Camera {}, seed {}. {:.1f} m driven in {:.1f} s, {} contacts, {} "
       "of {} fixes "
@@ -150,7 +127,7 @@ std::string report_html(const RunRecord& record, const std::string& map_png) {
   html += fact_row("Heading of the estimate", summary["estimate_heading_error_deg"], 1.0, "°");
   html +=
       "</table>\n<h2>Over time (s)</h2>\n" + estimate_plots(record) + path_plot(record) + drive_plots(record);
-  return html + "</body></html>\n";
+  return page_html(fmt::format("Lodestar: {}, seed {}", record.site, record.seed), html);
 }
 
 }  // namespace lodestar

@@ -1,5 +1,6 @@
 #include "drivers/ceiling_texture.hpp"
 
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -60,9 +61,11 @@ CeilingTexture::CeilingTexture(std::uint64_t seed) : texels_(static_cast<std::si
   const cv::Mat1f stain = draw_stains(random.stream(stains));
   const cv::Mat1f speck = smooth_noise(side, 1.2, random.stream(specks));
   const cv::Mat1f tone = white_noise(tiles, random.stream(tones_of_tiles));
+  std::array<double, side> joint{};
+  for (int i = 0; i < side; ++i) joint[static_cast<std::size_t>(i)] = joint_at(i);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const double groove = std::max(joint_at(x), joint_at(y));
+      const double groove = std::max(joint[static_cast<std::size_t>(x)], joint[static_cast<std::size_t>(y)]);
       const double fibre = 0.6 * stain(y, x) + 0.35 * speck(y, x) + 0.4 * tone(y / tile, x / tile);
       const double value = units_per_amplitude * ((1.0 - groove) * fibre - 1.8 * groove);
       texels_[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)] =

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "drivers/dot_information.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -85,10 +87,12 @@ cv::Mat ImageFormer::expose(const Eigen::Isometry3d& map_from_camera_at_opening,
                             const Eigen::Isometry3d& map_from_camera_at_closing, std::uint64_t frame_number) {
   const Shutter shutter(map_from_camera_at_opening, map_from_camera_at_closing);
   background_.paint(ceiling_, shutter.map_from_camera, light_);
+  paint_squares(squares_, shutter);
   for (const CeilingTube& tube : ceiling_.tubes) paint_tube(tube, shutter);
   for (const CeilingDisc& lamp : ceiling_.lamps) paint_disc(lamp, lamp.gray, shutter);
   for (const CeilingDisc& glint : ceiling_.glints) paint_disc(glint, glint.gray, shutter);
   paint_markers(shutter);
+  paint_squares(covers_, shutter);
   return noise_.expose(light_, frame_number);
 }
 
@@ -136,6 +140,30 @@ void ImageFormer::paint_markers(const Shutter& shutter) {
     if (!may_show(shutter.camera_from_map * marker.middle_m, marker_film_half_side_m)) continue;
     for (const CeilingDisc& dot : marker.dots) paint_disc(dot, dot_gray(dot, shutter), shutter);
   }
+}
+
+void ImageFormer::paint_squares(const std::vector<PrintedSquare>& squares, const Shutter& shutter) {
+  for (const PrintedSquare& square : squares) {
+    if (!may_show(shutter.camera_from_map * square.map_from_square.translation(), square.side_m)) continue;
+    paint_square(square, shutter.camera_from_map, camera_, vignetting_, blur_sigma_px_, light_);
+  }
+}
+
+std::vector<SeenDot> ImageFormer::dots_in_view(const Eigen::Isometry3d& map_from_camera) const {
+  const Shutter shutter(map_from_camera, map_from_camera);
+  std::vector<SeenDot> seen;
+  for (std::size_t i = 0; i < ceiling_.markers.size(); ++i) {
+    for (const CeilingDisc& dot : ceiling_.markers[i].dots) {
+      const std::optional<ProjectedDisc> disc =
+          project_disc(dot.center_m, dot.radius_m, shutter.camera_from_map, camera_);
+      if (!disc || !camera_.contains(disc->center_px, disc->half_size_px.maxCoeff())) continue;
+      const double background_gray = options_.background_gray * vignetting_.at(disc->center_px);
+      const DiscImaging imaging{dot_gray(dot, shutter), background_gray, blur_sigma_px_,
+                                options_.read_noise_gray, options_.shot_noise_gray_at_255};
+      seen.push_back({i, dot.center_m, disc->center_px, information_on_center(*disc, imaging, profile_)});
+    }
+  }
+  return seen;
 }
 
 bool ImageFormer::may_show(const Vec3& point_in_camera, double reach_m) const {

@@ -132,7 +132,7 @@ std::vector<Command> bench_commands(CLI::App& lodestar) {
   paper_command->add_option("--seed", arguments->seed, "Seed of noise, views and light")
       ->capture_default_str();
   paper_command->add_flag("--json", arguments->json, "As JSON");
-  return {{paper_command, [arguments] { return paper(*arguments); }}};
+  return {{paper_command, [arguments] { return paper(*arguments); }}, bench_localize_command(*bench)};
 }
 
 }  // namespace lodestar

@@ -23,5 +23,6 @@ std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
 std::vector<Command> calibrate_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
+Command bench_localize_command(CLI::App& bench);
 
 }  // namespace lodestar
