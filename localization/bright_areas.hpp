@@ -43,8 +43,8 @@ struct BrightAreas {
   }
 };
 
-/// Finds a frame's bright areas: pixels at or above their tile's threshold that touch, corners included. Keeps
-/// its memory from frame to frame.
+/// Finds a frame's bright areas: pixels at or above their tile's threshold that touch, corners included.
+/// Keeps its memory from frame to frame.
 class BrightAreaFinder {
  public:
   /// `gray` is CV_8UC1, of the size that the thresholds are for. The result holds until the next call.

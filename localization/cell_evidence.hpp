@@ -21,9 +21,9 @@ struct CellEvidenceOptions {
   double unsure_contrast = 0.16;
 };
 
-/// Looks at every cell of a marker. A cell with one of the marker's dots is bright. One without must be seen, and
-/// seen dark: the ID says as much by the dots it has not as by those it has. So a dot that is dirty, cut by
-/// the border or lost in a lamp leaves its cell undecided.
+/// Looks at every cell of a marker. A cell with one of the marker's dots is bright. One without must be seen,
+/// and seen dark: the ID says as much by the dots it has not as by those it has. So a dot that is dirty, cut
+/// by the border or lost in a lamp leaves its cell undecided.
 CellEvidence look_at_cells(const cv::Mat& gray, const MarkerGrid& grid, std::span<const MarkerDot> in_cells,
                            std::span<const Dot> dots, const CellEvidenceOptions& options);
 

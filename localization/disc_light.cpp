@@ -87,11 +87,11 @@ void sum_light(const Patch& patch, float edge, float slope, float background, Li
 }
 
 struct EdgeSums {
-  Floats along_x;   ///< gray times the weight for x
-  Floats along_y;   ///< and for y
-  Floats gain;      ///< what both change by together, a pixel
-  Floats squares;   ///< sum of both weights' squares
-  Floats shots;     ///< and of their products with the gray values
+  Floats along_x;  ///< gray times the weight for x
+  Floats along_y;  ///< and for y
+  Floats gain;     ///< what both change by together, a pixel
+  Floats squares;  ///< sum of both weights' squares
+  Floats shots;    ///< and of their products with the gray values
 };
 
 LODESTAR_WIDE_REGISTERS

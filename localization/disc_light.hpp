@@ -28,8 +28,8 @@ struct EdgeOptions {
   double longest_step_px = 1.0;
 };
 
-/// A dot's middle by its edge. A pixel's variance v and a part s of its gray value g (shot noise) add up to the
-/// middle's variance v * variance_per_variance_px2 + s * variance_per_gray_px2, in each coordinate.
+/// A dot's middle by its edge. A pixel's variance v and a part s of its gray value g (shot noise) add up to
+/// the middle's variance v * variance_per_variance_px2 + s * variance_per_gray_px2, in each coordinate.
 struct DiscCenter {
   Vec2 center_px = Vec2::Zero();
   double variance_per_variance_px2 = 0.0;
@@ -38,10 +38,10 @@ struct DiscCenter {
 
 /// Where a dot of this radius lies, nearly to the accuracy that noise allows. Only the edge tells where a dot
 /// is: of all sums of gray values that are zero on a symmetrical dot, the one weighted by the derivative of
-/// the dot's own picture varies least with noise. The weight here is x (1 - t^2)^4, t = (d^2 - R^2) / (2 R h),
-/// zero for |t| > 1: it follows a blurred edge. Newton's method from `start_px`, which must be good to a few
-/// tenths of a pixel. Whatever the blur, a symmetrical dot's middle is found without bias. Nothing when the
-/// frame's border cuts the dot or there is no dot.
+/// the dot's own picture varies least with noise. The weight here is x (1 - t^2)^4, t = (d^2 - R^2) / (2 R
+/// h), zero for |t| > 1: it follows a blurred edge. Newton's method from `start_px`, which must be good to a
+/// few tenths of a pixel. Whatever the blur, a symmetrical dot's middle is found without bias. Nothing when
+/// the frame's border cuts the dot or there is no dot.
 std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_px, double radius_px,
                                          const EdgeOptions& options = {});
 

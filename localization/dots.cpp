@@ -66,8 +66,8 @@ double sigma_of(const DiscCenter& center, double dark_noise_gray, double backgro
                 const DotOptions& options) {
   const double dark = std::max(dark_noise_gray, options.least_noise_gray);
   const double shot = options.shot_noise_gray_at_255 * options.shot_noise_gray_at_255 / 255.0;
-  const double above_background = std::max(
-      center.variance_per_gray_px2 - background_gray * center.variance_per_variance_px2, 0.0);
+  const double above_background =
+      std::max(center.variance_per_gray_px2 - background_gray * center.variance_per_variance_px2, 0.0);
   return std::sqrt(dark * dark * center.variance_per_variance_px2 + shot * above_background);
 }
 

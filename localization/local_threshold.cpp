@@ -58,7 +58,8 @@ Extremes extremes_of_part(const cv::Mat& gray, int top, int left, int rows) {
 /// Counted, not sorted: a frame has hundreds of tiles, but only 256 ranges.
 int lower_quartile(const std::vector<std::uint8_t>& darkest, const std::vector<std::uint8_t>& brightest) {
   std::array<std::size_t, 256> count{};
-  for (std::size_t i = 0; i < darkest.size(); ++i) ++count[static_cast<std::size_t>(brightest[i] - darkest[i])];
+  for (std::size_t i = 0; i < darkest.size(); ++i)
+    ++count[static_cast<std::size_t>(brightest[i] - darkest[i])];
   std::size_t below = 0;
   for (std::size_t range = 0; range < count.size(); ++range) {
     below += count[range];
@@ -124,7 +125,8 @@ void LocalThresholds::find(const cv::Mat& gray, const LocalThresholdOptions& opt
       std::clamp(static_cast<int>(std::lround(by_noise)), options.min_range_gray, options.max_min_range_gray);
   for (std::size_t k = 0; k < thresholds_.size(); ++k) {
     const int range = brightest_[k] - darkest_[k];
-    thresholds_[k] = range < least ? nothing_bright : static_cast<std::uint8_t>(darkest_[k] + (range + 1) / 2);
+    thresholds_[k] =
+        range < least ? nothing_bright : static_cast<std::uint8_t>(darkest_[k] + (range + 1) / 2);
   }
 }
 

@@ -175,10 +175,10 @@ Vec3 center_of(std::span<const SurveyedDot> dots) {
   return center;
 }
 
-/// The middle of a horizontal disc's image less the image of its middle, as rays at unit depth. With the disc's
-/// points q(s, t) seen at depth z(s, t), s and t along the map's axes, the centroid of its image is off by
-/// r^2 / 4 (laplacian(q) / 2 + grad(q) . grad(ln J)), J the change of area, which is as z^-3. Both terms are
-/// multiples of grad(z) . grad(q) / z: -1 and -3.
+/// The middle of a horizontal disc's image less the image of its middle, as rays at unit depth. With the
+/// disc's points q(s, t) seen at depth z(s, t), s and t along the map's axes, the centroid of its image is
+/// off by r^2 / 4 (laplacian(q) / 2 + grad(q) . grad(ln J)), J the change of area, which is as z^-3. Both
+/// terms are multiples of grad(z) . grad(q) / z: -1 and -3.
 Vec2 disc_offset(const Vec2& normalized, double depth_m, const Eigen::Matrix3d& map_from_camera) {
   Vec2 sum = Vec2::Zero();
   for (const Eigen::Index axis : {0, 1}) {

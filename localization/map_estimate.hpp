@@ -22,10 +22,11 @@ struct MapEstimate {
   double cost = 0.0;  ///< minus twice the logarithm of the posterior density, up to a constant
 };
 
-/// Where a dot at this point of the map is seen from a pose, and the derivative by (position, rotation about the map's
-/// axes): the pose moves to (translation + d.head(3), Exp(d.tail(3)) * rotation). Nothing behind the camera.
-/// A dot is a horizontal disc. To a tilted camera it is an ellipse whose middle is not the image of the disc's
-/// own: it lies off by some f (radius / distance)^2 sin(2 tilt) / 2, 0.005 px at 20 degrees and 1.5 m.
+/// Where a dot at this point of the map is seen from a pose, and the derivative by (position, rotation about
+/// the map's axes): the pose moves to (translation + d.head(3), Exp(d.tail(3)) * rotation). Nothing behind
+/// the camera. A dot is a horizontal disc. To a tilted camera it is an ellipse whose middle is not the image
+/// of the disc's own: it lies off by some f (radius / distance)^2 sin(2 tilt) / 2, 0.005 px at 20 degrees
+/// and 1.5 m.
 struct Projection {
   Vec2 pixel;
   Eigen::Matrix<double, 2, 6> jacobian;

@@ -106,7 +106,8 @@ std::vector<Square> squares_of(const DotLattice& lattice, std::span<const Dot> d
         return lattice.origin_px + (column + c) * lattice.column_px + (row + r) * lattice.row_px;
       };
       const int last = marker_grid_size - 1;
-      Square square{.grid = MarkerGrid(place(0, last), place(last, last), place(0, 0)), .dots = {}, .measured = {}};
+      Square square{
+          .grid = MarkerGrid(place(0, last), place(last, last), place(0, 0)), .dots = {}, .measured = {}};
       for (const LatticeDot& dot : lattice.dots) {
         const Dot& seen = dots[dot.index];
         square.dots.push_back({{dot.row - row, dot.column - column}, seen.center_px, seen.sigma_px});
@@ -123,8 +124,8 @@ std::vector<Square> squares_of(const DotLattice& lattice, std::span<const Dot> d
 std::size_t strangers_in(const Square& square, std::span<const Dot> dots) {
   const double reach_px = 3.0 * square.grid.pitch_px();
   const Vec2 middle = 0.5 * (square.grid.center_px(cell_of_x) + square.grid.center_px(cell_of_y));
-  const auto near = std::ranges::count_if(
-      dots, [&](const Dot& dot) { return (dot.center_px - middle).norm() < reach_px; });
+  const auto near =
+      std::ranges::count_if(dots, [&](const Dot& dot) { return (dot.center_px - middle).norm() < reach_px; });
   return static_cast<std::size_t>(near) - std::min(static_cast<std::size_t>(near), square.dots.size());
 }
 
@@ -190,7 +191,8 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, const std::ve
   int best_turn = 0;
   double all_weight = 0.0;
   for (const Square& square : squares) {
-    const CellEvidence cells = look_at_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
+    const CellEvidence cells =
+        look_at_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
     for (int turn = 0; turn < quarter_turns; ++turn) {
       const IdReading id = id_decoder_.read(evidence_turned(cells, turn));
       all_weight += id.all_weight;
@@ -204,11 +206,13 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, const std::ve
   const double probability = best.weight / all_weight;
   const std::size_t strangers = strangers_in(*best_square, dots);
   if (probability < options_.least_probability || 3 * strangers > best_square->dots.size()) return;
-  if (!id_decoder_.accepts(best.id) || best.cost > (id_decoder_.knows_ids() ? options_.most_contradiction : 1.0)) return;
-  markers.push_back(detected(
-      best.id, probability, confidence_of(gray, best_square->measured),
-      turned_back(best_square->dots, best_turn),
-      [&](GridCell cell) { return best_square->grid.center_px(turned(cell, best_turn)); }));
+  if (!id_decoder_.accepts(best.id) ||
+      best.cost > (id_decoder_.knows_ids() ? options_.most_contradiction : 1.0))
+    return;
+  markers.push_back(detected(best.id, probability, confidence_of(gray, best_square->measured),
+                             turned_back(best_square->dots, best_turn), [&](GridCell cell) {
+                               return best_square->grid.center_px(turned(cell, best_turn));
+                             }));
 }
 
 /// The local 'and' of dilation area and eroded image (Fig. 2d) leaves the eroded dots of this marker, whose

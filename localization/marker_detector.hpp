@@ -20,19 +20,19 @@ struct DetectorOptions {
   MarkerDecoderOptions decoder;
   LatticeOptions lattice;
   CellEvidenceOptions evidence;
-  /// IDs of the registered markers. With them a marker is read whose cells cannot all be seen, when only one of
-  /// them fits; another ID is reported when every cell is sure of it and it differs from theirs in more than
-  /// one. Without them every cell must be sure, and each of the 4096 IDs is as likely as any other.
+  /// IDs of the registered markers. With them a marker is read whose cells cannot all be seen, when only one
+  /// of them fits; another ID is reported when every cell is sure of it and it differs from theirs in more
+  /// than one. Without them every cell must be sure, and each of the 4096 IDs is as likely as any other.
   std::vector<int> registered_ids;
   double least_probability = 0.99;  ///< that the ID is right; less is refused
-  /// With registered IDs, the log odds of the cells that may contradict a marker found by its lattice: one sure
-  /// cell, as when a direction dot is covered.
+  /// With registered IDs, the log odds of the cells that may contradict a marker found by its lattice: one
+  /// sure cell, as when a direction dot is covered.
   double most_contradiction = 13.0;
-  bool lattice_search = true;       ///< where the paper's rule fails, look for any lattice of dots
+  bool lattice_search = true;  ///< where the paper's rule fails, look for any lattice of dots
 };
 
-/// The paper's own way (sections 4.1 and 4.2): the threshold 200 everywhere, centres of binary dots, direction
-/// dots by the farthest pair, nothing else tried.
+/// The paper's own way (sections 4.1 and 4.2): the threshold 200 everywhere, centres of binary dots,
+/// direction dots by the farthest pair, nothing else tried.
 DetectorOptions paper_method();
 
 /// Reads the markers of frame after frame. Keeps its memory from one to the next.
@@ -40,8 +40,9 @@ class MarkerDetector {
  public:
   explicit MarkerDetector(const DetectorOptions& options = {});
 
-  /// Every marker that could be decoded, the optimal one (nearest to the image centre, Eq. (1)) first. `gray` is
-  /// CV_8UC1, of any size, and may be a part of a larger frame; any other type throws std::invalid_argument.
+  /// Every marker that could be decoded, the optimal one (nearest to the image centre, Eq. (1)) first. `gray`
+  /// is CV_8UC1, of any size, and may be a part of a larger frame; any other type throws
+  /// std::invalid_argument.
   std::vector<DetectedMarker> detect(const cv::Mat& gray);
 
  private:

@@ -66,8 +66,8 @@ std::vector<LatticeDot> in_best_square(const std::vector<LatticeDot>& dots) {
   int best_top = 0;
   for (const LatticeDot& left : dots) {
     for (const LatticeDot& top : dots) {
-      const auto count =
-          std::ranges::count_if(dots, [&](const LatticeDot& dot) { return is_inside(dot, left.column, top.row); });
+      const auto count = std::ranges::count_if(
+          dots, [&](const LatticeDot& dot) { return is_inside(dot, left.column, top.row); });
       if (count <= most) continue;
       most = count;
       best_left = left.column;

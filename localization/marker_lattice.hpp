@@ -11,9 +11,9 @@
 namespace lodestar {
 
 struct LatticeOptions {
-  std::size_t least_dots = 5;  ///< fewer always fit some lattice
-  std::size_t most_dots = 24;  ///< an area with more holds no single marker
-  double size_tolerance = 0.25;  ///< how near 4 radii must be to a pitch, foreshortened or not
+  std::size_t least_dots = 5;     ///< fewer always fit some lattice
+  std::size_t most_dots = 24;     ///< an area with more holds no single marker
+  double size_tolerance = 0.25;   ///< how near 4 radii must be to a pitch, foreshortened or not
   double first_tolerance = 0.28;  ///< how far a dot may be from its place, in pitches, on the square lattice
   double tolerance = 0.12;        ///< and on the fitted one
   double least_cosine = 0.88;     ///< of the tilt: a lattice that is more oblong is none

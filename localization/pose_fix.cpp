@@ -31,7 +31,8 @@ KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& ma
                                        surveyed(cell_of_y, seen.y_px)},
                     .dots = {}};
   known.dots.reserve(seen.dots.size());
-  for (const MarkerDot& dot : seen.dots) known.dots.push_back(surveyed(dot.cell, dot.center_px, dot.sigma_px));
+  for (const MarkerDot& dot : seen.dots)
+    known.dots.push_back(surveyed(dot.cell, dot.center_px, dot.sigma_px));
   return known;
 }
 
@@ -78,8 +79,8 @@ bool fits(const MapEstimate& estimate, std::span<const KnownMarker> markers, con
   });
 }
 
-/// What P3P makes of the optimal marker, the first, and what the prior's tilt makes of it; the pose that explains
-/// all dots best comes first.
+/// What P3P makes of the optimal marker, the first, and what the prior's tilt makes of it; the pose that
+/// explains all dots best comes first.
 std::vector<Eigen::Isometry3d> guesses(const KnownMarker& optimal, std::span<const SurveyedDot> dots,
                                        const CameraModel& camera, const PoseFixOptions& options) {
   struct Guess {
@@ -112,7 +113,8 @@ MapEstimate with_mirrored_view(const MapEstimate& estimate, std::span<const Surv
 }
 
 /// The maximum of the posterior: of the guesses, the first that leads to a pose that fits all markers, or
-/// else the best. Where the tilt is known, the pose with that tilt leads there and nothing else need be tried.
+/// else the best. Where the tilt is known, the pose with that tilt leads there and nothing else need be
+/// tried.
 std::optional<MapEstimate> best_estimate(std::span<const KnownMarker> markers,
                                          std::span<const SurveyedDot> dots, const CameraModel& camera,
                                          const PoseFixOptions& options) {
@@ -123,9 +125,8 @@ std::optional<MapEstimate> best_estimate(std::span<const KnownMarker> markers,
     best = estimate;
     return fits(*best, markers, camera, options.max_residual_px);
   };
-  const auto level = options.prior.tilt_sigma_rad
-                         ? level_guess(markers.front().dots, camera, options.prior)
-                         : std::nullopt;
+  const auto level =
+      options.prior.tilt_sigma_rad ? level_guess(markers.front().dots, camera, options.prior) : std::nullopt;
   if (!level || !leads_to_a_fit(*level)) {
     for (const Eigen::Isometry3d& guess : guesses(markers.front(), dots, camera, options)) {
       if (leads_to_a_fit(guess)) break;

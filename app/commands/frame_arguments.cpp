@@ -4,8 +4,9 @@ namespace lodestar {
 
 void add_frame_arguments(CLI::App& command, FrameArguments& arguments) {
   command
-      .add_option("--method", arguments.method,
-                  "How markers are found: lodestar, or paper (fixed threshold, binary centres) to compare with")
+      .add_option(
+          "--method", arguments.method,
+          "How markers are found: lodestar, or paper (fixed threshold, binary centres) to compare with")
       ->check(CLI::IsMember({"lodestar", "paper"}))
       ->capture_default_str();
   command.add_option("--draw", arguments.draw, "Folder for a PNG of each frame with all that was seen in it")

@@ -9,8 +9,8 @@
 #include "app/commands/command.hpp"
 #include "app/commands/frame_arguments.hpp"
 #include "app/site.hpp"
-#include "localization/mount.hpp"
 #include "localization/marker_detector.hpp"
+#include "localization/mount.hpp"
 #include "localization/pose_fix.hpp"
 #include "maps/input_error.hpp"
 
