@@ -14,6 +14,9 @@ class ClearSpace {
  public:
   ClearSpace(const OccupancyMap& map, double radius_m);
 
+  [[nodiscard]] int columns() const { return map_.columns; }
+  [[nodiscard]] int rows() const { return map_.rows; }
+
   /// The disc at the centre of this cell overlaps no cell that is not drivable. Exact. When a cell and its
   /// neighbour in a row or column are clear, so is the way between their centres, for an obstacle square is
   /// as wide as the step; and when four cells in a square are clear, so are its diagonals.

@@ -124,7 +124,7 @@ PlanResult GridPlanner::plan(const Vec2& start_m, const Vec2& goal_m) const {
   const std::optional<Cell> last = clear_cell_near(goal);
   if (!first) return stands_clear ? PlanFailure::no_path : PlanFailure::start_occupied;
   if (!last) return PlanFailure::no_path;
-  const std::optional<GridPath> found = search_grid(map_, *space_, costs_, *first, *last);
+  const std::optional<GridPath> found = GridSearch(*space_, costs_).find(*first, *last);
   if (!found) return PlanFailure::no_path;
 
   std::vector<Vec2> points;
