@@ -1,5 +1,6 @@
 #include "app/bench_plan_scenario.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -21,8 +22,8 @@ double microseconds_of(const Work& work) {
 }  // namespace
 
 bool ScenarioAnswer::optimal() const {
-  constexpr double printed = 1e-3;
-  return found && std::abs(*found - query.expected_length) <= printed;
+  constexpr double exact = 1e-3;  // cells
+  return found && std::abs(*found - query.expected_length) <= std::max(exact, query.rounding);
 }
 
 std::vector<ScenarioAnswer> answer_scenario(const OccupancyMap& map,

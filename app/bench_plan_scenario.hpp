@@ -20,7 +20,7 @@ struct ScenarioAnswer {
   double astar_microseconds = 0.0;  ///< of a plain A* with a binary heap for the same query, once, in turn
   std::size_t expanded = 0;
 
-  /// As long as the file says, to its printed precision.
+  /// As long as the file says, to 1e-3 cells or to what it prints.
   [[nodiscard]] bool optimal() const;
 };
 

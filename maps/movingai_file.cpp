@@ -1,5 +1,6 @@
 #include "maps/movingai_file.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -100,6 +101,15 @@ Cell read_cell(const std::vector<std::string>& words, std::size_t at, const Occu
   return cell;
 }
 
+/// Half a unit of the last digit. Some files print six digits and drop zeros at the end.
+double rounding_of(const std::string& printed, double length) {
+  constexpr int least_digits = 6;
+  const std::size_t point = printed.find('.');
+  const int decimals = point == std::string::npos ? 0 : static_cast<int>(printed.size() - point) - 1;
+  const int before_point = length < 1.0 ? 0 : 1 + static_cast<int>(std::floor(std::log10(length)));
+  return 0.5 * std::pow(10.0, -std::max(decimals, least_digits - before_point));
+}
+
 /// bucket, map, width, height, start x and y, goal x and y, length
 MovingAiQuery read_query(const OccupancyMap& map, const Lines& lines) {
   constexpr std::size_t fields = 9;
@@ -114,7 +124,8 @@ MovingAiQuery read_query(const OccupancyMap& map, const Lines& lines) {
   if (!length || !std::isfinite(*length) || *length < 0.0) {
     lines.refuse(fmt::format("length '{}'", words[8]), "a number of at least 0");
   }
-  return {read_cell(words, 4, map, lines), read_cell(words, 6, map, lines), *length};
+  return {read_cell(words, 4, map, lines), read_cell(words, 6, map, lines), *length,
+          rounding_of(words[8], *length)};
 }
 
 }  // namespace

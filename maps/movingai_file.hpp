@@ -19,6 +19,7 @@ struct MovingAiQuery {
   Cell start;
   Cell goal;
   double expected_length = 0.0;  ///< in cells, as printed in the file
+  double rounding = 0.0;  ///< half a unit of its last printed digit; the sixth, where zeros were dropped
 };
 
 /// The queries of a `.scen` file (version 1) for this map, in order; the map's name in the file is not

@@ -97,8 +97,7 @@ void JumpSearch<Jumps>::expand(Cell cell, unsigned directions) {
     if (steps <= 0) continue;
     const Cell step = grid_steps[static_cast<std::size_t>(direction)];
     reach({cell.column + steps * step.column, cell.row + steps * step.row},
-          length + steps * (is_diagonal(direction) ? diagonal_length : straight_length), at,
-          direction);
+          length + steps * (is_diagonal(direction) ? diagonal_length : straight_length), at, direction);
   }
 }
 

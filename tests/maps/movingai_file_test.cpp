@@ -68,6 +68,20 @@ TEST(MovingAiQueries, are_read_with_their_length) {
   EXPECT_EQ(queries[0].start, (Cell{0, 0}));
   EXPECT_EQ(queries[0].goal, (Cell{0, 1}));
   EXPECT_EQ(queries[0].expected_length, 1.0);
+  EXPECT_DOUBLE_EQ(queries[0].rounding, 0.5e-8);
+}
+
+TEST(MovingAiQueries, know_how_their_length_was_rounded) {
+  const TemporaryFolder folder;
+  const OccupancyMap map = load_movingai_map(folder.write("small.map", small_map));
+  const auto rounding = [&](const std::string& length) {
+    return load_movingai_queries(folder.write("a.scen", "version 1\n0 a 3 2 0 0 0 1 " + length + "\n"), map)
+        .at(0)
+        .rounding;
+  };
+  EXPECT_DOUBLE_EQ(rounding("2006.4"), 0.005) << "2006.40 in six digits";
+  EXPECT_DOUBLE_EQ(rounding("2006.39610307"), 0.5e-8);
+  EXPECT_DOUBLE_EQ(rounding("3.82843"), 0.5e-5);
 }
 
 TEST(MovingAiQueries, say_in_which_line_they_are_broken) {
