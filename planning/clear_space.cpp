@@ -66,7 +66,7 @@ bool within(const Vec2& from, const Vec2& to, Cell cell, double radius) {
 
 ClearSpace::ClearSpace(const OccupancyMap& map, double radius_m)
     : map_(map),
-      radius_cells_(std::max(radius_m / map.resolution_m - touching, 0.0)),
+      radius_cells_(std::max(radius_m / map.resolution_m - touching, touching)),
       clear_(map.cells.size(), 1),
       regions_(map.cells.size(), 0),
       to_obstacle_(map.cells.size()) {
@@ -162,8 +162,13 @@ bool ClearSpace::along(const Vec2& from, const Vec2& to) const {
     const Vec2 point = from + at * step;
     const Cell cell{std::min(static_cast<int>(point.x()), map_.columns - 1),
                     std::min(static_cast<int>(point.y()), map_.rows - 1)};
-    const double off_center = (point - Vec2(cell.column + 0.5, cell.row + 0.5)).norm();
     const double to_obstacle = static_cast<double>(to_obstacle_[map_.index(cell)]);  // centre to centre
+    const double sure_stride = to_obstacle - std::numbers::sqrt2 - radius_cells_ - rounding;
+    if (sure_stride >= 1.0 && !near_since) {
+      at += sure_stride;
+      continue;
+    }
+    const double off_center = (point - Vec2(cell.column + 0.5, cell.row + 0.5)).norm();
     // A square reaches at least half a side from its centre, at most half a diagonal.
     if (to_obstacle + off_center + rounding < radius_cells_ + 0.5) return false;
     const double stride = to_obstacle - off_center - 0.5 * std::numbers::sqrt2 - radius_cells_ - rounding;
@@ -189,17 +194,17 @@ bool ClearSpace::stretch_is_clear(const Vec2& from, const Vec2& to) const {
 
 /// Only the part of the leg that passes within the radius of the row can touch it there.
 bool ClearSpace::row_is_clear(int row, const Vec2& from, const Vec2& to) const {
-  const double rise = to.y() - from.y();
   double enter = 0.0;
   double leave = 1.0;
-  if (rise != 0.0) {
-    const double a = (row - radius_cells_ - from.y()) / rise;
-    const double b = (row + 1 + radius_cells_ - from.y()) / rise;
+  if (to.y() != from.y()) {
+    const double share_per_row = 1.0 / (to.y() - from.y());
+    const double a = (row - radius_cells_ - from.y()) * share_per_row;
+    const double b = (row + 1 + radius_cells_ - from.y()) * share_per_row;
     enter = std::clamp(std::min(a, b), 0.0, 1.0);
     leave = std::clamp(std::max(a, b), 0.0, 1.0);
   }
-  const double x_enter = std::lerp(from.x(), to.x(), enter);
-  const double x_leave = std::lerp(from.x(), to.x(), leave);
+  const double x_enter = from.x() + enter * (to.x() - from.x());
+  const double x_leave = from.x() + leave * (to.x() - from.x());
   const int first = std::max(static_cast<int>(std::min(x_enter, x_leave) - radius_cells_), 0);
   const int last = std::min(static_cast<int>(std::max(x_enter, x_leave) + radius_cells_), map_.columns - 1);
   for (int column = first; column <= last; ++column) {

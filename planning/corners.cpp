@@ -1,6 +1,6 @@
 #include "planning/corners.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -21,15 +21,50 @@ std::optional<Vec2> outwards(const OccupancyMap& map, int column, int row) {
   return away;
 }
 
-struct Vertex {
-  double angle_rad = 0.0;
-  bool tight = true;
+/// A part of the arc about a corner, angles from the grid's x axis mirrored into the first quarter.
+struct Arc {
+  Vec2 corner;
+  Vec2 away;  ///< signs of the quarter
+  double radius_cells = 0.0;
+
+  [[nodiscard]] Vec2 at(double angle_rad, double reach_cells) const {
+    return corner + reach_cells * Vec2(away.x() * std::cos(angle_rad), away.y() * std::sin(angle_rad));
+  }
 };
-constexpr double half_step_rad = radians(15.0);
-constexpr std::array<Vertex, 4> vertices{{{radians(45.0), false},
-                                          {half_step_rad, true},
-                                          {3.0 * half_step_rad, true},
-                                          {5.0 * half_step_rad, true}}};
+
+/// The vertices of the polygon about the arc from one angle to another: so many, each on the tangents to both
+/// sides.
+void add_vertices(const ClearSpace& space, const Arc& arc, double from_rad, double to_rad, int count,
+                  bool tight, std::vector<TurnPoint>& points) {
+  const double half_step = 0.5 * (to_rad - from_rad) / count;
+  for (int i = 0; i < count; ++i) {
+    const Vec2 position = arc.at(from_rad + half_step * (2 * i + 1), arc.radius_cells / std::cos(half_step));
+    if (space.along(position, position)) points.push_back({position, arc.corner, tight});
+  }
+}
+
+void add_open_part(const ClearSpace& space, const Arc& arc, double from_rad, double to_rad,
+                   std::vector<TurnPoint>& points) {
+  constexpr double widest_rad = radians(30.0);
+  const int count = std::max(1, static_cast<int>(std::ceil((to_rad - from_rad) / widest_rad - 1e-9)));
+  add_vertices(space, arc, from_rad, to_rad, count, true, points);
+  if (count > 1) add_vertices(space, arc, from_rad, to_rad, 1, false, points);
+}
+
+/// Other obstacles may take up some of the quarter circle; what is left of it is found by trying it in steps.
+void add_arc(const ClearSpace& space, const Arc& arc, std::vector<TurnPoint>& points) {
+  constexpr int steps = 18;
+  constexpr double step_rad = radians(90.0) / steps;
+  std::optional<int> open_since;
+  for (int i = 0; i <= steps + 1; ++i) {
+    const Vec2 place = arc.at(i * step_rad, arc.radius_cells);
+    const bool open = i <= steps && space.along(place, place);
+    if (open && !open_since) open_since = i;
+    if (open || !open_since) continue;
+    add_open_part(space, arc, *open_since * step_rad, (i - 1) * step_rad, points);
+    open_since.reset();
+  }
+}
 
 }  // namespace
 
@@ -40,13 +75,9 @@ std::vector<TurnPoint> turn_points(const ClearSpace& space, double reach_cells) 
     for (int column = 1; column < map.columns; ++column) {
       const std::optional<Vec2> away = outwards(map, column, row);
       if (!away) continue;
-      const Vec2 corner(column, row);
-      for (const Vertex& vertex : vertices) {
-        const double reach = reach_cells / std::cos(vertex.tight ? half_step_rad : radians(45.0));
-        const Vec2 position = corner + reach * Vec2(away->x() * std::cos(vertex.angle_rad),
-                                                    away->y() * std::sin(vertex.angle_rad));
-        if (space.along(position, position)) points.push_back({position, corner, vertex.tight});
-      }
+      constexpr double apart = 1e-6;  // cells, so that rounding makes no tangent touch
+      const Arc arc{Vec2(column, row), *away, reach_cells + apart};
+      add_arc(space, arc, points);
     }
   }
   return points;

@@ -14,10 +14,10 @@ struct TurnPoint {
 };
 
 /// Around every outer corner of the obstacles the robot's centre keeps to a quarter circle of its radius, or
-/// goes on the polygon of straight legs about it. With three vertices a quarter (15, 45 and 75 degrees) the
-/// polygon is at most 2.4 % longer than the arc; with one (the corner of a square) the robot turns only once.
-/// Vertices where the robot does not fit are left out. `reach_cells` is the arc's radius: that of the robot,
-/// or more to keep away.
+/// goes on the polygon of straight legs about it. With a vertex for every 30 degrees (so with three turns a
+/// quarter) the polygon is at most 2.4 % longer than the arc; with one for the whole arc the robot turns only
+/// once. Of an arc that other obstacles take up in part, the open parts count. `reach_cells` is the arc's
+/// radius: that of the robot, or more to keep away.
 ///
 ///        :    3      1 one turn
 ///        :  .    2   2, 3, 4 three turns

@@ -280,15 +280,18 @@ std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeading
   const PathCost cost(map_, costs_, timed ? std::optional(options_.limits) : std::nullopt);
   EndHeadings in_grid_frame;
   const double yaw_rad = map_.map_from_grid.yaw_rad;
-  if (headings.start_rad && ends.starts_clear) in_grid_frame.start_rad = *headings.start_rad - yaw_rad;
-  if (headings.goal_rad) in_grid_frame.goal_rad = *headings.goal_rad - yaw_rad;
+  if (headings.start_rad && ends.starts_clear)
+    in_grid_frame.start_rad = wrap_angle(*headings.start_rad - yaw_rad);
+  if (headings.goal_rad) in_grid_frame.goal_rad = wrap_angle(*headings.goal_rad - yaw_rad);
 
   const ClearSpace& space = searches_->space;
-  const std::vector<Vec2> known =
-      refined(pulled_tight(jump_path(ends, expanded), space), in_grid_frame, space, cost);
+  std::vector<Vec2> known = pulled_tight(jump_path(ends, expanded), space);
+  // For time, moving turns pays far more than for length, where turn points are nearly the best there is.
+  if (timed) known = refined(std::move(known), in_grid_frame, space, cost, Refinement::coarse);
   TurnPath found = searches_->turns->find(known, in_grid_frame, cost);
   expanded += found.expanded;
-  return refined(std::move(found.points), in_grid_frame, space, cost);
+  if (!timed) return found.points;
+  return refined(std::move(found.points), in_grid_frame, space, cost, Refinement::fine);
 }
 
 std::optional<std::vector<Vec2>> GridPlanner::sampled_legs(const Ends& ends, std::size_t& expanded) const {

@@ -31,10 +31,10 @@ double PathCost::path(std::span<const Vec2> points, const EndHeadings& headings)
     if (!counts_turns() || points[i] == points[i - 1]) continue;
     const Vec2 way = points[i] - points[i - 1];
     const double next = std::atan2(way.y(), way.x());
-    if (heading) cost += turn(wrap_angle(next - *heading));
+    if (heading) cost += turn(*heading, next);
     heading = next;
   }
-  if (heading && headings.goal_rad) cost += turn(wrap_angle(*headings.goal_rad - *heading));
+  if (heading && headings.goal_rad) cost += turn(*heading, *headings.goal_rad);
   return cost;
 }
 

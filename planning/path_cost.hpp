@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -34,9 +37,12 @@ class PathCost {
     return limits_ ? limits_->leg_time_s(length_m) : length_m;
   }
   [[nodiscard]] double leg(const Vec2& from, const Vec2& to) const;
-  /// Of a turn on the spot; two turns never cost less than their sum at once.
-  [[nodiscard]] double turn(double angle_rad) const {
-    return limits_ ? limits_->turn_time_s(angle_rad) : 0.0;
+  /// Of a turn on the spot from one heading to another, both in [-pi, pi]; two turns never cost less than one
+  /// from the first heading to the last.
+  [[nodiscard]] double turn(double from_rad, double to_rad) const {
+    if (!limits_) return 0.0;
+    const double angle_rad = std::abs(to_rad - from_rad);
+    return limits_->turn_time_s(std::min(angle_rad, 2.0 * std::numbers::pi - angle_rad));
   }
   [[nodiscard]] double path(std::span<const Vec2> points, const EndHeadings& headings) const;
 

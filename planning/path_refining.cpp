@@ -15,10 +15,11 @@ class Refining {
            const PathCost& cost)
       : points_(std::move(points)), headings_(headings), space_(space), cost_(cost) {}
 
-  std::vector<Vec2> run() {
+  std::vector<Vec2> run(Refinement refinement) {
     leave_out();
     if (cost_.counts_turns()) merge();
     for (const double step : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+      if (refinement == Refinement::coarse && step < 0.3) break;
       constexpr int most_rounds = 6;
       for (int round = 0; round < most_rounds && move_all(step); ++round) {
       }
@@ -119,8 +120,8 @@ class Refining {
 }  // namespace
 
 std::vector<Vec2> refined(std::vector<Vec2> points, const EndHeadings& headings, const ClearSpace& space,
-                          const PathCost& cost) {
-  return points.size() < 3 ? points : Refining(std::move(points), headings, space, cost).run();
+                          const PathCost& cost, Refinement refinement) {
+  return points.size() < 3 ? points : Refining(std::move(points), headings, space, cost).run(refinement);
 }
 
 }  // namespace lodestar

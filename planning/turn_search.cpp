@@ -27,6 +27,12 @@ struct TurnSearch::Later {
   }
 };
 
+TurnSearch::TurnSearch(const ClearSpace& space, std::vector<TurnPoint> turn_points)
+    : space_(space), turn_points_(std::move(turn_points)) {
+  constexpr std::size_t most_remembered = 4000;  // 16 MB of sights
+  if (turn_points_.size() <= most_remembered) sights_.resize(turn_points_.size() * turn_points_.size());
+}
+
 TurnPath TurnSearch::find(std::span<const Vec2> known, const EndHeadings& headings, const PathCost& cost) {
   cost_ = &cost;
   headings_ = headings;
@@ -59,30 +65,27 @@ TurnPath TurnSearch::find(std::span<const Vec2> known, const EndHeadings& headin
 
 void TurnSearch::gather_candidates(std::span<const Vec2> known) {
   candidates_.clear();
-  add_candidate(goal_, nullptr);
-  for (const Vec2& point : known.subspan(1, known.size() - 2)) add_candidate(point, nullptr);
-  for (const TurnPoint& point : turn_points_) {
-    if (point.tight || cost_->counts_turns()) add_candidate(point.position, &point);
+  add_candidate(goal_, none);
+  for (const Vec2& point : known.subspan(1, known.size() - 2)) add_candidate(point, none);
+  for (std::uint32_t i = 0; i < turn_points_.size(); ++i) {
+    if (turn_points_[i].tight || cost_->counts_turns()) add_candidate(turn_points_[i].position, i);
   }
 }
 
 /// Only where even the straight way through here stays below the limit.
-void TurnSearch::add_candidate(const Vec2& position, const TurnPoint* turn_point) {
+void TurnSearch::add_candidate(const Vec2& position, std::uint32_t turn_point) {
   const Vec2 from_start = position - start_;
   const Vec2 to_goal = goal_ - position;
   const double least_to_goal = cost_->at_least(to_goal.norm());
   const double least = cost_->at_least(from_start.norm()) + least_to_goal;
   const bool is_goal = candidates_.empty();
   if (!is_goal && least >= limit_) return;
-  Candidate candidate{.position = position, .least_to_goal = least_to_goal};
-  if (turn_point != nullptr) {
-    candidate.corner = turn_point->corner;
-    candidate.at_corner = true;
-  }
+  Candidate candidate{.position = position, .least_to_goal = least_to_goal, .turn_point = turn_point};
+  if (turn_point != none) candidate.corner = turn_points_[turn_point].corner;
   if (cost_->counts_turns() && !is_goal) {
     candidate.heading_to_goal_rad = heading_of(to_goal);
     // Whatever is between, the heading changes at least from the one straight way to the other.
-    const double turn = cost_->turn(wrap_angle(candidate.heading_to_goal_rad - heading_of(from_start)));
+    const double turn = cost_->turn(heading_of(from_start), candidate.heading_to_goal_rad);
     if (least + turn >= limit_) return;
   }
   candidates_.push_back(candidate);
@@ -105,8 +108,7 @@ void TurnSearch::consider(std::uint32_t label, std::uint32_t candidate) {
   Open open{.total = cost + to.least_to_goal, .cost = cost, .candidate = candidate, .parent = label};
   if (cost_->counts_turns()) {
     open.heading_rad = heading_of(way);
-    if (!at_start || headings_.start_rad)
-      open.cost += cost_->turn(wrap_angle(open.heading_rad - from.heading_rad));
+    if (!at_start || headings_.start_rad) open.cost += cost_->turn(from.heading_rad, open.heading_rad);
     open.total = open.cost + least_rest(to, open.heading_rad);
     if (open.total >= limit_) return;
   }
@@ -121,7 +123,7 @@ void TurnSearch::push(const Open& open) {
 /// A path that turns away from the corner beside it could be cut short.
 bool TurnSearch::turns_around_its_corner(const Label& label, const Vec2& way) const {
   const Candidate& at = candidates_[label.candidate];
-  if (!at.at_corner || cost_->counts_cells()) return true;  // or may keep away from it
+  if (at.turn_point == none || cost_->counts_cells()) return true;  // or may keep away from it
   const Vec2 arrival = at.position - position_of(labels_[label.parent]);
   const double turn = cross(arrival, way);
   const Vec2 to_corner = at.corner - at.position;
@@ -131,8 +133,7 @@ bool TurnSearch::turns_around_its_corner(const Label& label, const Vec2& way) co
 /// Could another way to the same place, and there a turn on the spot, have been as cheap?
 bool TurnSearch::is_dominated(const Open& open) const {
   for (std::uint32_t i = candidates_[open.candidate].newest_label; i != none; i = labels_[i].older_label) {
-    if (labels_[i].cost + cost_->turn(wrap_angle(labels_[i].heading_rad - open.heading_rad)) <= open.cost)
-      return true;
+    if (labels_[i].cost + cost_->turn(labels_[i].heading_rad, open.heading_rad) <= open.cost) return true;
   }
   return false;
 }
@@ -141,18 +142,20 @@ bool TurnSearch::is_dominated(const Open& open) const {
 /// farther.
 double TurnSearch::least_rest(const Candidate& candidate, double heading_rad) const {
   const bool is_goal = &candidate == candidates_.data();
-  double turn_rad = is_goal ? 0.0 : std::abs(wrap_angle(candidate.heading_to_goal_rad - heading_rad));
-  if (headings_.goal_rad)
-    turn_rad = std::max(turn_rad, std::abs(wrap_angle(*headings_.goal_rad - heading_rad)));
-  return candidate.least_to_goal + cost_->turn(turn_rad);
+  double turn = is_goal ? 0.0 : cost_->turn(heading_rad, candidate.heading_to_goal_rad);
+  if (headings_.goal_rad) turn = std::max(turn, cost_->turn(heading_rad, *headings_.goal_rad));
+  return candidate.least_to_goal + turn;
 }
 
 /// Is the leg clear? One that costs more than supposed waits for its turn again.
 bool TurnSearch::goes_on(Open& open) {
   if (open.looked_at) return true;
-  const Vec2& from = position_of(labels_[open.parent]);
+  const Label& parent = labels_[open.parent];
+  const Vec2& from = position_of(parent);
   const Vec2& to = candidates_[open.candidate].position;
-  if (!space_.along(from, to)) return false;
+  const std::uint32_t from_turn_point =
+      parent.candidate == none ? none : candidates_[parent.candidate].turn_point;
+  if (!sees(from_turn_point, candidates_[open.candidate].turn_point, from, to)) return false;
   if (!cost_->counts_cells()) return true;
   const double more = cost_->leg(from, to) - cost_->at_least((to - from).norm());
   if (more <= 0.0) return true;
@@ -161,6 +164,16 @@ bool TurnSearch::goes_on(Open& open) {
   open.total += more;
   if (open.total < limit_) push(open);
   return false;
+}
+
+/// Between turn points the map decides once and for all.
+bool TurnSearch::sees(std::uint32_t from_turn_point, std::uint32_t to_turn_point, const Vec2& from,
+                      const Vec2& to) {
+  if (from_turn_point == none || to_turn_point == none || sights_.empty()) return space_.along(from, to);
+  const auto [low, high] = std::minmax(from_turn_point, to_turn_point);
+  Sight& sight = sights_[low * turn_points_.size() + high];
+  if (sight == Sight::unknown) sight = space_.along(from, to) ? Sight::clear : Sight::blocked;
+  return sight == Sight::clear;
 }
 
 std::vector<Vec2> TurnSearch::points_to(std::uint32_t label) const {

@@ -23,8 +23,7 @@ struct TurnPath {
 class TurnSearch {
  public:
   /// The space must outlive it.
-  TurnSearch(const ClearSpace& space, std::vector<TurnPoint> turn_points)
-      : space_(space), turn_points_(std::move(turn_points)) {}
+  TurnSearch(const ClearSpace& space, std::vector<TurnPoint> turn_points);
 
   /// `known` is a clear path from start to goal: no costlier way is looked at, its points are turn points
   /// too, and when nothing cheaper is found it is the answer.
@@ -39,7 +38,7 @@ class TurnSearch {
     Vec2 corner = Vec2::Zero();
     double least_to_goal = 0.0;
     double heading_to_goal_rad = 0.0;
-    bool at_corner = false;
+    std::uint32_t turn_point = none;  ///< none: a point of the known path
     std::uint32_t newest_label = none;
   };
   /// A way to a candidate.
@@ -59,12 +58,13 @@ class TurnSearch {
     bool looked_at = false;  ///< the leg is known to be clear, and what it costs
   };
   struct Later;
+  enum class Sight : std::uint8_t { unknown, clear, blocked };
 
   [[nodiscard]] const Vec2& position_of(const Label& label) const {
     return label.candidate == none ? start_ : candidates_[label.candidate].position;
   }
   void gather_candidates(std::span<const Vec2> known);
-  void add_candidate(const Vec2& position, const TurnPoint* turn_point);
+  void add_candidate(const Vec2& position, std::uint32_t turn_point);
   void expand(std::uint32_t label);
   void consider(std::uint32_t label, std::uint32_t candidate);
   void push(const Open& open);
@@ -72,10 +72,13 @@ class TurnSearch {
   [[nodiscard]] bool is_dominated(const Open& open) const;
   [[nodiscard]] double least_rest(const Candidate& candidate, double heading_rad) const;
   bool goes_on(Open& open);
+  bool sees(std::uint32_t from_turn_point, std::uint32_t to_turn_point, const Vec2& from, const Vec2& to);
   [[nodiscard]] std::vector<Vec2> points_to(std::uint32_t label) const;
 
   const ClearSpace& space_;
   std::vector<TurnPoint> turn_points_;
+  std::vector<Sight>
+      sights_;  ///< between turn points, as far as they were looked at; empty when there are too many
   const PathCost* cost_ = nullptr;  ///< of the present search, as all that follows
   EndHeadings headings_;
   Vec2 start_ = Vec2::Zero();
