@@ -8,7 +8,6 @@
 
 #include "app/median.hpp"
 #include "app/navigation_setup.hpp"
-#include "control/travel_time.hpp"
 #include "maps/random.hpp"
 #include "planning/jump_search.hpp"
 
@@ -112,9 +111,7 @@ PlannerResult summary_of(PlannerKind kind, const Collected& collected) {
 
 SiteBenchResult bench_site(const Site& site, const SiteBenchOptions& options) {
   const OccupancyMap& map = site.map.map;
-  const NavigationOptions navigation = navigation_options(site.robot);
-  GridPlannerOptions planning = navigation.planner;
-  planning.limits = motion_limits(navigation.drive);
+  GridPlannerOptions planning = navigation_options(site.robot).planner;
   planning.clearance_weight = 0.0;  // so that lengths can be compared
   planning.sampling = options.sampling;
 
