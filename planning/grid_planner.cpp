@@ -137,12 +137,12 @@ void GridPlanner::weigh_cells() {
 void GridPlanner::prepare_searches() {
   Searches& searches = *searches_;
   if (named(options_.kind).sampling) return;
-  if (options_.kind == PlannerKind::astar && !costs_.empty()) {
+  if (costs_.empty()) {
+    searches.jumps.emplace(searches.space);
+    searches.shortest.emplace(*searches.jumps);
+  } else {
     searches.cheapest.emplace(searches.space, costs_);
-    return;
   }
-  searches.jumps.emplace(searches.space);
-  searches.shortest.emplace(*searches.jumps);
   if (options_.kind == PlannerKind::astar) return;
   std::vector<TurnPoint> points = turn_points(searches.space, searches.space.radius_cells());
   if (!costs_.empty()) {
@@ -285,7 +285,8 @@ std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeading
   if (headings.goal_rad) in_grid_frame.goal_rad = wrap_angle(*headings.goal_rad - yaw_rad);
 
   const ClearSpace& space = searches_->space;
-  std::vector<Vec2> known = pulled_tight(jump_path(ends, expanded), space);
+  std::vector<Vec2> known =
+      costs_.empty() ? pulled_tight(jump_path(ends, expanded), space) : few_legs(ends, expanded);
   // For time, moving turns pays far more than for length, where turn points are nearly the best there is.
   if (timed) known = refined(std::move(known), in_grid_frame, space, cost, Refinement::coarse);
   TurnPath found = searches_->turns->find(known, in_grid_frame, cost);

@@ -123,7 +123,7 @@ void TurnSearch::push(const Open& open) {
 /// A path that turns away from the corner beside it could be cut short.
 bool TurnSearch::turns_around_its_corner(const Label& label, const Vec2& way) const {
   const Candidate& at = candidates_[label.candidate];
-  if (at.turn_point == none || cost_->counts_cells()) return true;  // or may keep away from it
+  if (at.turn_point == none) return true;
   const Vec2 arrival = at.position - position_of(labels_[label.parent]);
   const double turn = cross(arrival, way);
   const Vec2 to_corner = at.corner - at.position;
