@@ -15,6 +15,7 @@
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
+#include <unordered_set>
 
 namespace lodestar {
 namespace {
@@ -22,7 +23,27 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-using PlaneSpace = ob::RealVectorStateSpace;
+/// The plane; frees at its end the states that a planner forgot (LazyPRM* forgets all of them).
+class PlaneSpace : public ob::RealVectorStateSpace {
+ public:
+  PlaneSpace() : ob::RealVectorStateSpace(2) {}
+  ~PlaneSpace() override {
+    for (ob::State* state : states_) ob::RealVectorStateSpace::freeState(state);
+  }
+  PlaneSpace(const PlaneSpace&) = delete;
+  PlaneSpace& operator=(const PlaneSpace&) = delete;
+
+  ob::State* allocState() const override {
+    return *states_.insert(ob::RealVectorStateSpace::allocState()).first;
+  }
+  void freeState(ob::State* state) const override {
+    states_.erase(state);
+    ob::RealVectorStateSpace::freeState(state);
+  }
+
+ private:
+  mutable std::unordered_set<ob::State*> states_;
+};
 
 Vec2 point_of(const ob::State* state) {
   const auto* plane = state->as<PlaneSpace::StateType>();
@@ -52,7 +73,7 @@ class ClearMotion : public ob::MotionValidator {
 };
 
 ob::SpaceInformationPtr plane_of(const ClearSpace& space) {
-  const auto plane = std::make_shared<PlaneSpace>(2);
+  const auto plane = std::make_shared<PlaneSpace>();
   ob::RealVectorBounds bounds(2);
   bounds.setLow(0.0);
   bounds.setHigh(0, space.columns());

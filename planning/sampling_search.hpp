@@ -16,7 +16,7 @@ enum class SamplingMethod { rrtstar, informedrrtstar, bitstar, abitstar, prmstar
 /// that the iterations or the length end is the same for the same seed.
 struct SamplingOptions {
   std::uint32_t seed = 1;        ///< at least 1
-  int max_iterations = 10000;    ///< 0: no limit
+  int max_iterations = 3000;     ///< 0: no limit
   double time_limit_s = 10.0;    ///< a safeguard, unless the iterations are not limited
   double enough_length_m = 0.0;  ///< a path no longer than this is taken at once
 };
