@@ -10,14 +10,14 @@
 namespace lodestar {
 
 struct ScenarioOptions {
-  int repeats = 5;  ///< of which each query's median time counts
+  int repeats = 5;  ///< passes over all queries; each query's median time counts
 };
 
 struct ScenarioAnswer {
   MovingAiQuery query;
   std::optional<double> found;  ///< length in cells, from exact step counts; nothing without a path
   double microseconds = 0.0;
-  double astar_microseconds = 0.0;  ///< of a plain A* with a binary heap for the same query, once, in turn
+  double astar_microseconds = 0.0;  ///< of a plain A* with a binary heap for the same query, once
   std::size_t expanded = 0;
 
   /// As long as the file says, to 1e-3 cells or to what it prints.

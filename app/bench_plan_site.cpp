@@ -130,9 +130,9 @@ SiteBenchResult bench_site(const Site& site, const SiteBenchOptions& options) {
   for (const Query& query : queries) {
     const Cell start = map.cell_at(query.start_m);
     const Cell goal = map.cell_at(query.goal_m);
-    std::vector<double> repeated;
-    for (int i = 0; i < 3; ++i) repeated.push_back(microseconds_of([&] { (void)grid.find(start, goal); }));
-    grid_times.push_back(median(repeated));
+    grid_times.push_back(microseconds_of([&] { (void)grid.find(start, goal); }));
+  }
+  for (const Query& query : queries) {
     std::vector<Answer> answers;
     for (const auto& planner : planners) answers.push_back(answer(*planner, query));
     collect(answers, planning.limits, collected);
