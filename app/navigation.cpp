@@ -54,7 +54,9 @@ std::vector<UsedFix> Navigation::see(const std::vector<Frame>& frames, PoseFilte
 std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
   drive_.reset();
   if (!estimate_) return std::nullopt;
-  PlanResult result = planner_.plan(estimate_->map_from_base.position_m, goal.position_m);
+  const Pose2& pose = estimate_->map_from_base;
+  PlanResult result = planner_.plan(pose.position_m, goal.position_m,
+                                    {.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad});
   if (const auto* plan = std::get_if<Plan>(&result)) {
     drive_.emplace(plan->path, goal.heading_rad, options_.drive);
   }

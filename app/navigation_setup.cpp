@@ -1,5 +1,7 @@
 #include "app/navigation_setup.hpp"
 
+#include "control/travel_time.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -36,6 +38,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.drive.track_width_m = robot.track_width_m;
   options.drive.arrival_distance_m = robot.arrival_distance_m;
   options.drive.arrival_heading_rad = robot.arrival_heading_rad;
+  options.planner.limits = motion_limits(options.drive);
   return options;
 }
 

@@ -86,7 +86,10 @@ RunRecord replay(const Site& site, const ReplayOptions& options) {
   const KnownWorld world = known_world(site, options.camera);
   Simulation simulation(world.map, world.registry, world.camera, simulation_options(site, options.seed));
   BaseDriver base(simulation.can());
-  Mission mission(world, navigation_options(site.robot), options.goals);
+  NavigationOptions navigation = navigation_options(site.robot);
+  navigation.planner.kind = options.planner;
+  navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
+  Mission mission(world, navigation, options.goals);
 
   RunRecord record;
   record.site = site.name;

@@ -4,6 +4,7 @@
 
 #include "app/run_record.hpp"
 #include "app/site.hpp"
+#include "planning/grid_planner.hpp"
 
 namespace lodestar {
 
@@ -11,6 +12,7 @@ struct ReplayOptions {
   std::string camera;  ///< a profile of the site
   std::uint64_t seed = 1;
   std::vector<Goal> goals;
+  PlannerKind planner = PlannerKind::fastest;
   bool realtime = false;                 ///< no faster than the world's own time
   std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
 };

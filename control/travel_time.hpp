@@ -3,13 +3,14 @@
 #include <optional>
 
 #include "control/rotate_then_drive.hpp"
-#include "maps/motion.hpp"
+#include "maps/travel_time.hpp"
 
 namespace lodestar {
 
-/// The time a perfect robot takes for the path: at every waypoint at rest, turning on the spot, then straight
-/// to the next, each with the time-optimal trapezoidal speed profile within the options' limits. Turns to and
-/// from the given headings are added where there are such.
+/// What these options leave of the wheels' and the body's limits together.
+MotionLimits motion_limits(const DriveOptions& options);
+
+/// travel_time_s() within those limits.
 double ideal_travel_time_s(const Path& path, std::optional<double> start_heading_rad,
                            std::optional<double> final_heading_rad, const DriveOptions& options);
 

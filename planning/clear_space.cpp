@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "maps/distance_field.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr double touching = 1e-9;  ///< cells; rounding must not turn touching into overlapping
+constexpr double rounding = 1e-3;  ///< cells; generous to single precision
 
 /// Distance from a point to the square of a cell, squared.
 double squared_distance(const Vec2& point, Cell cell) {
@@ -46,6 +51,9 @@ bool crosses(const Vec2& from, const Vec2& to, Cell cell) {
 /// leg.
 bool within(const Vec2& from, const Vec2& to, Cell cell, double radius) {
   const double limit = radius * radius;
+  const Vec2 center(cell.column + 0.5, cell.row + 0.5);
+  const double far = radius + 0.5 * std::numbers::sqrt2 + rounding;  // from here on no square of this centre
+  if ((nearest_on_leg(from, to, center) - center).squaredNorm() > far * far) return false;
   if (squared_distance(from, cell) < limit || squared_distance(to, cell) < limit) return true;
   for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
     const Vec2 corner(cell.column + dx, cell.row + dy);
@@ -58,9 +66,11 @@ bool within(const Vec2& from, const Vec2& to, Cell cell, double radius) {
 
 ClearSpace::ClearSpace(const OccupancyMap& map, double radius_m)
     : map_(map),
-      radius_cells_(std::max(radius_m / map.resolution_m - touching, 0.0)),
+      radius_cells_(std::max(radius_m / map.resolution_m - touching, touching)),
       clear_(map.cells.size(), 1),
-      regions_(map.cells.size(), 0) {
+      regions_(map.cells.size(), 0),
+      to_obstacle_(map.cells.size()) {
+  measure_distances();
   for (int row = 0; row < map_.rows; ++row) {
     for (int column = 0; column < map_.columns; ++column) {
       if (!is_drivable(map_.at({column, row}))) block_around({column, row});
@@ -68,6 +78,16 @@ ClearSpace::ClearSpace(const OccupancyMap& map, double radius_m)
   }
   block_border();
   label_regions();
+}
+
+void ClearSpace::measure_distances() {
+  const DistanceField field(map_);
+  for (int row = 0; row < map_.rows; ++row) {
+    for (int column = 0; column < map_.columns; ++column) {
+      to_obstacle_[map_.index({column, row})] =
+          std::sqrt(static_cast<float>(field.squared_cells({column, row})));
+    }
+  }
 }
 
 /// Obstacles wholly among obstacles block nothing that their neighbours do not.
@@ -128,13 +148,45 @@ void ClearSpace::flood(Cell seed, int label) {
   }
 }
 
+/// Walks the leg by the distance field: far from obstacles in long strides, elsewhere cell by cell; only
+/// those stretches that come near to an obstacle are looked at square by square.
 bool ClearSpace::along(const Vec2& from, const Vec2& to) const {
   if (!from.allFinite() || !to.allFinite()) return false;
   const Vec2 low = from.cwiseMin(to).array() - radius_cells_;
   const Vec2 high = from.cwiseMax(to).array() + radius_cells_;
   if (low.minCoeff() < 0.0 || high.x() > map_.columns || high.y() > map_.rows) return false;
-  const int last = std::min(static_cast<int>(high.y()), map_.rows - 1);
-  for (int row = static_cast<int>(low.y()); row <= last; ++row) {
+  const double length = (to - from).norm();
+  const Vec2 step = length > 0.0 ? Vec2((to - from) / length) : Vec2::Zero();
+  std::optional<double> near_since;
+  for (double at = 0.0; at <= length;) {
+    const Vec2 point = from + at * step;
+    const Cell cell{std::min(static_cast<int>(point.x()), map_.columns - 1),
+                    std::min(static_cast<int>(point.y()), map_.rows - 1)};
+    const double to_obstacle = static_cast<double>(to_obstacle_[map_.index(cell)]);  // centre to centre
+    const double sure_stride = to_obstacle - std::numbers::sqrt2 - radius_cells_ - rounding;
+    if (sure_stride >= 1.0 && !near_since) {
+      at += sure_stride;
+      continue;
+    }
+    const double off_center = (point - Vec2(cell.column + 0.5, cell.row + 0.5)).norm();
+    // A square reaches at least half a side from its centre, at most half a diagonal.
+    if (to_obstacle + off_center + rounding < radius_cells_ + 0.5) return false;
+    const double stride = to_obstacle - off_center - 0.5 * std::numbers::sqrt2 - radius_cells_ - rounding;
+    if (stride >= 1.0) {
+      if (near_since && !stretch_is_clear(from + *near_since * step, point)) return false;
+      near_since.reset();
+    } else if (!near_since) {
+      near_since = at;
+    }
+    at += std::max(stride, 1.0);
+  }
+  return !near_since || stretch_is_clear(from + *near_since * step, to);
+}
+
+bool ClearSpace::stretch_is_clear(const Vec2& from, const Vec2& to) const {
+  const int first = std::max(static_cast<int>(std::min(from.y(), to.y()) - radius_cells_), 0);
+  const int last = std::min(static_cast<int>(std::max(from.y(), to.y()) + radius_cells_), map_.rows - 1);
+  for (int row = first; row <= last; ++row) {
     if (!row_is_clear(row, from, to)) return false;
   }
   return true;
@@ -142,17 +194,17 @@ bool ClearSpace::along(const Vec2& from, const Vec2& to) const {
 
 /// Only the part of the leg that passes within the radius of the row can touch it there.
 bool ClearSpace::row_is_clear(int row, const Vec2& from, const Vec2& to) const {
-  const double rise = to.y() - from.y();
   double enter = 0.0;
   double leave = 1.0;
-  if (rise != 0.0) {
-    const double a = (row - radius_cells_ - from.y()) / rise;
-    const double b = (row + 1 + radius_cells_ - from.y()) / rise;
+  if (to.y() != from.y()) {
+    const double share_per_row = 1.0 / (to.y() - from.y());
+    const double a = (row - radius_cells_ - from.y()) * share_per_row;
+    const double b = (row + 1 + radius_cells_ - from.y()) * share_per_row;
     enter = std::clamp(std::min(a, b), 0.0, 1.0);
     leave = std::clamp(std::max(a, b), 0.0, 1.0);
   }
-  const double x_enter = std::lerp(from.x(), to.x(), enter);
-  const double x_leave = std::lerp(from.x(), to.x(), leave);
+  const double x_enter = from.x() + enter * (to.x() - from.x());
+  const double x_leave = from.x() + leave * (to.x() - from.x());
   const int first = std::max(static_cast<int>(std::min(x_enter, x_leave) - radius_cells_), 0);
   const int last = std::min(static_cast<int>(std::max(x_enter, x_leave) + radius_cells_), map_.columns - 1);
   for (int column = first; column <= last; ++column) {

@@ -1,12 +1,17 @@
 #include "planning/grid_planner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "planning/clear_space.hpp"
+#include "planning/corners.hpp"
 #include "planning/grid_search.hpp"
+#include "planning/jump_search.hpp"
+#include "planning/path_refining.hpp"
 #include "planning/path_shortening.hpp"
+#include "planning/turn_search.hpp"
 
 namespace lodestar {
 namespace {
@@ -19,7 +24,64 @@ Vec2 center_of(Cell cell) {
   return {cell.column + 0.5, cell.row + 0.5};
 }
 
+struct KindName {
+  PlannerKind kind;
+  std::string_view name;
+  std::optional<SamplingMethod> sampling;
+};
+constexpr std::array<KindName, 8> kinds{{
+    {PlannerKind::astar, "astar", std::nullopt},
+    {PlannerKind::anyangle, "anyangle", std::nullopt},
+    {PlannerKind::fastest, "fastest", std::nullopt},
+    {PlannerKind::rrtstar, "rrtstar", SamplingMethod::rrtstar},
+    {PlannerKind::informedrrtstar, "informedrrtstar", SamplingMethod::informedrrtstar},
+    {PlannerKind::bitstar, "bitstar", SamplingMethod::bitstar},
+    {PlannerKind::abitstar, "abitstar", SamplingMethod::abitstar},
+    {PlannerKind::prmstar, "prmstar", SamplingMethod::prmstar},
+}};
+
+const KindName& named(PlannerKind kind) {
+  return *std::ranges::find(kinds, kind, &KindName::kind);
+}
+
+/// Every leg as far along the points as it is clear.
+std::vector<Vec2> pulled_tight(const std::vector<Vec2>& points, const ClearSpace& space) {
+  std::vector<Vec2> tight{points.front()};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    if (!space.along(tight.back(), points[i + 1])) tight.push_back(points[i]);
+  }
+  tight.push_back(points.back());
+  return tight;
+}
+
+/// Sampled densely: a way out of a tight place need not be clear, only not through an obstacle.
+bool leads_over_drivable(const OccupancyMap& map, const Vec2& from, const Vec2& to) {
+  constexpr double spacing_cells = 0.05;
+  const int samples = 1 + static_cast<int>((to - from).norm() / spacing_cells);
+  for (int i = 0; i <= samples; ++i) {
+    const Cell cell = cell_of(from + (to - from) * (static_cast<double>(i) / samples));
+    if (!map.contains(cell) || !is_drivable(map.at(cell))) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+std::string_view to_string(PlannerKind kind) {
+  return named(kind).name;
+}
+
+std::optional<PlannerKind> planner_kind(std::string_view name) {
+  const auto* found = std::ranges::find(kinds, name, &KindName::name);
+  if (found == kinds.end()) return std::nullopt;
+  return found->kind;
+}
+
+std::vector<PlannerKind> all_planner_kinds() {
+  std::vector<PlannerKind> all;
+  for (const KindName& each : kinds) all.push_back(each.kind);
+  return all;
+}
 
 std::string_view to_string(PlanFailure failure) {
   switch (failure) {
@@ -33,16 +95,27 @@ std::string_view to_string(PlanFailure failure) {
       return "goal occupied";
     case PlanFailure::no_path:
       return "no path to the goal";
+    case PlanFailure::limit_reached:
+      return "no path found within the limits";
   }
   return "";
 }
 
+/// What is prepared for a map, and the memory of the searches.
+struct GridPlanner::Searches {
+  explicit Searches(const OccupancyMap& map, double radius_m) : space(map, radius_m) {}
+
+  ClearSpace space;
+  std::optional<JumpTable> jumps;
+  std::optional<JumpSearch<JumpTable>> shortest;  ///< on the grid
+  std::optional<GridSearch> cheapest;             ///< on the grid, when cells cost differently
+  std::optional<TurnSearch> turns;
+};
+
 GridPlanner::GridPlanner(const OccupancyMap& map, const GridPlannerOptions& options)
-    : map_(map),
-      options_(options),
-      space_(std::make_unique<ClearSpace>(map_, options.radius_m)),
-      costs_(map.cells.size(), 1.0F) {
+    : map_(map), options_(options), searches_(std::make_unique<Searches>(map_, options.radius_m)) {
   weigh_cells();
+  prepare_searches();
 }
 
 GridPlanner::~GridPlanner() = default;
@@ -50,15 +123,33 @@ GridPlanner::~GridPlanner() = default;
 /// A cell costs 1 when it is as far from obstacles as preferred, and linearly more the nearer it is.
 void GridPlanner::weigh_cells() {
   if (!(options_.clearance_weight > 0.0 && options_.preferred_clearance_m > 0.0)) return;
-  const DistanceField distance(map_);
+  costs_.assign(map_.cells.size(), 1.0F);
   for (int row = 0; row < map_.rows; ++row) {
     for (int column = 0; column < map_.columns; ++column) {
-      const double to_edge_m = distance.distance_m({column, row}) - 0.5 * map_.resolution_m;
+      const double to_edge_m = (searches_->space.to_obstacle_cells({column, row}) - 0.5) * map_.resolution_m;
       const double missing = 1.0 - (to_edge_m - options_.radius_m) / options_.preferred_clearance_m;
       costs_[map_.index({column, row})] =
           static_cast<float>(1.0 + options_.clearance_weight * std::clamp(missing, 0.0, 1.0));
     }
   }
+}
+
+void GridPlanner::prepare_searches() {
+  Searches& searches = *searches_;
+  if (named(options_.kind).sampling) return;
+  if (costs_.empty()) {
+    searches.jumps.emplace(searches.space);
+    searches.shortest.emplace(*searches.jumps);
+  } else {
+    searches.cheapest.emplace(searches.space, costs_);
+  }
+  if (options_.kind == PlannerKind::astar) return;
+  std::vector<TurnPoint> points = turn_points(searches.space, searches.space.radius_cells());
+  if (!costs_.empty()) {
+    const double away_cells = (options_.radius_m + options_.preferred_clearance_m) / map_.resolution_m;
+    std::ranges::copy(turn_points(searches.space, away_cells), std::back_inserter(points));
+  }
+  searches.turns.emplace(searches.space, std::move(points));
 }
 
 Vec2 GridPlanner::in_grid(const Vec2& point_m) const {
@@ -70,7 +161,7 @@ Vec2 GridPlanner::in_map(const Vec2& point_in_grid) const {
 }
 
 bool GridPlanner::is_clear(const Vec2& from_m, const Vec2& to_m) const {
-  return space_->along(in_grid(from_m), in_grid(to_m));
+  return searches_->space.along(in_grid(from_m), in_grid(to_m));
 }
 
 /// The nearest clear cell whose centre can be reached straight from the point.
@@ -82,7 +173,9 @@ std::optional<Cell> GridPlanner::clear_cell_near(const Vec2& point_in_grid) cons
     for (int column = middle.column - 1; column <= middle.column + 1; ++column) {
       const Cell cell{column, row};
       const double distance = (center_of(cell) - point_in_grid).squaredNorm();
-      if (distance >= least || !space_->at(cell) || !space_->along(point_in_grid, center_of(cell))) continue;
+      if (distance >= least || !searches_->space.at(cell) ||
+          !searches_->space.along(point_in_grid, center_of(cell)))
+        continue;
       least = distance;
       nearest = cell;
     }
@@ -95,14 +188,14 @@ std::optional<Cell> GridPlanner::clear_cell_near(const Vec2& point_in_grid) cons
 std::optional<Cell> GridPlanner::way_out(const Vec2& start_in_grid) const {
   const Cell start = cell_of(start_in_grid);
   const int reach = 1 + static_cast<int>(std::ceil(options_.radius_m / map_.resolution_m));
-  const ClearSpace point_robot(map_, 0.0);
   std::optional<Cell> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int row = start.row - reach; row <= start.row + reach; ++row) {
     for (int column = start.column - reach; column <= start.column + reach; ++column) {
       const Cell cell{column, row};
       const double distance = (center_of(cell) - start_in_grid).squaredNorm();
-      if (distance >= least || !space_->at(cell) || !point_robot.along(start_in_grid, center_of(cell)))
+      if (distance >= least || !searches_->space.at(cell) ||
+          !leads_over_drivable(map_, start_in_grid, center_of(cell)))
         continue;
       least = distance;
       nearest = cell;
@@ -111,35 +204,122 @@ std::optional<Cell> GridPlanner::way_out(const Vec2& start_in_grid) const {
   return nearest;
 }
 
-PlanResult GridPlanner::plan(const Vec2& start_m, const Vec2& goal_m) const {
+std::optional<Cell> GridPlanner::first_cell(const Vec2& start) const {
+  return searches_->space.along(start, start) ? clear_cell_near(start) : way_out(start);
+}
+
+std::variant<GridPlanner::Ends, PlanFailure> GridPlanner::ends_of(const Vec2& start_m,
+                                                                  const Vec2& goal_m) const {
   const Vec2 start = in_grid(start_m);
   const Vec2 goal = in_grid(goal_m);
+  const ClearSpace& space = searches_->space;
   if (!start.allFinite() || !map_.contains(map_.cell_at(start_m))) return PlanFailure::start_outside_map;
   if (!goal.allFinite() || !map_.contains(map_.cell_at(goal_m))) return PlanFailure::goal_outside_map;
   if (!is_drivable(map_.at(cell_of(start)))) return PlanFailure::start_occupied;
-  if (!space_->along(goal, goal)) return PlanFailure::goal_occupied;
+  if (!space.along(goal, goal)) return PlanFailure::goal_occupied;
 
-  const bool stands_clear = space_->along(start, start);
-  const std::optional<Cell> first = stands_clear ? clear_cell_near(start) : way_out(start);
+  const bool starts_clear = space.along(start, start);
+  const std::optional<Cell> first = first_cell(start);
   const std::optional<Cell> last = clear_cell_near(goal);
-  if (!first) return stands_clear ? PlanFailure::no_path : PlanFailure::start_occupied;
-  if (!last) return PlanFailure::no_path;
-  const std::optional<GridPath> found = search_grid(map_, *space_, costs_, *first, *last);
-  if (!found) return PlanFailure::no_path;
+  if (!first) return starts_clear ? PlanFailure::no_path : PlanFailure::start_occupied;
+  if (!last || space.region(*first) != space.region(*last)) return PlanFailure::no_path;
+  return Ends{start, goal, *first, *last, starts_clear};
+}
 
-  std::vector<Vec2> points;
-  if (stands_clear) points.push_back(start);
-  for (const Cell cell : found->cells) points.push_back(center_of(cell));
-  points.push_back(goal);
-  Plan plan{.path = {}, .expanded = found->expanded};
-  if (!stands_clear) plan.path.waypoints_m.push_back(start_m);
-  for (const Vec2& point :
-       shortened(points, map_, *space_, costs_, options_.turn_cost_m / map_.resolution_m)) {
-    plan.path.waypoints_m.push_back(in_map(point));
-  }
+PlanResult GridPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const PlanHeadings& headings) const {
+  const std::variant<Ends, PlanFailure> checked = ends_of(start_m, goal_m);
+  if (const auto* failure = std::get_if<PlanFailure>(&checked)) return *failure;
+  const Ends& ends = std::get<Ends>(checked);
+  Plan plan;
+  if (!ends.starts_clear) plan.path.waypoints_m.push_back(start_m);
+  const std::optional<std::vector<Vec2>> points = legs_between(ends, headings, plan.expanded);
+  if (!points) return PlanFailure::limit_reached;
+  for (const Vec2& point : *points) plan.path.waypoints_m.push_back(in_map(point));
   plan.path.waypoints_m.front() = start_m;  // to the last bit what was asked for
   plan.path.waypoints_m.back() = goal_m;
   return plan;
+}
+
+/// By the chosen method; nothing only when a sampling planner gives up.
+std::optional<std::vector<Vec2>> GridPlanner::legs_between(const Ends& ends, const PlanHeadings& headings,
+                                                           std::size_t& expanded) const {
+  if (named(options_.kind).sampling) return sampled_legs(ends, expanded);
+  if (options_.kind == PlannerKind::astar) return few_legs(ends, expanded);
+  return cheapest_legs(ends, headings, expanded);
+}
+
+/// The shortest way over the grid's cells from start to goal. There is one: both are in the same region.
+std::vector<Vec2> GridPlanner::jump_path(const Ends& ends, std::size_t& expanded) const {
+  const JumpPath found = searches_->shortest->find(ends.first, ends.last).value();
+  expanded += found.expanded;
+  std::vector<Vec2> points;
+  if (ends.starts_clear) points.push_back(ends.start);
+  for (const Cell cell : found.turns) points.push_back(center_of(cell));
+  points.push_back(ends.goal);
+  return points;
+}
+
+std::vector<Vec2> GridPlanner::few_legs(const Ends& ends, std::size_t& expanded) const {
+  std::vector<Vec2> points;
+  if (costs_.empty()) {
+    points = jump_path(ends, expanded);
+  } else {
+    const GridPath found = searches_->cheapest->find(ends.first, ends.last).value();
+    expanded += found.expanded;
+    if (ends.starts_clear) points.push_back(ends.start);
+    for (const Cell cell : found.cells) points.push_back(center_of(cell));
+    points.push_back(ends.goal);
+  }
+  const PathCost cost(map_, costs_, std::nullopt);
+  return shortened(points, searches_->space, cost, options_.turn_cost_m);
+}
+
+std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeadings& headings,
+                                             std::size_t& expanded) const {
+  const bool timed = options_.kind == PlannerKind::fastest;
+  const PathCost cost(map_, costs_, timed ? std::optional(options_.limits) : std::nullopt);
+  EndHeadings in_grid_frame;
+  const double yaw_rad = map_.map_from_grid.yaw_rad;
+  if (headings.start_rad && ends.starts_clear)
+    in_grid_frame.start_rad = wrap_angle(*headings.start_rad - yaw_rad);
+  if (headings.goal_rad) in_grid_frame.goal_rad = wrap_angle(*headings.goal_rad - yaw_rad);
+
+  const ClearSpace& space = searches_->space;
+  std::vector<Vec2> known =
+      costs_.empty() ? pulled_tight(jump_path(ends, expanded), space) : few_legs(ends, expanded);
+  // For time, moving turns pays far more than for length, where turn points are nearly the best there is.
+  if (timed) known = refined(std::move(known), in_grid_frame, space, cost, Refinement::coarse);
+  TurnPath found = searches_->turns->find(known, in_grid_frame, cost);
+  expanded += found.expanded;
+  if (!timed) return found.points;
+  return refined(std::move(found.points), in_grid_frame, space, cost, Refinement::fine);
+}
+
+std::optional<std::vector<Vec2>> GridPlanner::sampled_legs(const Ends& ends, std::size_t& expanded) const {
+  const ClearSpace& space = searches_->space;
+  const std::optional<SampledPath> found = search_by_sampling(
+      named(options_.kind).sampling.value(), space, ends.starts_clear ? ends.start : center_of(ends.first),
+      ends.goal, options_.sampling);
+  if (!found) return std::nullopt;
+  expanded += found->iterations;
+  return shortened(found->points, space, PathCost(map_, costs_, std::nullopt), options_.turn_cost_m);
+}
+
+std::optional<Vec2> GridPlanner::nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const {
+  const Vec2 start = in_grid(start_m);
+  if (!start.allFinite() || !goal_m.allFinite() || !map_.contains(map_.cell_at(start_m))) return std::nullopt;
+  const ClearSpace& space = searches_->space;
+  const std::optional<Cell> first = first_cell(start);
+  if (!first) return std::nullopt;
+  std::optional<Vec2> nearest;
+  for (int row = 0; row < map_.rows; ++row) {
+    for (int column = 0; column < map_.columns; ++column) {
+      if (space.region({column, row}) != space.region(*first)) continue;
+      const Vec2 center = map_.center_of({column, row});
+      if (!nearest || (center - goal_m).squaredNorm() < (*nearest - goal_m).squaredNorm()) nearest = center;
+    }
+  }
+  return nearest;
 }
 
 }  // namespace lodestar

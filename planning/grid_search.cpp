@@ -1,31 +1,13 @@
 #include "planning/grid_search.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <queue>
+
+#include "planning/grid_step.hpp"
 
 namespace lodestar {
-namespace {
-
-constexpr std::array<Cell, 8> steps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
-
-double octile(Cell a, Cell b) {
-  const int dx = std::abs(a.column - b.column);
-  const int dy = std::abs(a.row - b.row);
-  return std::max(dx, dy) + (std::numbers::sqrt2 - 1.0) * std::min(dx, dy);
-}
-
-struct Open {
-  double total = 0.0;  ///< cost so far and the least that can follow
-  double cost = 0.0;
-  std::size_t index = 0;
-};
 
 /// The least total first; among equals the one that has come farther, then the lower index.
-struct Later {
+struct GridSearch::Later {
   bool operator()(const Open& a, const Open& b) const {
     if (a.total != b.total) return a.total > b.total;
     if (a.cost != b.cost) return a.cost < b.cost;
@@ -33,84 +15,78 @@ struct Later {
   }
 };
 
-class Search {
- public:
-  Search(const OccupancyMap& map, const ClearSpace& space, const CellCosts& costs, Cell goal)
-      : map_(map),
-        space_(space),
-        costs_(costs),
-        goal_(goal),
-        best_(map.cells.size(), std::numeric_limits<double>::infinity()),
-        came_by_(map.cells.size(), -1) {}
+GridSearch::GridSearch(const ClearSpace& space, const CellCosts& costs)
+    : space_(space), costs_(costs), nodes_(costs.size()) {}
 
-  std::optional<GridPath> run(Cell start) {
-    reach(start, 0.0, -1);
-    while (!open_.empty()) {
-      const Open next = open_.top();
-      open_.pop();
-      if (next.cost > best_[next.index]) continue;  // a better way was found since
-      ++expanded_;
-      const Cell cell = cell_of(next.index);
-      if (cell == goal_) return path_to(cell);
-      expand(cell, next.cost);
-    }
+std::size_t GridSearch::index(Cell cell) const {
+  return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(space_.columns()) +
+         static_cast<std::size_t>(cell.column);
+}
+
+Cell GridSearch::cell_at(std::size_t index) const {
+  const auto columns = static_cast<std::size_t>(space_.columns());
+  return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
+}
+
+std::optional<GridPath> GridSearch::find(Cell start, Cell goal) {
+  if (!space_.at(start) || !space_.at(goal) || space_.region(start) != space_.region(goal))
     return std::nullopt;
+  begin();
+  reach(start, 0.0, -1, goal);
+  while (!open_.empty()) {
+    const Open next = open_.front();
+    std::ranges::pop_heap(open_, Later{});
+    open_.pop_back();
+    if (next.cost > nodes_[next.index].cost) continue;  // a better way was found since
+    ++expanded_;
+    const Cell cell = cell_at(next.index);
+    if (cell == goal) return path_to(cell);
+    expand(cell, goal);
   }
+  return std::nullopt;
+}
 
- private:
-  [[nodiscard]] Cell cell_of(std::size_t index) const {
-    const auto columns = static_cast<std::size_t>(map_.columns);
-    return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
+void GridSearch::begin() {
+  expanded_ = 0;
+  open_.clear();
+  if (++visit_ != 0) return;
+  std::ranges::fill(nodes_, Node{});  // the numbers begin anew
+  visit_ = 1;
+}
+
+void GridSearch::expand(Cell cell, Cell goal) {
+  const std::size_t from = index(cell);
+  const double so_far = nodes_[from].cost;
+  for (int k = 0; k < 8; ++k) {
+    const Cell step = grid_steps[static_cast<std::size_t>(k)];
+    const Cell to{cell.column + step.column, cell.row + step.row};
+    if (!space_.at(to)) continue;
+    if (is_diagonal(k) && !(space_.at({to.column, cell.row}) && space_.at({cell.column, to.row}))) continue;
+    const double length = is_diagonal(k) ? std::numbers::sqrt2 : 1.0;
+    const double mean_cost =
+        0.5 * (static_cast<double>(costs_[from]) + static_cast<double>(costs_[index(to)]));
+    reach(to, so_far + length * mean_cost, k, goal);
   }
+}
 
-  void expand(Cell cell, double cost) {
-    for (std::size_t k = 0; k < steps.size(); ++k) {
-      const Cell to{cell.column + steps[k].column, cell.row + steps[k].row};
-      if (!space_.at(to)) continue;
-      const bool diagonal = k >= 4;
-      if (diagonal && !(space_.at({to.column, cell.row}) && space_.at({cell.column, to.row}))) continue;
-      const double length = diagonal ? std::numbers::sqrt2 : 1.0;
-      const double mean_cost =
-          0.5 * (static_cast<double>(costs_[map_.index(cell)]) + static_cast<double>(costs_[map_.index(to)]));
-      reach(to, cost + length * mean_cost, static_cast<int>(k));
-    }
+void GridSearch::reach(Cell cell, double cost, int by, Cell goal) {
+  const std::size_t at = index(cell);
+  Node& node = nodes_[at];
+  if (node.visit == visit_ && cost >= node.cost) return;
+  node = {.cost = cost, .visit = visit_, .came_by = by};
+  open_.push_back({cost + free_steps(cell, goal).length_cells(), cost, at});
+  std::ranges::push_heap(open_, Later{});
+}
+
+GridPath GridSearch::path_to(Cell cell) const {
+  GridPath path{.cells = {cell}, .cost = nodes_[index(cell)].cost, .expanded = expanded_};
+  for (int by = nodes_[index(cell)].came_by; by >= 0; by = nodes_[index(cell)].came_by) {
+    const Cell step = grid_steps[static_cast<std::size_t>(by)];
+    cell = {cell.column - step.column, cell.row - step.row};
+    path.cells.push_back(cell);
   }
-
-  void reach(Cell cell, double cost, int by) {
-    const std::size_t index = map_.index(cell);
-    if (cost >= best_[index]) return;
-    best_[index] = cost;
-    came_by_[index] = static_cast<std::int8_t>(by);
-    open_.push({cost + octile(cell, goal_), cost, index});
-  }
-
-  [[nodiscard]] GridPath path_to(Cell cell) const {
-    GridPath path{.cells = {cell}, .cost = best_[map_.index(cell)], .expanded = expanded_};
-    for (int by = came_by_[map_.index(cell)]; by >= 0; by = came_by_[map_.index(cell)]) {
-      const Cell step = steps[static_cast<std::size_t>(by)];
-      cell = {cell.column - step.column, cell.row - step.row};
-      path.cells.push_back(cell);
-    }
-    std::ranges::reverse(path.cells);
-    return path;
-  }
-
-  const OccupancyMap& map_;
-  const ClearSpace& space_;
-  const CellCosts& costs_;
-  Cell goal_;
-  std::vector<double> best_;
-  std::vector<std::int8_t> came_by_;
-  std::priority_queue<Open, std::vector<Open>, Later> open_;
-  std::size_t expanded_ = 0;
-};
-
-}  // namespace
-
-std::optional<GridPath> search_grid(const OccupancyMap& map, const ClearSpace& space, const CellCosts& costs,
-                                    Cell start, Cell goal) {
-  if (!space.at(start) || !space.at(goal) || space.region(start) != space.region(goal)) return std::nullopt;
-  return Search(map, space, costs, goal).run(start);
+  std::ranges::reverse(path.cells);
+  return path;
 }
 
 }  // namespace lodestar

@@ -1,15 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "maps/occupancy_map.hpp"
 #include "planning/clear_space.hpp"
 
 namespace lodestar {
 
-/// What a way through a cell costs per unit of length: at least 1.
+/// What a way through a cell costs per unit of length: at least 1. Row by row, as the map's cells.
 using CellCosts = std::vector<float>;
 
 struct GridPath {
@@ -18,10 +18,42 @@ struct GridPath {
   std::size_t expanded = 0;  ///< cells taken from the open list
 };
 
-/// The cheapest path on the 8-connected grid of clear cells without cutting corners: A* with the octile
-/// distance (Hart, Nilsson and Raphael 1968). Ties are broken the same way every time. Nothing when there is
-/// none.
-std::optional<GridPath> search_grid(const OccupancyMap& map, const ClearSpace& space, const CellCosts& costs,
-                                    Cell start, Cell goal);
+/// The cheapest path on the 8-connected grid of clear cells without cutting corners, whatever the cells cost:
+/// A* with a binary heap and the octile distance (Hart, Nilsson and Raphael 1968). Ties are broken the same
+/// way every time. Memory is kept from search to search. Space and costs must outlive it.
+class GridSearch {
+ public:
+  GridSearch(const ClearSpace& space, const CellCosts& costs);
+
+  /// Nothing when there is no path.
+  std::optional<GridPath> find(Cell start, Cell goal);
+
+ private:
+  struct Node {
+    double cost = 0.0;
+    std::uint32_t visit = 0;  ///< the number of the search that reached it last
+    int came_by = -1;         ///< direction of the last step
+  };
+  struct Open {
+    double total = 0.0;  ///< cost so far and the least that can follow
+    double cost = 0.0;
+    std::size_t index = 0;
+  };
+  struct Later;
+
+  [[nodiscard]] std::size_t index(Cell cell) const;
+  [[nodiscard]] Cell cell_at(std::size_t index) const;
+  void begin();
+  void expand(Cell cell, Cell goal);
+  void reach(Cell cell, double cost, int by, Cell goal);
+  [[nodiscard]] GridPath path_to(Cell cell) const;
+
+  const ClearSpace& space_;
+  const CellCosts& costs_;
+  std::uint32_t visit_ = 0;
+  std::size_t expanded_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<Open> open_;
+};
 
 }  // namespace lodestar

@@ -7,19 +7,6 @@
 namespace lodestar {
 namespace {
 
-/// Length times the mean cost of the cells along a leg, sampled at half cells.
-double leg_cost(const Vec2& from, const Vec2& to, const OccupancyMap& map, const CellCosts& costs) {
-  const double length = (to - from).norm();
-  const int samples = std::max(1, static_cast<int>(std::ceil(2.0 * length)));
-  double sum = 0.0;
-  for (int i = 0; i < samples; ++i) {
-    const Vec2 point = from + (to - from) * ((i + 0.5) / samples);
-    const Cell cell{static_cast<int>(point.x()), static_cast<int>(point.y())};
-    sum += static_cast<double>(costs[map.index(cell)]);
-  }
-  return length * sum / samples;
-}
-
 bool goes_straight(const Vec2& before, const Vec2& at, const Vec2& after) {
   const Vec2 a = at - before;
   const Vec2 b = after - at;
@@ -40,8 +27,8 @@ std::vector<Vec2> candidates(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-std::vector<Vec2> shortened(const std::vector<Vec2>& points, const OccupancyMap& map, const ClearSpace& space,
-                            const CellCosts& costs, double turn_cost_cells) {
+std::vector<Vec2> shortened(const std::vector<Vec2>& points, const ClearSpace& space, const PathCost& cost,
+                            double turn_cost_m) {
   if (points.size() < 3) return points;
   const std::vector<Vec2> at = candidates(points);
   std::vector<double> best(at.size(), std::numeric_limits<double>::infinity());
@@ -49,12 +36,13 @@ std::vector<Vec2> shortened(const std::vector<Vec2>& points, const OccupancyMap&
   best[0] = 0.0;
   for (std::size_t to = 1; to < at.size(); ++to) {
     for (std::size_t from = 0; from < to; ++from) {
-      const double turn = from == 0 ? 0.0 : turn_cost_cells;
-      if (best[from] + turn + (at[to] - at[from]).norm() >= best[to]) continue;  // no leg can be that cheap
-      const double cost = best[from] + turn + leg_cost(at[from], at[to], map, costs);
+      const double so_far = best[from] + (from == 0 ? 0.0 : turn_cost_m);
+      if (so_far + cost.at_least((at[to] - at[from]).norm()) >= best[to])
+        continue;  // no leg can be that cheap
+      const double total = so_far + cost.leg(at[from], at[to]);
       // The step from the point before is part of the given path: its clearness is not in question.
-      if (cost >= best[to] || (from + 1 < to && !space.along(at[from], at[to]))) continue;
-      best[to] = cost;
+      if (total >= best[to] || (from + 1 < to && !space.along(at[from], at[to]))) continue;
+      best[to] = total;
       came_from[to] = from;
     }
   }

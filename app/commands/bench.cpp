@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench_paper.hpp"
+#include "app/commands/bench_plan.hpp"
 #include "app/commands/command.hpp"
 
 namespace lodestar {
@@ -132,7 +133,9 @@ std::vector<Command> bench_commands(CLI::App& lodestar) {
   paper_command->add_option("--seed", arguments->seed, "Seed of noise, views and light")
       ->capture_default_str();
   paper_command->add_flag("--json", arguments->json, "As JSON");
-  return {{paper_command, [arguments] { return paper(*arguments); }}, bench_localize_command(*bench)};
+  return {{paper_command, [arguments] { return paper(*arguments); }},
+          bench_localize_command(*bench),
+          bench_plan_command(*bench)};
 }
 
 }  // namespace lodestar

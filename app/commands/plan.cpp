@@ -6,8 +6,8 @@
 
 #include "app/arguments.hpp"
 #include "app/commands/command.hpp"
+#include "app/commands/planner_options.hpp"
 #include "app/figure.hpp"
-#include "control/travel_time.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"
@@ -21,10 +21,10 @@ struct PlanArguments {
   std::string markers;
   std::string start;
   std::string goal;
-  std::string planner = "astar";
+  std::string planner = "fastest";
   std::string format = "text";
   std::string draw;
-  GridPlannerOptions options{.radius_m = 0.25, .preferred_clearance_m = 0.15, .clearance_weight = 0.0};
+  GridPlannerOptions options{.clearance_weight = 0.0};
 };
 
 struct TimedPlan {
@@ -32,9 +32,10 @@ struct TimedPlan {
   double microseconds = 0.0;
 };
 
-TimedPlan timed_plan(const GridPlanner& planner, const Vec2& start, const Vec2& goal) {
+TimedPlan timed_plan(const GridPlanner& planner, const Goal& start, const Goal& goal) {
+  const PlanHeadings headings{.start_rad = start.heading_rad, .goal_rad = goal.heading_rad};
   const auto before = std::chrono::steady_clock::now();
-  PlanResult result = planner.plan(start, goal);
+  PlanResult result = planner.plan(start.position_m, goal.position_m, headings);
   const auto after = std::chrono::steady_clock::now();
   return {std::move(result), std::chrono::duration<double, std::micro>(after - before).count()};
 }
@@ -43,7 +44,8 @@ std::size_t turns_in(const Path& path) {
   return path.waypoints_m.size() < 2 ? 0 : path.waypoints_m.size() - 2;
 }
 
-nlohmann::ordered_json as_json(const TimedPlan& timed, const std::string& planner) {
+nlohmann::ordered_json as_json(const TimedPlan& timed, const std::string& planner, const Goal& start,
+                               const Goal& goal) {
   if (const auto* failure = std::get_if<PlanFailure>(&timed.result)) {
     return {{"status", to_string(*failure)}, {"planner", planner},
             {"length_m", nullptr},           {"turns", nullptr},
@@ -57,7 +59,7 @@ nlohmann::ordered_json as_json(const TimedPlan& timed, const std::string& planne
           {"planner", planner},
           {"length_m", length_m(plan.path)},
           {"turns", turns_in(plan.path)},
-          {"travel_time_s", ideal_travel_time_s(plan.path, std::nullopt, std::nullopt, DriveOptions{})},
+          {"travel_time_s", travel_time_s(plan.path, start.heading_rad, goal.heading_rad, MotionLimits{})},
           {"plan_us", timed.microseconds},
           {"expanded", plan.expanded},
           {"waypoints", waypoints}};
@@ -68,7 +70,7 @@ void print_text(const TimedPlan& timed, const nlohmann::ordered_json& summary) {
     fmt::print("no plan: {}\n", summary["status"].get<std::string>());
     return;
   }
-  fmt::print("{:.3f} m, {} turns, {:.1f} s to drive; planned in {:.0f} us, {} nodes expanded\n",
+  fmt::print("{:.3f} m, {} turns, {:.1f} s to drive; planned in {:.0f} us, {} expanded\n",
              summary["length_m"].get<double>(), summary["turns"].get<int>(),
              summary["travel_time_s"].get<double>(), timed.microseconds,
              summary["expanded"].get<std::size_t>());
@@ -81,9 +83,19 @@ void warn(const LoadedMap& map) {
   for (const std::string& warning : map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
 }
 
-ExitCode plan(const PlanArguments& arguments) {
-  const Vec2 start = parse_point("--start", arguments.start);
-  const Vec2 goal = parse_point("--goal", arguments.goal);
+/// To choose from, not a plan.
+void offer_nearest(const GridPlanner& planner, const Goal& start, const Goal& goal) {
+  const std::optional<Vec2> nearest = planner.nearest_reachable(start.position_m, goal.position_m);
+  if (!nearest) return;
+  fmt::print(stderr,
+             "lodestar: the nearest place that can be reached is {:.3f},{:.3f}, {:.2f} m from the goal\n",
+             nearest->x(), nearest->y(), (*nearest - goal.position_m).norm());
+}
+
+ExitCode plan(PlanArguments arguments) {
+  const Goal start = parse_goal("--start", arguments.start);
+  const Goal goal = parse_goal("--goal", arguments.goal);
+  arguments.options.kind = planner_kind(arguments.planner).value();
   const LoadedMap loaded = load_map(arguments.map);
   warn(loaded);
   MarkerRegistry registry;
@@ -91,7 +103,7 @@ ExitCode plan(const PlanArguments& arguments) {
 
   const GridPlanner planner(loaded.map, arguments.options);
   const TimedPlan timed = timed_plan(planner, start, goal);
-  const nlohmann::ordered_json summary = as_json(timed, arguments.planner);
+  const nlohmann::ordered_json summary = as_json(timed, arguments.planner, start, goal);
   if (arguments.format == "json") {
     fmt::print("{}\n", summary.dump(2));
   } else {
@@ -99,9 +111,13 @@ ExitCode plan(const PlanArguments& arguments) {
   }
   const auto* found = std::get_if<Plan>(&timed.result);
   if (!arguments.draw.empty()) {
-    write_png(arguments.draw, draw_plan(loaded.map, registry, start, goal, found ? found->path : Path{}));
+    write_png(arguments.draw, draw_plan(loaded.map, registry, start.position_m, goal.position_m,
+                                        found ? found->path : Path{}));
   }
-  return found ? done : job_failed;
+  if (found) return done;
+  const PlanFailure failure = std::get<PlanFailure>(timed.result);
+  if (failure != PlanFailure::limit_reached) offer_nearest(planner, start, goal);
+  return job_failed;
 }
 
 }  // namespace
@@ -111,11 +127,20 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
   CLI::App* command = lodestar.add_subcommand("plan", "Plan a drive over a map; exit 1 when there is no way");
   command->add_option("--map", arguments->map, "Occupancy map, ROS map_server YAML")->required();
   command->add_option("--markers", arguments->markers, "Marker registry, for the picture");
-  command->add_option("--start", arguments->start, "X,Y in metres in the map frame")->required();
-  command->add_option("--goal", arguments->goal, "X,Y in metres in the map frame")->required();
-  command->add_option("--planner", arguments->planner, "astar")
-      ->check(CLI::IsMember({"astar"}))
+  command->add_option("--start", arguments->start, "X,Y[,DEG] in metres and degrees in the map frame")
+      ->required();
+  command->add_option("--goal", arguments->goal, "X,Y[,DEG] in metres and degrees in the map frame")
+      ->required();
+  command
+      ->add_option(
+          "--planner", arguments->planner,
+          "fastest (turns counted), anyangle (shortest), astar (8-connected, shortened), or one of OMPL's")
+      ->check(CLI::IsMember(planner_names()))
       ->capture_default_str();
+  command->add_option("--seed", arguments->options.sampling.seed, "Of sampling planners")
+      ->check(CLI::Range(1, 2147483647))
+      ->capture_default_str();
+  add_sampling_options(*command, arguments->options.sampling);
   command->add_option("--radius", arguments->options.radius_m, "Robot radius in metres")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();

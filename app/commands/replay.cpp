@@ -7,6 +7,7 @@
 
 #include "app/arguments.hpp"
 #include "app/commands/command.hpp"
+#include "app/commands/planner_options.hpp"
 #include "app/progress.hpp"
 #include "app/replay_runs.hpp"
 #include "app/run_folder.hpp"
@@ -23,7 +24,7 @@ struct ReplayArguments {
   std::uint64_t seed = 1;
   int runs = 1;
   std::string camera;
-  std::string planner = "astar";
+  std::string planner = "fastest";
   std::vector<std::string> goals;
   bool realtime = false;
   bool quiet = false;
@@ -41,6 +42,7 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
   ReplayOptions options{.camera = arguments.camera.empty() ? site.default_camera : arguments.camera,
                         .seed = arguments.seed,
                         .goals = site.goals,
+                        .planner = planner_kind(arguments.planner).value(),
                         .realtime = arguments.realtime};
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
@@ -54,8 +56,9 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
 
 /// The command line that gives the same run, and so the same bytes.
 std::string repeat_command(const std::string& site, const ReplayOptions& options) {
-  std::string command = fmt::format("lodestar replay{} --seed {} --camera {}", site.empty() ? "" : " " + site,
-                                    options.seed, options.camera);
+  std::string command =
+      fmt::format("lodestar replay{} --seed {} --camera {} --planner {}", site.empty() ? "" : " " + site,
+                  options.seed, options.camera, to_string(options.planner));
   for (const Goal& goal : options.goals) {
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
@@ -193,8 +196,10 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->capture_default_str();
   command->add_option("--camera", arguments->camera, "wide or paper; the site's default when left out")
       ->check(CLI::IsMember({"wide", "paper"}));
-  command->add_option("--planner", arguments->planner, "astar")
-      ->check(CLI::IsMember({"astar"}))
+  command
+      ->add_option("--planner", arguments->planner,
+                   "fastest, anyangle, astar, rrtstar, informedrrtstar, bitstar, abitstar, prmstar")
+      ->check(CLI::IsMember(planner_names()))
       ->capture_default_str();
   command
       ->add_option("--goal", arguments->goals,

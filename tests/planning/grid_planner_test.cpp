@@ -2,88 +2,15 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <queue>
 
 #include "maps/random.hpp"
 #include "planning/clear_space.hpp"
 #include "planning/grid_search.hpp"
 
+#include "tests/planning/sample_maps.hpp"
+
 namespace lodestar {
 namespace {
-
-/// Rows of text, the top one first: '#' is an obstacle, '?' unknown.
-OccupancyMap map_from(const std::vector<std::string>& rows, double resolution_m = 1.0) {
-  OccupancyMap map;
-  map.columns = static_cast<int>(rows.front().size());
-  map.rows = static_cast<int>(rows.size());
-  map.resolution_m = resolution_m;
-  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-    for (const char c : *row) {
-      map.cells.push_back(c == '#'   ? OccupancyMap::occupied
-                          : c == '?' ? OccupancyMap::unknown
-                                     : OccupancyMap::free);
-    }
-  }
-  return map;
-}
-
-OccupancyMap random_map(Random& random, int columns, int rows, double share) {
-  OccupancyMap map;
-  map.columns = columns;
-  map.rows = rows;
-  map.resolution_m = 0.05;
-  for (int i = 0; i < columns * rows; ++i) {
-    map.cells.push_back(random.uniform() < share ? OccupancyMap::occupied : OccupancyMap::free);
-  }
-  return map;
-}
-
-/// Does a disc overlap a square that is not drivable, or the outside? By trying every cell.
-bool touches(const OccupancyMap& map, const Vec2& center_m, double radius_m) {
-  const Vec2 p = inverse(map.map_from_grid) * center_m;
-  const double width = map.columns * map.resolution_m;
-  const double height = map.rows * map.resolution_m;
-  constexpr double rounding = 1e-7;
-  const double radius = radius_m - rounding;
-  if (p.x() < radius || p.y() < radius || p.x() > width - radius || p.y() > height - radius) return true;
-  for (int row = 0; row < map.rows; ++row) {
-    for (int column = 0; column < map.columns; ++column) {
-      if (is_drivable(map.at({column, row}))) continue;
-      const Vec2 low(column * map.resolution_m, row * map.resolution_m);
-      const Vec2 high = low.array() + map.resolution_m;
-      if ((p - p.cwiseMax(low).cwiseMin(high)).norm() < radius) return true;
-    }
-  }
-  return false;
-}
-
-double dijkstra(const OccupancyMap& map, const ClearSpace& space, Cell start, Cell goal) {
-  std::vector<double> best(map.cells.size(), 1e300);
-  using Entry = std::pair<double, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  best[map.index(start)] = 0.0;
-  open.emplace(0.0, map.index(start));
-  while (!open.empty()) {
-    const auto [cost, index] = open.top();
-    open.pop();
-    if (cost > best[index]) continue;
-    const Cell cell{static_cast<int>(index) % map.columns, static_cast<int>(index) / map.columns};
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const Cell to{cell.column + dx, cell.row + dy};
-        if ((dx == 0 && dy == 0) || !space.at(to)) continue;
-        if (dx != 0 && dy != 0 && !(space.at({to.column, cell.row}) && space.at({cell.column, to.row})))
-          continue;
-        const double next = cost + std::hypot(dx, dy);
-        if (next < best[map.index(to)]) {
-          best[map.index(to)] = next;
-          open.emplace(next, map.index(to));
-        }
-      }
-    }
-  }
-  return best[map.index(goal)];
-}
 
 PlanFailure failure_of(const PlanResult& result) {
   EXPECT_TRUE(std::holds_alternative<PlanFailure>(result));
@@ -99,7 +26,7 @@ TEST(GridSearch, is_as_cheap_as_dijkstra_on_random_maps) {
     const CellCosts costs(map.cells.size(), 1.0F);
     const Cell start{static_cast<int>(random.below(25)), static_cast<int>(random.below(20))};
     const Cell goal{static_cast<int>(random.below(25)), static_cast<int>(random.below(20))};
-    const auto path = search_grid(map, space, costs, start, goal);
+    const auto path = GridSearch(space, costs).find(start, goal);
     const double expected = space.at(start) ? dijkstra(map, space, start, goal) : 1e300;
     EXPECT_EQ(path.has_value(), expected < 1e299);
     if (!path) continue;

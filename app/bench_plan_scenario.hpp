@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "maps/movingai_file.hpp"
+
+// The queries of a MovingAI scenario, answered by the 8-connected search and checked against the file.
+namespace lodestar {
+
+struct ScenarioOptions {
+  int repeats = 5;  ///< passes over all queries; each query's median time counts
+};
+
+struct ScenarioAnswer {
+  MovingAiQuery query;
+  std::optional<double> found;  ///< length in cells, from exact step counts; nothing without a path
+  double microseconds = 0.0;
+  double astar_microseconds = 0.0;  ///< of a plain A* with a binary heap for the same query, once
+  std::size_t expanded = 0;
+
+  /// As long as the file says, to 1e-3 cells or to what it prints.
+  [[nodiscard]] bool optimal() const;
+};
+
+std::vector<ScenarioAnswer> answer_scenario(const OccupancyMap& map,
+                                            const std::vector<MovingAiQuery>& queries,
+                                            const ScenarioOptions& options);
+
+}  // namespace lodestar

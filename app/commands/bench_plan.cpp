@@ -1,0 +1,123 @@
+#include "app/commands/bench_plan.hpp"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/bench_plan_scenario.hpp"
+#include "app/bench_plan_site.hpp"
+#include "app/commands/planner_options.hpp"
+#include "app/median.hpp"
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+namespace {
+
+struct BenchPlanArguments {
+  std::string map;
+  std::string scenario;
+  std::string site;
+  std::vector<std::string> planners;
+  SiteBenchOptions bench;
+  bool json = false;
+};
+
+double median_of(const std::vector<ScenarioAnswer>& answers, double ScenarioAnswer::* value) {
+  std::vector<double> values;
+  for (const ScenarioAnswer& answer : answers) values.push_back(answer.*value);
+  return median(values);
+}
+
+void print_row(std::size_t index, const ScenarioAnswer& answer) {
+  const std::string found = answer.found ? fmt::format("{:.8f}", *answer.found) : "";
+  fmt::print("{},{:.8f},{},{:.3f},{}\n", index, answer.query.expected_length, found, answer.microseconds,
+             answer.expanded);
+}
+
+ExitCode bench_scenario(const BenchPlanArguments& arguments) {
+  const OccupancyMap map = load_movingai_map(arguments.map);
+  const std::vector<MovingAiQuery> queries = load_movingai_queries(arguments.scenario, map);
+  const std::vector<ScenarioAnswer> answers = answer_scenario(map, queries, {});
+  fmt::print("index,expected,found,microseconds,expanded\n");
+  for (std::size_t i = 0; i < answers.size(); ++i) print_row(i, answers[i]);
+
+  const auto optimal = static_cast<std::size_t>(std::ranges::count_if(answers, &ScenarioAnswer::optimal));
+  const double ours = median_of(answers, &ScenarioAnswer::microseconds);
+  const double astar = median_of(answers, &ScenarioAnswer::astar_microseconds);
+  fmt::print(stderr,
+             "{} of {} queries optimal; median {:.2f} us, plain A* with a binary heap {:.2f} us, {:.1f} x\n",
+             optimal, answers.size(), ours, astar, ours > 0.0 ? astar / ours : 0.0);
+  return optimal == answers.size() ? done : job_failed;
+}
+
+nlohmann::ordered_json as_json(const SiteBenchResult& result, std::uint64_t seed) {
+  auto planners = nlohmann::ordered_json::array();
+  for (const PlannerResult& each : result.planners) {
+    planners.push_back({{"planner", to_string(each.kind)},
+                        {"found", each.found},
+                        {"median_us", each.microseconds},
+                        {"length_ratio", each.length_ratio},
+                        {"worst_length_ratio", each.worst_length_ratio},
+                        {"travel_time_ratio", each.travel_time_ratio},
+                        {"mean_turns", each.mean_turns}});
+  }
+  return {{"seed", seed},
+          {"queries", result.queries},
+          {"grid_search_median_us", result.grid_microseconds},
+          {"planners", planners}};
+}
+
+void print_table(const SiteBenchResult& result, std::uint64_t seed) {
+  fmt::print("seed {}: {} queries; 8-connected search alone, median {:.2f} us\n", seed, result.queries,
+             result.grid_microseconds);
+  fmt::print("planner          found  median (us)  length  worst length  travel time  turns\n");
+  for (const PlannerResult& each : result.planners) {
+    fmt::print("{:<15} {:>6} {:>12.1f} {:>7.4f} {:>13.4f} {:>12.4f} {:>6.2f}\n", to_string(each.kind),
+               each.found, each.microseconds, each.length_ratio, each.worst_length_ratio,
+               each.travel_time_ratio, each.mean_turns);
+  }
+  fmt::print("Medians; length and travel time as ratios to the best path found for the same query.\n");
+}
+
+ExitCode bench_planners(BenchPlanArguments arguments) {
+  for (const std::string& name : arguments.planners)
+    arguments.bench.kinds.push_back(planner_kind(name).value());
+  if (arguments.planners.empty()) arguments.bench.kinds = all_planner_kinds();
+  const SiteBenchResult result = bench_site(load_site(arguments.site), arguments.bench);
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(result, arguments.bench.seed).dump(2));
+  } else {
+    print_table(result, arguments.bench.seed);
+  }
+  return done;
+}
+
+}  // namespace
+
+Command bench_plan_command(CLI::App& bench) {
+  const auto arguments = std::make_shared<BenchPlanArguments>();
+  CLI::App* command = bench.add_subcommand(
+      "plan", "Planners on a MovingAI scenario, exit 1 unless all is optimal; or side by side on a site");
+  CLI::Option* map = command->add_option("--map", arguments->map, "MovingAI map");
+  CLI::Option* scenario = command->add_option("--scen", arguments->scenario, "MovingAI scenario");
+  CLI::Option* site =
+      command->add_option("--site", arguments->site, "Site folder: random queries over its map");
+  map->needs(scenario)->excludes(site);
+  scenario->needs(map)->excludes(site);
+  command->add_option("--queries", arguments->bench.queries, "Random queries over the site")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->bench.seed, "Of the queries")->capture_default_str();
+  add_sampling_options(*command, arguments->bench.sampling);
+  command->add_option("--planner", arguments->planners, "Only these; all when left out")
+      ->check(CLI::IsMember(planner_names()));
+  command->add_flag("--json", arguments->json, "The site's table as JSON");
+  return {command, [arguments] {
+            if (!arguments->site.empty()) return bench_planners(*arguments);
+            if (!arguments->map.empty()) return bench_scenario(*arguments);
+            throw InputError("bench plan: found neither, wanted --map and --scen, or --site");
+          }};
+}
+
+}  // namespace lodestar

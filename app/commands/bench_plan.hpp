@@ -1,0 +1,10 @@
+#pragma once
+
+#include "app/commands/command.hpp"
+
+namespace lodestar {
+
+/// `lodestar bench plan`, a word under `bench`.
+Command bench_plan_command(CLI::App& bench);
+
+}  // namespace lodestar

@@ -1,0 +1,40 @@
+#include "maps/travel_time.hpp"
+
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+double trapezoid_time(double distance, double max_speed, double max_acceleration) {
+  const double ramps = max_speed * max_speed / max_acceleration;
+  return distance < ramps ? 2.0 * std::sqrt(distance / max_acceleration)
+                          : distance / max_speed + max_speed / max_acceleration;
+}
+
+}  // namespace
+
+double MotionLimits::leg_time_s(double length_m) const {
+  return trapezoid_time(length_m, max_forward_mps, max_acceleration_mps2);
+}
+
+double MotionLimits::turn_time_s(double angle_rad) const {
+  return trapezoid_time(std::abs(angle_rad), max_turn_radps, max_turn_acceleration_radps2);
+}
+
+double travel_time_s(const Path& path, std::optional<double> start_heading_rad,
+                     std::optional<double> final_heading_rad, const MotionLimits& limits) {
+  double time_s = 0.0;
+  std::optional<double> heading = start_heading_rad;
+  for (std::size_t i = 1; i < path.waypoints_m.size(); ++i) {
+    const Vec2 leg = path.waypoints_m[i] - path.waypoints_m[i - 1];
+    if (leg.isZero()) continue;
+    const double leg_heading = std::atan2(leg.y(), leg.x());
+    if (heading) time_s += limits.turn_time_s(wrap_angle(leg_heading - *heading));
+    time_s += limits.leg_time_s(leg.norm());
+    heading = leg_heading;
+  }
+  if (heading && final_heading_rad) time_s += limits.turn_time_s(wrap_angle(*final_heading_rad - *heading));
+  return time_s;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planning/jump_scan.hpp"
+#include "planning/jump_table.hpp"
+
+namespace lodestar {
+
+struct JumpPath {
+  std::span<const Cell> turns;  ///< start, where the path turns, goal; valid until the next search
+  StepCount steps;
+  std::size_t expanded = 0;  ///< cells taken from the open list
+};
+
+/// The shortest path on the 8-connected grid of clear cells without cutting corners: A* that looks only at
+/// cells where a path may have to turn (Harabor and Grastien 2012 and 2014). `Jumps` is JumpTable or JumpScan
+/// and must outlive it. Memory is kept from search to search, so only the first allocates.
+template <typename Jumps>
+class JumpSearch {
+ public:
+  explicit JumpSearch(const Jumps& jumps);
+
+  /// Both cells must be clear. Nothing when there is no path. The same question has the same answer every
+  /// time.
+  std::optional<JumpPath> find(Cell start, Cell goal);
+
+ private:
+  struct Node {
+    StepLength length = 0;  ///< from the start
+    std::uint32_t parent = 0;
+    std::uint32_t visit =
+        0;  ///< twice the number of the search, one more when expanded; older: not reached yet
+  };
+  struct Open {
+    StepLength total = 0;  ///< length so far and the least that can follow
+    std::uint32_t index = 0;
+    std::int32_t direction = 0;  ///< of arrival
+  };
+  struct Later;
+
+  [[nodiscard]] std::uint32_t index(Cell cell) const {
+    return static_cast<std::uint32_t>(cell.row) * static_cast<std::uint32_t>(jumps_.columns()) +
+           static_cast<std::uint32_t>(cell.column);
+  }
+  [[nodiscard]] Cell cell_at(std::uint32_t index) const {
+    const auto columns = static_cast<std::uint32_t>(jumps_.columns());
+    return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
+  }
+  void begin(Cell start, Cell goal);
+  void expand(Cell cell, unsigned directions);
+  [[nodiscard]] int steps_towards(Cell from, int direction) const;
+  void reach(Cell cell, StepLength length, std::uint32_t parent, int direction);
+  JumpPath path_found();
+
+  const Jumps& jumps_;
+  Cell start_;
+  Cell goal_;
+  std::uint32_t visit_ = 0;
+  std::size_t expanded_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<Open> open_;
+  std::vector<Cell> turns_;
+};
+
+extern template class JumpSearch<JumpTable>;
+extern template class JumpSearch<JumpScan>;
+
+}  // namespace lodestar

@@ -1,0 +1,42 @@
+#include "planning/path_cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lodestar {
+
+double PathCost::leg(const Vec2& from, const Vec2& to) const {
+  const double least = at_least((to - from).norm());
+  return counts_cells() ? least * mean_cell_cost(from, to) : least;
+}
+
+/// Sampled at half cells.
+double PathCost::mean_cell_cost(const Vec2& from, const Vec2& to) const {
+  const int samples = std::max(1, static_cast<int>(std::ceil(2.0 * (to - from).norm())));
+  const Vec2 step = (to - from) / samples;
+  double sum = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const Vec2 point = from + (i + 0.5) * step;
+    sum +=
+        static_cast<double>(costs_[map_.index({static_cast<int>(point.x()), static_cast<int>(point.y())})]);
+  }
+  return sum / samples;
+}
+
+double PathCost::path(std::span<const Vec2> points, const EndHeadings& headings) const {
+  double cost = 0.0;
+  std::optional<double> heading = headings.start_rad;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    cost += leg(points[i - 1], points[i]);
+    if (!counts_turns() || points[i] == points[i - 1]) continue;
+    const Vec2 way = points[i] - points[i - 1];
+    const double next = std::atan2(way.y(), way.x());
+    if (heading) cost += turn(*heading, next);
+    heading = next;
+  }
+  if (heading && headings.goal_rad) cost += turn(*heading, *headings.goal_rad);
+  return cost;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,127 @@
+#include "planning/path_refining.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+constexpr double worthwhile = 1e-6;  ///< relative gain below which nothing is changed
+
+class Refining {
+ public:
+  Refining(std::vector<Vec2> points, const EndHeadings& headings, const ClearSpace& space,
+           const PathCost& cost)
+      : points_(std::move(points)), headings_(headings), space_(space), cost_(cost) {}
+
+  std::vector<Vec2> run(Refinement refinement) {
+    leave_out();
+    if (cost_.counts_turns()) merge();
+    for (const double step : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+      if (refinement == Refinement::coarse && step < 0.3) break;
+      constexpr int most_rounds = 6;
+      for (int round = 0; round < most_rounds && move_all(step); ++round) {
+      }
+    }
+    leave_out();
+    return points_;
+  }
+
+ private:
+  /// What the path costs around turn i: all that a change there can change.
+  [[nodiscard]] double cost_around(std::size_t i) const {
+    const std::size_t reach = cost_.counts_turns() ? 2 : 1;
+    const std::size_t first = i > reach ? i - reach : 0;
+    const std::size_t last = std::min(i + reach, points_.size() - 1);
+    EndHeadings headings;
+    if (first == 0) headings.start_rad = headings_.start_rad;
+    if (last + 1 == points_.size()) headings.goal_rad = headings_.goal_rad;
+    return cost_.path(std::span(points_).subspan(first, last - first + 1), headings);
+  }
+
+  bool move_all(double step) {
+    bool moved = false;
+    for (std::size_t i = 1; i + 1 < points_.size(); ++i) moved = move(i, step) || moved;
+    return moved;
+  }
+
+  /// Into the first of eight directions that costs less.
+  bool move(std::size_t i, double step) {
+    constexpr double slant = 0.7071067811865476;
+    static constexpr std::array<std::array<double, 2>, 8> directions{{{1, 0},
+                                                                      {slant, slant},
+                                                                      {0, 1},
+                                                                      {-slant, slant},
+                                                                      {-1, 0},
+                                                                      {-slant, -slant},
+                                                                      {0, -1},
+                                                                      {slant, -slant}}};
+    const Vec2 before = points_[i];
+    const double cost = cost_around(i) * (1.0 - worthwhile);
+    for (const auto& [x, y] : directions) {
+      points_[i] = before + step * Vec2(x, y);
+      if (cost_around(i) < cost && space_.along(points_[i - 1], points_[i]) &&
+          space_.along(points_[i], points_[i + 1])) {
+        return true;
+      }
+    }
+    points_[i] = before;
+    return false;
+  }
+
+  void leave_out() {
+    for (std::size_t i = 1; i + 1 < points_.size();) {
+      if (space_.along(points_[i - 1], points_[i + 1])) {
+        points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i));
+      } else {
+        ++i;
+      }
+    }
+  }
+
+  /// Two turns into one, where the legs before and after them meet.
+  void merge() {
+    for (std::size_t i = 1; i + 2 < points_.size();) {
+      const std::optional<Vec2> meeting = meeting_point(i);
+      std::vector<Vec2> fewer = points_;
+      if (meeting) {
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+        fewer[i] = *meeting;
+      }
+      if (meeting && cost_.path(fewer, headings_) < cost_.path(points_, headings_) &&
+          space_.along(fewer[i - 1], fewer[i]) && space_.along(fewer[i], fewer[i + 1])) {
+        points_ = std::move(fewer);
+      } else {
+        ++i;
+      }
+    }
+  }
+
+  /// Beyond turn i on the leg to it, and before turn i + 1 on the leg from it.
+  [[nodiscard]] std::optional<Vec2> meeting_point(std::size_t i) const {
+    const Vec2 in = points_[i] - points_[i - 1];
+    const Vec2 out = points_[i + 2] - points_[i + 1];
+    const Vec2 between = points_[i + 1] - points_[i];
+    const double parallel = in.x() * out.y() - in.y() * out.x();
+    if (std::abs(parallel) < 1e-9) return std::nullopt;
+    const double beyond = (between.x() * out.y() - between.y() * out.x()) / parallel;
+    const double before = (in.x() * between.y() - in.y() * between.x()) / parallel;
+    if (beyond < 0.0 || before > 0.0) return std::nullopt;
+    return points_[i] + beyond * in;
+  }
+
+  std::vector<Vec2> points_;
+  EndHeadings headings_;
+  const ClearSpace& space_;
+  const PathCost& cost_;
+};
+
+}  // namespace
+
+std::vector<Vec2> refined(std::vector<Vec2> points, const EndHeadings& headings, const ClearSpace& space,
+                          const PathCost& cost, Refinement refinement) {
+  return points.size() < 3 ? points : Refining(std::move(points), headings, space, cost).run(refinement);
+}
+
+}  // namespace lodestar

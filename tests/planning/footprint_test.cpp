@@ -1,0 +1,104 @@
+#include "planning/footprint.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "maps/input_error.hpp"
+
+#include "tests/planning/sample_maps.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr double quarter = std::numbers::pi / 2.0;
+
+/// A cart, longer than wide.
+Footprint cart() {
+  return Footprint({{-0.3, -0.1}, {0.3, -0.1}, {0.3, 0.1}, {-0.3, 0.1}});
+}
+
+/// Is some point of the outline's inside, on a fine lattice, over a cell that is not drivable?
+bool touches_by_sampling(const OccupancyMap& map, const Pose2& pose) {
+  constexpr int lattice = 30;
+  for (int i = 0; i <= lattice; ++i) {
+    for (int j = 0; j <= lattice; ++j) {
+      const Vec2 point = pose * Vec2(-0.299 + 0.598 * i / lattice, -0.099 + 0.198 * j / lattice);
+      const Cell cell = map.cell_at(point);
+      if (!map.contains(cell) || !is_drivable(map.at(cell))) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Footprint, agrees_with_sampling_its_inside) {
+  Random random(31);
+  int clear = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    const OccupancyMap map = random_map(random, 40, 30, 0.01);
+    const Pose2 pose{{random.uniform(0.0, 2.0), random.uniform(0.0, 1.5)}, random.uniform(-3.0, 3.0)};
+    const bool is_clear = cart().is_clear(map, pose);
+    if (is_clear) {
+      EXPECT_FALSE(touches_by_sampling(map, pose));
+      ++clear;
+    } else {
+      // Not clear: a cart a little larger must be seen to touch as well.
+      bool near = false;
+      for (const double dx : {-0.02, 0.0, 0.02}) {
+        for (const double dy : {-0.02, 0.0, 0.02})
+          near = near || touches_by_sampling(map, pose * Pose2{{dx, dy}, 0.0});
+      }
+      EXPECT_TRUE(near);
+    }
+  }
+  EXPECT_GT(clear, 30);
+}
+
+TEST(Footprint, sweeps_no_obstacle_where_a_drive_is_said_to_be_clear) {
+  Random random(32);
+  int clear = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    const OccupancyMap map = random_map(random, 60, 50, 0.004);
+    const double heading = random.uniform(-3.0, 3.0);
+    const Path path{{{random.uniform(0.4, 2.6), random.uniform(0.4, 2.1)},
+                     {random.uniform(0.4, 2.6), random.uniform(0.4, 2.1)}}};
+    if (!cart().is_clear_along(map, path, heading, std::nullopt)) continue;
+    ++clear;
+    const Vec2 leg = path.waypoints_m[1] - path.waypoints_m[0];
+    const double turn = wrap_angle(std::atan2(leg.y(), leg.x()) - heading);
+    for (int i = 0; i <= 10; ++i) {
+      EXPECT_FALSE(touches_by_sampling(map, {path.waypoints_m[0], heading + turn * i / 10}));
+      EXPECT_FALSE(touches_by_sampling(map, {path.waypoints_m[0] + leg * (i / 10.0), heading + turn}));
+    }
+  }
+  EXPECT_GT(clear, 10);
+}
+
+TEST(Footprint, drives_through_a_gap_in_which_it_cannot_turn) {
+  // A corridor 30 cm wide; the cart is 20 cm wide and 60 cm long.
+  std::vector<std::string> rows(30, std::string(60, '#'));
+  for (std::size_t row = 12; row < 18; ++row) rows[row] = std::string(60, '.');
+  const OccupancyMap map = map_from(rows, 0.05);
+  EXPECT_TRUE(cart().is_clear_along(map, {{{0.4, 0.75}, {2.6, 0.75}}}, 0.0, 0.0));
+  EXPECT_FALSE(cart().is_clear_along(map, {{{0.4, 0.75}, {2.6, 0.75}}}, 0.0, quarter));
+  EXPECT_FALSE(cart().is_clear_along(map, {{{0.4, 0.75}, {2.6, 0.75}}}, std::numbers::pi, std::nullopt));
+  EXPECT_FALSE(cart().is_clear(map, {{1.5, 0.75}, quarter}));
+}
+
+TEST(Footprint, may_touch_but_not_overlap_and_not_leave_the_map) {
+  const OccupancyMap map = map_from({"........#", ".........", "........."}, 0.1);
+  EXPECT_TRUE(cart().is_clear(map, {{0.5, 0.2}, 0.0})) << "its front touches the obstacle";
+  EXPECT_TRUE(cart().is_clear(map, {{0.5, 0.1}, 0.0})) << "along the edge of the map";
+  EXPECT_FALSE(cart().is_clear(map, {{0.5, 0.09}, 0.0}));
+  EXPECT_FALSE(cart().is_clear(map, {{0.51, 0.2}, 0.0}));
+}
+
+TEST(Footprint, must_be_convex_and_counter_clockwise) {
+  EXPECT_THROW(Footprint({{0.0, 0.0}, {1.0, 0.0}}), InputError);
+  EXPECT_THROW(Footprint({{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}), InputError);
+  EXPECT_THROW(Footprint({{0.0, 0.0}, {1.0, 0.0}, {0.2, 0.2}, {0.0, 1.0}}), InputError);
+  EXPECT_NEAR(cart().outer_radius_m(), std::hypot(0.3, 0.1), 1e-12);
+}
+
+}  // namespace
+}  // namespace lodestar
