@@ -19,7 +19,11 @@ std::vector<ReadMarker> readings_of(const std::vector<DetectedMarker>& markers) 
 
 class Lodestar final : public BenchMethod {
  public:
-  void hang(const MarkerRegistry& /*registry*/, ImageFormer& /*former*/) const override {}
+  void hang(const MarkerRegistry& registry, ImageFormer& /*former*/) override {
+    DetectorOptions options;
+    options.registered_ids = registered_ids(registry);
+    detector_ = MarkerDetector(options);
+  }
 
   [[nodiscard]] int id_at(const MarkerRegistry& registry, std::size_t i) const override {
     return registry.markers[i].id;

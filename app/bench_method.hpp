@@ -33,8 +33,9 @@ class BenchMethod {
  public:
   virtual ~BenchMethod() = default;
 
-  /// Puts the method's own markers on the ceiling, at the places of the registry's.
-  virtual void hang(const MarkerRegistry& registry, ImageFormer& former) const = 0;
+  /// Puts the method's own markers on the ceiling, at the places of the registry's, and tells it which to
+  /// expect.
+  virtual void hang(const MarkerRegistry& registry, ImageFormer& former) = 0;
 
   /// The ID that hangs at the place of the registry's i-th marker.
   [[nodiscard]] virtual int id_at(const MarkerRegistry& registry, std::size_t i) const = 0;

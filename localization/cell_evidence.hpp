@@ -16,9 +16,9 @@ struct CellEvidenceOptions {
   double sure = 12.0;
   /// A cell without a dot is surely empty when it differs from the background by less than this share of the
   /// dots' contrast ...
-  double dark_contrast = 0.08;
+  double dark_contrast = 0.06;
   /// ... and nothing can be said of it from here on.
-  double unsure_contrast = 0.16;
+  double unsure_contrast = 0.12;
 };
 
 /// Looks at every cell of a marker. A cell with one of the marker's dots is bright. One without must be seen,

@@ -36,6 +36,12 @@ double cost_of_corners(const CellEvidence& cells) {
 
 }  // namespace
 
+int CellEvidence::undecided() const {
+  constexpr double decisive = 3.0;  // odds of 20
+  return static_cast<int>(
+      std::ranges::count_if(log_odds, [](double odds) { return std::abs(odds) < decisive; }));
+}
+
 IdDecoder::IdDecoder(std::span<const int> registered_ids, double foreign_probability)
     : ids_(registered_ids.begin(), registered_ids.end()) {
   const double foreign = ids_.empty() ? 1.0 : foreign_probability;

@@ -17,6 +17,9 @@ struct CellEvidence {
   [[nodiscard]] double& at(GridCell cell) { return log_odds[index(cell)]; }
   [[nodiscard]] double at(GridCell cell) const { return log_odds[index(cell)]; }
 
+  /// How many cells can be one or the other.
+  [[nodiscard]] int undecided() const;
+
  private:
   static std::size_t index(GridCell cell) {
     return static_cast<std::size_t>(cell.row * marker_grid_size + cell.column);

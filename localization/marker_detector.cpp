@@ -129,6 +129,25 @@ std::size_t strangers_in(const Square& square, std::span<const Dot> dots) {
   return static_cast<std::size_t>(near) - std::min(static_cast<std::size_t>(near), square.dots.size());
 }
 
+/// A marker's ID and how it hangs in a square.
+struct Hanging {
+  Square square;
+  int quarters = 0;
+  IdReading id;
+};
+
+/// A lattice fits any few dots, and a square of it somebody's ID: what speaks against a reading must be
+/// balanced by dots that speak for it. Where any ID may hang, nothing may speak against it.
+bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& decoder,
+                const LatticeOptions& options) {
+  constexpr double contradiction = 1.0;
+  const bool contradicted = marker.id.cost > contradiction;
+  if (!decoder.knows_ids()) return !contradicted && strangers == 0;
+  const std::size_t dots = marker.square.dots.size();
+  return decoder.accepts(marker.id.id) && marker.id.cost <= options.most_contradiction &&
+         4 * strangers <= dots && (!contradicted || dots >= options.least_dots_contradicted);
+}
+
 /// Is the pixel in the paper's binary image of a dot after its erosion by a cross of three?
 bool is_inner(const cv::Mat& gray, int u, int v) {
   const auto bright = [&](int column, int row) {
@@ -172,7 +191,7 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, const std::vect
     const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
     const IdReading id = id_decoder_.read(cells);
     const double probability = id.weight / id.all_weight;
-    if (probability < options_.least_probability) continue;
+    if (probability < options_.least_probability || cells.undecided() > options_.most_undecided) continue;
     markers.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
                                [&](GridCell cell) { return reading.grid.center_px(cell); }));
   }
@@ -185,33 +204,27 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, const std::ve
   const std::vector<Dot> usual = dots_of_usual_size(dots);
   const std::optional<DotLattice> lattice = find_lattice(usual, options_.lattice);
   if (!lattice) return;
-  const std::vector<Square> squares = squares_of(*lattice, usual);
-  const Square* best_square = nullptr;
-  IdReading best;
-  int best_turn = 0;
+  std::optional<Hanging> best;
   double all_weight = 0.0;
-  for (const Square& square : squares) {
+  for (Square& square : squares_of(*lattice, usual)) {
     const CellEvidence cells =
         look_at_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
+    if (cells.undecided() > options_.most_undecided) return;  // any of the squares may be the one
     for (int turn = 0; turn < quarter_turns; ++turn) {
       const IdReading id = id_decoder_.read(evidence_turned(cells, turn));
       all_weight += id.all_weight;
-      if (best_square && id.weight <= best.weight) continue;
-      best = id;
-      best_square = &square;
-      best_turn = turn;
+      if (!best || id.weight > best->id.weight) best = Hanging{square, turn, id};
     }
   }
-  if (!best_square) return;
-  const double probability = best.weight / all_weight;
-  const std::size_t strangers = strangers_in(*best_square, dots);
-  if (probability < options_.least_probability || 3 * strangers > best_square->dots.size()) return;
-  if (!id_decoder_.accepts(best.id) ||
-      best.cost > (id_decoder_.knows_ids() ? options_.most_contradiction : 1.0))
+  if (!best) return;
+  const double probability = best->id.weight / all_weight;
+  if (probability < options_.lattice.least_probability ||
+      !is_trusted(*best, strangers_in(best->square, dots), id_decoder_, options_.lattice)) {
     return;
-  markers.push_back(detected(best.id, probability, confidence_of(gray, best_square->measured),
-                             turned_back(best_square->dots, best_turn), [&](GridCell cell) {
-                               return best_square->grid.center_px(turned(cell, best_turn));
+  }
+  markers.push_back(detected(best->id.id, probability, confidence_of(gray, best->square.measured),
+                             turned_back(best->square.dots, best->quarters), [&](GridCell cell) {
+                               return best->square.grid.center_px(turned(cell, best->quarters));
                              }));
 }
 

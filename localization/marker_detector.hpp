@@ -25,9 +25,9 @@ struct DetectorOptions {
   /// than one. Without them every cell must be sure, and each of the 4096 IDs is as likely as any other.
   std::vector<int> registered_ids;
   double least_probability = 0.99;  ///< that the ID is right; less is refused
-  /// With registered IDs, the log odds of the cells that may contradict a marker found by its lattice: one
-  /// sure cell, as when a direction dot is covered.
-  double most_contradiction = 13.0;
+  /// Of the 16 cells. What covers more of them is large, and cells no longer err independently of each other.
+  /// IDs at distance 4 stay distinct with three lost.
+  int most_undecided = 3;
   bool lattice_search = true;  ///< where the paper's rule fails, look for any lattice of dots
 };
 
