@@ -65,6 +65,21 @@ void read_arrival(StrictYaml yaml, Robot& robot) {
   yaml.finish();
 }
 
+/// "socketcan:can0".
+BaseConnection read_base(StrictYaml yaml) {
+  const std::string bus = yaml.text("bus");
+  const std::string driver = "socketcan:";
+  if (!bus.starts_with(driver) || bus.size() == driver.size()) {
+    yaml.refuse("bus", "'" + bus + "'", "'socketcan:' and the name of an interface");
+  }
+  BaseConnection base{bus.substr(driver.size()), yaml.text("protocol")};
+  if (base.protocol != "agilex" && base.protocol != "odrive") {
+    yaml.refuse("protocol", "'" + base.protocol + "'", "agilex or odrive");
+  }
+  yaml.finish();
+  return base;
+}
+
 }  // namespace
 
 Robot load_robot(const std::filesystem::path& file) {
@@ -105,6 +120,8 @@ Site load_site(const std::filesystem::path& folder) {
   site.start = read_start(yaml.mapping("start"));
   for (StrictYaml& goal : yaml.list_of_mappings("goals")) site.goals.push_back(read_goal(goal));
   if (site.goals.empty()) yaml.refuse("goals", "an empty list", "at least one goal");
+  if (yaml.has("camera")) site.camera = yaml.text("camera");
+  if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
   yaml.finish();
   return site;
 }

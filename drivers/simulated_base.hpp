@@ -29,6 +29,15 @@ struct SimulatedBaseOptions {
   Duration can_latency = std::chrono::milliseconds(1);
 };
 
+/// What can be broken in a base, besides what it reports itself.
+struct BaseDefects {
+  bool silent = false;              ///< sends nothing
+  bool counter_stuck = false;       ///< the system state repeats its counter
+  bool ignores_commands = false;    ///< stands
+  bool runs_away = false;           ///< drives ahead, whatever it is told
+  bool left_encoder_stuck = false;  ///< the wheel turns, its count does not
+};
+
 class SimulatedMotion;
 
 /// The firmware of an AgileX V2 base over the simulated wheels. It reads their encoders and drives their
@@ -45,6 +54,10 @@ class SimulatedBase {
   void press_emergency_stop(bool pressed);
   void take_over_by_remote(bool taken);  ///< given back, the base stands by
   void set_fault_bits(std::uint16_t bits);
+  BaseDefects& defects() { return defects_; }
+
+  /// The newest command is not zero.
+  [[nodiscard]] bool is_told_to_move() const;
 
  private:
   void take_in(const CanFrame& frame, Stamp now);
@@ -66,6 +79,7 @@ class SimulatedBase {
   agilex::ControlMode mode_ = agilex::ControlMode::standby;
   bool emergency_stop_ = false;
   std::uint16_t fault_bits_ = 0;
+  BaseDefects defects_;
   std::uint8_t counter_ = 0;
   std::optional<Command> command_;
   std::optional<Stamp> next_feedback_;

@@ -22,5 +22,7 @@ std::vector<Command> plan_commands(CLI::App& lodestar);
 std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
+std::vector<Command> base_commands(CLI::App& lodestar);
+std::vector<Command> run_commands(CLI::App& lodestar);
 
 }  // namespace lodestar
