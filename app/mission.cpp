@@ -81,7 +81,8 @@ MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep
 
 /// Where a stopped robot stands is not where its path is: once the base is ready again, it plans anew.
 MissionEvent Mission::hold(const SensorInput& input) {
-  if (!options_.hold_on_base_fault) {
+  const bool is_hopeless = input.base.fault == BaseFault::guard_lost;
+  if (!options_.hold_on_base_fault || is_hopeless) {
     return fail(input.now, fmt::format("the base was stopped: {}",
                                        input.base.fault ? to_string(*input.base.fault) : "no cause known"));
   }

@@ -44,6 +44,18 @@ std::string_view to_string(BaseFault fault) {
       return "somebody else sends motion commands";
     case BaseFault::send_failed:
       return "commands cannot be sent";
+    case BaseFault::bus_stalled:
+      return "the CAN bus takes no frames any more";
+    case BaseFault::bus_off:
+      return "the CAN controller is bus-off";
+    case BaseFault::bus_down:
+      return "the CAN interface is switched off";
+    case BaseFault::bus_missing:
+      return "the CAN interface is missing";
+    case BaseFault::guard_stopped:
+      return "the guard has stopped a navigator that hung";
+    case BaseFault::guard_lost:
+      return "the guard process is gone";
   }
   return "an unknown fault";
 }
@@ -52,11 +64,14 @@ BaseDriver::BaseDriver(CanBus& bus, const BaseDriverOptions& options)
     : bus_(bus), options_(options), travel_(options.max_plausible_wheel_mps), following_(options.following) {}
 
 BaseFeedback BaseDriver::poll(Stamp now) {
+  // After a pause of our own, what the base said in the meantime may still be on its way.
+  const bool was_asleep = now - now_ > options_.max_feedback_age;
   now_ = now;
   std::vector<WheelTravel> travel;
   while (const auto received = bus_.poll()) take_in(*received, travel);
+  if (const auto fault = complaint_of_bus(); fault && state_ == BaseState::ready) latch(*fault);
   if (state_ == BaseState::ready) {
-    watch(now);
+    if (!was_asleep) watch(now);
   } else if (state_ != BaseState::fault) {
     shake_hands(now);
   }
@@ -117,7 +132,8 @@ void BaseDriver::watch(Stamp now) {
 
 void BaseDriver::shake_hands(Stamp now) {
   state_ = BaseState::waiting_for_base;
-  fault_ = hears_state(now) ? complaint(*system_) : BaseFault::feedback_lost;
+  fault_ = complaint_of_bus();
+  if (!fault_) fault_ = hears_state(now) ? complaint(*system_) : BaseFault::feedback_lost;
   if (!fault_ && !hears_everything(now)) fault_ = BaseFault::feedback_lost;
   if (!fault_) {
     state_ = BaseState::ready;
@@ -152,8 +168,9 @@ BodyVelocity BaseDriver::within_limits(const BodyVelocity& velocity) {
     ++counts_.non_finite_commands;
     return {};
   }
-  const double excess = std::max(std::abs(velocity.forward_mps) / options_.max_forward_mps,
-                                 std::abs(velocity.turn_radps) / options_.max_turn_radps);
+  const double share = bus_.health().state == BusState::error_passive ? options_.error_passive_share : 1.0;
+  const double excess = std::max(std::abs(velocity.forward_mps) / (share * options_.max_forward_mps),
+                                 std::abs(velocity.turn_radps) / (share * options_.max_turn_radps));
   if (excess <= 1.0) return velocity;
   ++counts_.saturated_commands;
   return {velocity.forward_mps / excess, velocity.turn_radps / excess};
@@ -168,11 +185,13 @@ bool BaseDriver::send(const CanFrame& frame) {
 
 bool BaseDriver::resume(Stamp now) {
   if (state_ != BaseState::fault) return true;
-  if (!hears_everything(now)) return false;
+  const BusState bus = bus_.health().state;
+  if (!hears_everything(now) || (complaint_of_bus() && bus != BusState::held)) return false;
   const auto still = complaint(*system_);
   const bool offers_itself =
       still == BaseFault::left_can_mode && system_->mode == agilex::ControlMode::standby;
   if (still && !offers_itself) return false;
+  if (bus == BusState::held) bus_.resume();
   state_ = BaseState::waiting_for_base;
   fault_.reset();
   failed_sends_in_a_row_ = 0;
@@ -195,6 +214,27 @@ std::optional<BaseFault> BaseDriver::complaint(const agilex::SystemState& state)
   if ((state.fault_bits & ~options_.ignored_fault_bits) != 0) return BaseFault::fault_bits;
   if (state.mode != agilex::ControlMode::can) return BaseFault::left_can_mode;
   return std::nullopt;
+}
+
+std::optional<BaseFault> BaseDriver::complaint_of_bus() const {
+  switch (bus_.health().state) {
+    case BusState::up:
+    case BusState::error_passive:
+      return std::nullopt;
+    case BusState::stalled:
+      return BaseFault::bus_stalled;
+    case BusState::bus_off:
+      return BaseFault::bus_off;
+    case BusState::down:
+      return BaseFault::bus_down;
+    case BusState::missing:
+      return BaseFault::bus_missing;
+    case BusState::held:
+      return BaseFault::guard_stopped;
+    case BusState::guard_lost:
+      return BaseFault::guard_lost;
+  }
+  return BaseFault::bus_missing;
 }
 
 }  // namespace lodestar

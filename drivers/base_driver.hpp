@@ -25,6 +25,7 @@ struct BaseDriverOptions {
   std::uint16_t ignored_fault_bits = 0;  ///< that may be set on this model without being a fault
   double max_plausible_wheel_mps = 5.0;  ///< an odometer faster than this is not believed
   int max_failed_sends = 3;              ///< in a row
+  double error_passive_share = 0.3;      ///< of the speed limits, while frames are damaged on the wire
   CommandFollowingOptions following{};
 };
 
@@ -44,7 +45,13 @@ enum class BaseFault {
   fault_bits,         ///< a bit set that is not on the list of the ignored
   not_following,      ///< moves otherwise than commanded
   second_master,      ///< somebody else sends motion commands on the bus
-  send_failed         ///< several commands in a row could not be handed over
+  send_failed,        ///< several commands in a row could not be handed over
+  bus_stalled,        ///< the bus takes no frames any more
+  bus_off,            ///< the CAN controller has left the bus
+  bus_down,           ///< the CAN interface is switched off
+  bus_missing,        ///< the CAN interface is not there
+  guard_stopped,      ///< the navigator had hung
+  guard_lost          ///< the guard process is gone; nothing brings it back
 };
 
 // In words for people.
@@ -105,6 +112,7 @@ class BaseDriver {
   [[nodiscard]] bool hears_state(Stamp now) const;
   [[nodiscard]] bool hears_everything(Stamp now) const;
   [[nodiscard]] std::optional<BaseFault> complaint(const agilex::SystemState& state) const;
+  [[nodiscard]] std::optional<BaseFault> complaint_of_bus() const;
   [[nodiscard]] BodyVelocity within_limits(const BodyVelocity& velocity);
 
   CanBus& bus_;

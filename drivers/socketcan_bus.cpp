@@ -10,7 +10,9 @@
 #include <linux/can.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
+#include <linux/ethtool.h>
 #include <linux/net_tstamp.h>
+#include <linux/sockios.h>
 #include <net/if.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
@@ -118,6 +120,18 @@ bool is_switched_on(int socket, const std::string& interface) {
   return ::ioctl(socket, SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
 }
 
+/// A virtual interface has none that could be asked.
+bool has_controller(int socket, const std::string& interface) {
+  ethtool_drvinfo info{};
+  info.cmd = ETHTOOL_GDRVINFO;
+  ifreq request{};
+  interface.copy(request.ifr_name, IFNAMSIZ - 1);
+  request.ifr_data = reinterpret_cast<char*>(&info);
+  if (::ioctl(socket, SIOCETHTOOL, &request) != 0) return true;
+  const std::string_view driver(info.driver);
+  return driver != "vcan" && driver != "vxcan";
+}
+
 }  // namespace
 
 SocketCanBus::SocketCanBus(std::string interface, const SocketCanOptions& options)
@@ -128,7 +142,6 @@ SocketCanBus::SocketCanBus(std::string interface, const SocketCanOptions& option
   }
   socket_ = open_socket(interface_);
   const int socket = socket_.get();
-  set_filters(socket, options_.identifiers);
   set_option<can_err_mask_t>(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, CAN_ERR_MASK);
   set_option<int>(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 1);
   set_option<int>(socket, SOL_SOCKET, SO_TIMESTAMPING,
@@ -140,7 +153,7 @@ SocketCanBus::SocketCanBus(std::string interface, const SocketCanOptions& option
 bool SocketCanBus::send(const CanFrame& frame) {
   const bool older_waits = std::ranges::any_of(waiting_, [&](const Waiting& w) { return w.id == frame.id; });
   if (!is_valid(frame) || bound_index_ == 0 || older_waits) {
-    ++counts_.refused;
+    refuse();
     return false;
   }
   can_frame raw{};
@@ -148,11 +161,12 @@ bool SocketCanBus::send(const CanFrame& frame) {
   raw.can_dlc = frame.length;
   std::copy_n(frame.data.begin(), frame.length, raw.data);
   if (::write(socket_.get(), &raw, sizeof(raw)) != static_cast<ssize_t>(sizeof(raw))) {
-    ++counts_.refused;
     take_in_failure(errno);
+    refuse();
     return false;
   }
   ++counts_.sent;
+  refused_in_a_row_ = 0;
   waiting_.push_back({frame.id, monotonic_now()});
   return true;
 }
@@ -183,8 +197,9 @@ std::optional<StampedCanFrame> SocketCanBus::poll() {
 
 BusHealth SocketCanBus::health() const {
   const bool carries = state_ == BusState::up || state_ == BusState::error_passive;
-  const bool is_stalled =
+  const bool waits_long =
       !waiting_.empty() && monotonic_now() - waiting_.front().sent > options_.stalled_after;
+  const bool is_stalled = waits_long || refused_in_a_row_ >= options_.stalled_after_refusals;
   return {carries && is_stalled ? BusState::stalled : state_, counts_};
 }
 
@@ -192,6 +207,7 @@ BusHealth SocketCanBus::health() const {
 void SocketCanBus::check_interface() {
   const Stamp now = monotonic_now();
   while (!waiting_.empty() && now - waiting_.front().sent > options_.forget_after) waiting_.pop_front();
+  if (now - refused_ > options_.forget_after) refused_in_a_row_ = 0;
   if (checked_ && now - *checked_ < options_.check_period) return;
   checked_ = now;
 
@@ -215,7 +231,9 @@ void SocketCanBus::check_interface() {
   }
 }
 
+/// An interface that is removed takes the filters with it.
 void SocketCanBus::bind_to(unsigned index) {
+  set_filters(socket_.get(), options_.identifiers);
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(index);
@@ -258,8 +276,15 @@ void SocketCanBus::confirm(std::uint32_t id) {
   if (found != waiting_.end()) waiting_.erase(found);
 }
 
-/// Controllers that restart by themselves do not all say so. A virtual interface has no controller to ask.
+void SocketCanBus::refuse() {
+  ++counts_.refused;
+  ++refused_in_a_row_;
+  refused_ = monotonic_now();
+}
+
+/// Controllers that restart by themselves do not all say so.
 void SocketCanBus::recover_from_bus_off() {
+  if (!has_controller(socket_.get(), interface_)) return;
   int state = 0;
   if (can_get_state(interface_.c_str(), &state) != 0) return;
   if (state < CAN_STATE_ERROR_PASSIVE) state_ = BusState::up;

@@ -16,6 +16,7 @@ struct SocketCanOptions {
       identifiers;  ///< to hear, and those to be sent (else none is confirmed); all when empty
   Duration check_period = std::chrono::milliseconds(200);   ///< of the interface: there, up, still the same?
   Duration stalled_after = std::chrono::milliseconds(100);  ///< without the confirmation of a frame
+  int stalled_after_refusals = 3;                           ///< in a row
   Duration forget_after =
       std::chrono::seconds(1);  ///< a frame never confirmed no longer holds its successors up
 };
@@ -48,6 +49,7 @@ class SocketCanBus final : public CanBus {
   void take_in_error_frame(const can_frame& frame);
   void confirm(std::uint32_t id);
   void recover_from_bus_off();
+  void refuse();
 
   std::string interface_;
   SocketCanOptions options_;
@@ -57,7 +59,9 @@ class SocketCanBus final : public CanBus {
   BusCounts counts_;
   std::optional<Stamp> checked_;
   std::optional<Stamp> disturbed_;  ///< last word of the controller about being passive
-  std::deque<Waiting> waiting_;     ///< handed over, not yet confirmed
+  int refused_in_a_row_ = 0;
+  Stamp refused_;                ///< the newest of them
+  std::deque<Waiting> waiting_;  ///< handed over, not yet confirmed
 };
 
 }  // namespace lodestar

@@ -9,8 +9,9 @@
 #include "app/commands/command.hpp"
 #include "app/operator_input.hpp"
 #include "app/run_folder.hpp"
+#include "drivers/base_driver.hpp"
 #include "drivers/camera_stand_in.hpp"
-#include "drivers/socketcan_bus.hpp"
+#include "drivers/guard.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -38,6 +39,14 @@ BaseConnection connection_of(const Site& site, const RunArguments& arguments) {
   if (!base.interface.empty()) return base;
   throw InputError(site.folder / "site.yaml", 0, "no key base",
                    "base: {bus: socketcan:can0, protocol: agilex}");
+}
+
+GuardOptions guard_options() {
+  GuardOptions options;
+  options.stop = {agilex::encode_motion_command({})};
+  options.bus.identifiers = {agilex::motion_command_id, agilex::control_mode_id, agilex::clear_fault_id,
+                             agilex::system_state_id,   agilex::motion_state_id, agilex::odometer_id};
+  return options;
 }
 
 std::unique_ptr<Camera> open_camera(const Site& site, const BaseConnection& base, std::uint64_t seed) {
@@ -80,7 +89,7 @@ ExitCode run_command(const RunArguments& arguments) {
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
 
-  SocketCanBus bus(connection.interface);
+  GuardedBus bus(connection.interface, guard_options());
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
