@@ -64,7 +64,8 @@ bool obey(OperatorWish wish, BaseDriver& base, const RunOptions& options) {
 
 }  // namespace
 
-RunRecord run(const Site& site, CanBus& bus, Camera& camera, const RunOptions& options) {
+RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> protocol, Camera& camera,
+              const RunOptions& options) {
   RunRecord record;
   record.site = site.name;
   record.camera = options.camera;
@@ -72,7 +73,7 @@ RunRecord run(const Site& site, CanBus& bus, Camera& camera, const RunOptions& o
   for (const Goal& goal : options.goals) record.goals.push_back({.goal = goal});
 
   RecordedBus recorded(bus, [&record](const StampedCanFrame& frame) { record.can_frames.push_back(frame); });
-  BaseDriver base(recorded);
+  BaseDriver base(recorded, std::move(protocol));
   BaseWatcher watcher(options);
   Mission mission(known_world(site, options.camera), navigation_options(site.robot), options.goals,
                   {.hold_on_base_fault = options.hold_on_base_fault});

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "app/run_record.hpp"
 #include "app/site.hpp"
+#include "drivers/base_protocol.hpp"
 #include "drivers/camera.hpp"
 #include "drivers/can_bus.hpp"
 
@@ -23,6 +25,7 @@ struct RunOptions {
 
 /// Drives the real robot through the goals, in real time: the road of replay(), with a bus and a camera that
 /// somebody else has opened. What the base and bus say is recorded; the truth is not known here.
-RunRecord run(const Site& site, CanBus& bus, Camera& camera, const RunOptions& options);
+RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> protocol, Camera& camera,
+              const RunOptions& options);
 
 }  // namespace lodestar

@@ -72,9 +72,22 @@ BaseConnection read_base(StrictYaml yaml) {
   if (!bus.starts_with(driver) || bus.size() == driver.size()) {
     yaml.refuse("bus", "'" + bus + "'", "'socketcan:' and the name of an interface");
   }
-  BaseConnection base{bus.substr(driver.size()), yaml.text("protocol")};
+  BaseConnection base;
+  base.interface = bus.substr(driver.size());
+  base.protocol = yaml.text("protocol");
   if (base.protocol != "agilex" && base.protocol != "odrive") {
     yaml.refuse("protocol", "'" + base.protocol + "'", "agilex or odrive");
+  }
+  if (base.protocol == "agilex" && yaml.has("model")) {
+    base.model = yaml.text("model");
+    const bool is_known = base.model == "tracer" || base.model == "scout" || base.model == "hunter";
+    if (!is_known) yaml.refuse("model", "'" + base.model + "'", "tracer, scout or hunter");
+  }
+  if (base.protocol == "odrive") {
+    base.wheel_diameter_m = yaml.number("wheel_diameter_m", 0.01, 2.0);
+    base.left_node = yaml.integer("left_node", 0, 63);
+    base.right_node = yaml.integer("right_node", 0, 63);
+    base.right_is_mirrored = yaml.boolean("right_is_mirrored");
   }
   yaml.finish();
   return base;

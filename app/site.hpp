@@ -35,8 +35,14 @@ struct Robot {
 
 /// Where the real base is.
 struct BaseConnection {
-  std::string interface;  ///< of CAN
-  std::string protocol;   ///< "agilex" or "odrive"
+  std::string interface;            ///< of CAN
+  std::string protocol = "agilex";  ///< or "odrive"
+  std::string model = "tracer";     ///< of AgileX: or "scout", "hunter"; their fault bits differ
+  // Of ODrive: which node drives which wheel.
+  double wheel_diameter_m = 0.17;
+  int left_node = 0;
+  int right_node = 1;
+  bool right_is_mirrored = true;  ///< turns backwards to drive ahead
 };
 
 /// A site folder: the map, the markers above it, the cameras, the robot and the usual drive.

@@ -3,9 +3,11 @@
 #include <array>
 #include <utility>
 
+#include "drivers/agilex_v2_table.hpp"
 #include "drivers/clock.hpp"
-#include "drivers/disc_contact.hpp"
+#include "drivers/odrive_table.hpp"
 #include "drivers/simulated_motion.hpp"
+#include "drivers/simulated_odrive.hpp"
 #include "drivers/socketcan_bus.hpp"
 #include "drivers/truth_socket.hpp"
 
@@ -33,7 +35,13 @@ std::optional<SimulatedMotion::Surroundings> surroundings_of(const HostedBaseOpt
   return SimulatedMotion::Surroundings{*options.map, options.robot_radius_m};
 }
 
-void set_fault(SimulatedBase& base, ScriptedFault fault, bool on) {
+std::unique_ptr<SimulatedFirmware> make_firmware(CanBus& bus, SimulatedMotion& motion,
+                                                 const HostedBaseOptions& options) {
+  if (options.protocol == HostedProtocol::odrive) return std::make_unique<SimulatedOdrive>(bus, motion);
+  return std::make_unique<SimulatedBase>(bus, motion, options.base);
+}
+
+void set_fault(SimulatedFirmware& base, ScriptedFault fault, bool on) {
   constexpr std::uint16_t motor_driver_fault = 0x0100;
   switch (fault) {
     case ScriptedFault::emergency_stop:
@@ -69,12 +77,16 @@ std::optional<ScriptedFault> fault_named(const std::string& name) {
   return std::nullopt;
 }
 
+std::string dbc_of(HostedProtocol protocol) {
+  return dbc_text(protocol == HostedProtocol::odrive ? odrive::table : agilex::table);
+}
+
 struct HostedBase::World {
   explicit World(const HostedBaseOptions& chosen)
       : options(chosen),
         bus(chosen.interface),
         motion(chosen.base, chosen.start, chosen.seed, surroundings_of(chosen)),
-        base(bus, motion, chosen.base),
+        base(make_firmware(bus, motion, chosen)),
         truth(chosen.interface),
         now(monotonic_now()),
         drive{.map_from_base = chosen.start} {}
@@ -86,8 +98,8 @@ struct HostedBase::World {
       motion.step(std::chrono::milliseconds(1));
       score();
     }
-    base.step(now);
-    if (!moved_first_at && base.is_told_to_move()) moved_first_at = now;
+    base->step(now);
+    if (!moved_first_at && base->is_told_to_move()) moved_first_at = now;
     switch_faults();
     if (now < next_truth) return;
     next_truth = now + truth_period;
@@ -107,7 +119,7 @@ struct HostedBase::World {
       const FaultSwitch& scripted = options.faults[i];
       const Duration since = now - *moved_first_at - scripted.at;
       const bool on = since >= Duration::zero() && !(scripted.lasting && since >= *scripted.lasting);
-      if (is_on[i] != on) set_fault(base, scripted.fault, on);
+      if (is_on[i] != on) set_fault(*base, scripted.fault, on);
       is_on[i] = on;
     }
   }
@@ -115,7 +127,7 @@ struct HostedBase::World {
   HostedBaseOptions options;
   SocketCanBus bus;
   SimulatedMotion motion;
-  SimulatedBase base;
+  std::unique_ptr<SimulatedFirmware> base;
   TruthServer truth;
   Stamp now;
   Stamp next_truth;

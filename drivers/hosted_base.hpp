@@ -33,8 +33,11 @@ struct FaultSwitch {
   std::optional<Duration> lasting;  ///< for ever, when left out
 };
 
+enum class HostedProtocol { agilex, odrive };
+
 struct HostedBaseOptions {
   std::string interface;
+  HostedProtocol protocol = HostedProtocol::agilex;
   SimulatedBaseOptions base;
   Pose2 start;
   std::optional<OccupancyMap> map;  ///< an endless empty floor, when left out
@@ -42,6 +45,9 @@ struct HostedBaseOptions {
   std::uint64_t seed = 1;
   std::vector<FaultSwitch> faults;
 };
+
+/// The protocol as the text of a .dbc file.
+std::string dbc_of(HostedProtocol protocol);
 
 /// How the drive of a hosted base truly was.
 struct HostedDrive {

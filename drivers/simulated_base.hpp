@@ -5,6 +5,7 @@
 
 #include "drivers/agilex_v2.hpp"
 #include "drivers/can_bus.hpp"
+#include "drivers/simulated_firmware.hpp"
 #include "maps/motion.hpp"
 
 namespace lodestar {
@@ -29,35 +30,20 @@ struct SimulatedBaseOptions {
   Duration can_latency = std::chrono::milliseconds(1);
 };
 
-/// What can be broken in a base, besides what it reports itself.
-struct BaseDefects {
-  bool silent = false;              ///< sends nothing
-  bool counter_stuck = false;       ///< the system state repeats its counter
-  bool ignores_commands = false;    ///< stands
-  bool runs_away = false;           ///< drives ahead, whatever it is told
-  bool left_encoder_stuck = false;  ///< the wheel turns, its count does not
-};
-
 class SimulatedMotion;
 
 /// The firmware of an AgileX V2 base over the simulated wheels. It reads their encoders and drives their
 /// motors; where the robot is on the floor it knows no better than a real one does. After power-up it
 /// stands by until it is asked for CAN mode; without motion commands it comes to rest.
-class SimulatedBase {
+class SimulatedBase final : public SimulatedFirmware {
  public:
   SimulatedBase(CanBus& bus, SimulatedMotion& motion, const SimulatedBaseOptions& options = {});
 
-  /// One pass of the firmware's loop; to be called often, at a steady rate.
-  void step(Stamp now);
-
-  // What people, wear and the shop floor do to a base.
-  void press_emergency_stop(bool pressed);
-  void take_over_by_remote(bool taken);  ///< given back, the base stands by
-  void set_fault_bits(std::uint16_t bits);
-  BaseDefects& defects() { return defects_; }
-
-  /// The newest command is not zero.
-  [[nodiscard]] bool is_told_to_move() const;
+  void step(Stamp now) override;
+  void press_emergency_stop(bool pressed) override;
+  void take_over_by_remote(bool taken) override;
+  void set_fault_bits(std::uint16_t bits) override;
+  [[nodiscard]] bool is_told_to_move() const override;
 
  private:
   void take_in(const CanFrame& frame, Stamp now);
@@ -79,7 +65,6 @@ class SimulatedBase {
   agilex::ControlMode mode_ = agilex::ControlMode::standby;
   bool emergency_stop_ = false;
   std::uint16_t fault_bits_ = 0;
-  BaseDefects defects_;
   std::uint8_t counter_ = 0;
   std::optional<Command> command_;
   std::optional<Stamp> next_feedback_;

@@ -21,7 +21,9 @@ void take_signal(int /*signal*/) {
 
 struct BaseArguments {
   std::string interface;
+  std::string protocol = "agilex";
   std::string site;
+  bool dbc = false;
   std::uint64_t seed = 1;
   std::vector<std::string> faults;
 };
@@ -53,9 +55,14 @@ FaultSwitch parse_fault(const std::string& text) {
                   text));
 }
 
+HostedProtocol protocol_of(const BaseArguments& arguments) {
+  return arguments.protocol == "odrive" ? HostedProtocol::odrive : HostedProtocol::agilex;
+}
+
 HostedBaseOptions options_from(const BaseArguments& arguments) {
   HostedBaseOptions options;
   options.interface = arguments.interface;
+  options.protocol = protocol_of(arguments);
   options.seed = arguments.seed;
   for (const std::string& text : arguments.faults) options.faults.push_back(parse_fault(text));
   if (arguments.site.empty()) return options;
@@ -68,6 +75,12 @@ HostedBaseOptions options_from(const BaseArguments& arguments) {
 }
 
 ExitCode base_command(const BaseArguments& arguments) {
+  if (arguments.dbc) {
+    fmt::print("{}", dbc_of(protocol_of(arguments)));
+    return done;
+  }
+  if (arguments.interface.empty())
+    throw InputError("--can: found nothing, wanted the name of a CAN interface");
   HostedBase base(options_from(arguments));
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
@@ -88,7 +101,11 @@ std::vector<Command> base_commands(CLI::App& lodestar) {
                                               "client; says at the end where it truly is");
   command->add_option("site", arguments->site,
                       "Site folder to drive in; an endless empty floor when left out");
-  command->add_option("--can", arguments->interface, "CAN interface")->required();
+  command->add_option("--can", arguments->interface, "CAN interface");
+  command->add_option("--protocol", arguments->protocol, "agilex (V2) or odrive (CANSimple, nodes 0 and 1)")
+      ->check(CLI::IsMember({"agilex", "odrive"}))
+      ->capture_default_str();
+  command->add_flag("--dbc", arguments->dbc, "Print the protocol as a .dbc file, and do nothing else");
   command->add_option("--seed", arguments->seed, "Of its slip")->capture_default_str();
   command
       ->add_option(

@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "app/arguments.hpp"
+#include "app/base_setup.hpp"
 #include "app/commands/command.hpp"
 #include "app/operator_input.hpp"
 #include "app/run_folder.hpp"
-#include "drivers/base_driver.hpp"
 #include "drivers/camera_stand_in.hpp"
 #include "drivers/guard.hpp"
 #include "maps/input_error.hpp"
@@ -33,19 +33,10 @@ struct RunArguments {
   std::string output;
 };
 
-BaseConnection connection_of(const Site& site, const RunArguments& arguments) {
-  BaseConnection base = site.base.value_or(BaseConnection{.interface = "", .protocol = "agilex"});
-  if (!arguments.interface.empty()) base.interface = arguments.interface;
-  if (!base.interface.empty()) return base;
-  throw InputError(site.folder / "site.yaml", 0, "no key base",
-                   "base: {bus: socketcan:can0, protocol: agilex}");
-}
-
-GuardOptions guard_options() {
+GuardOptions guard_options(const BaseProtocol& protocol) {
   GuardOptions options;
-  options.stop = {agilex::encode_motion_command({})};
-  options.bus.identifiers = {agilex::motion_command_id, agilex::control_mode_id, agilex::clear_fault_id,
-                             agilex::system_state_id,   agilex::motion_state_id, agilex::odometer_id};
+  options.stop = protocol.stop();
+  options.bus.identifiers = protocol.identifiers();
   return options;
 }
 
@@ -78,7 +69,7 @@ void print_goals(const RunRecord& record) {
 
 ExitCode run_command(const RunArguments& arguments) {
   const Site site = load_site(arguments.site);
-  const BaseConnection connection = connection_of(site, arguments);
+  const BaseConnection connection = connection_of(site, arguments.interface);
   OperatorInput input;
   RunOptions options{.camera = site.default_camera,
                      .goals = {},
@@ -89,11 +80,12 @@ ExitCode run_command(const RunArguments& arguments) {
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
 
-  GuardedBus bus(connection.interface, guard_options());
+  std::unique_ptr<BaseProtocol> protocol = make_protocol(connection, site.robot);
+  GuardedBus bus(connection.interface, guard_options(*protocol));
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
-  const RunRecord record = run(site, bus, *camera, options);
+  const RunRecord record = run(site, bus, std::move(protocol), *camera, options);
   if (!arguments.output.empty()) write_run_folder(arguments.output, record, site.map.map, site.registry);
   print_goals(record);
   return record.arrived() ? done : job_failed;
