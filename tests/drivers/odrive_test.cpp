@@ -78,6 +78,7 @@ TEST(Odrive, stays_stopped_after_an_emergency_stop_until_its_errors_are_cleared_
   world.drive({0.3, 0.0}, milliseconds(300));
   EXPECT_EQ(world.feedback.fault, BaseFault::emergency_stop);
   EXPECT_FALSE(world.driver.resume(world.now));
+  world.drive({0.3, 0.0}, milliseconds(300));
   world.base.press_emergency_stop(false);
   world.drive({0.3, 0.0}, milliseconds(300));
   EXPECT_EQ(world.feedback.state, BaseState::fault) << "released is not resumed";
