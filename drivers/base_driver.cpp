@@ -138,7 +138,7 @@ void BaseDriver::latch(BaseFault fault) {
   state_ = BaseState::fault;
   fault_ = fault;
   // One last word: stop. Not to a base that somebody else drives now.
-  if (fault == BaseFault::left_can_mode) return;
+  if (fault == BaseFault::left_can_mode) return bus_.release();
   send(protocol_->stop());
 }
 

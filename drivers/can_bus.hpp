@@ -72,6 +72,9 @@ class CanBus {
 
   /// Somebody wants to go on: commands that a guard keeps back are let through again.
   virtual void resume() {}
+
+  /// Somebody else drives the base now: a guard must not stop it in our name.
+  virtual void release() {}
 };
 
 }  // namespace lodestar

@@ -62,7 +62,7 @@ GuardedBus::~GuardedBus() {
 
 bool GuardedBus::send(const CanFrame& frame) {
   const bool can_pass = health_.state != BusState::guard_lost && health_.state != BusState::held;
-  const GuardRequest request{.resume = false, .frame = frame};
+  const GuardRequest request{GuardRequest::Kind::send, frame};
   return can_pass && ::send(guard_socket_.get(), &request, sizeof(request), MSG_DONTWAIT | MSG_NOSIGNAL) > 0;
 }
 
@@ -83,7 +83,12 @@ std::optional<StampedCanFrame> GuardedBus::poll() {
 }
 
 void GuardedBus::resume() {
-  const GuardRequest request{.resume = true, .frame = {}};
+  const GuardRequest request{GuardRequest::Kind::resume, {}};
+  (void)::send(guard_socket_.get(), &request, sizeof(request), MSG_DONTWAIT | MSG_NOSIGNAL);
+}
+
+void GuardedBus::release() {
+  const GuardRequest request{GuardRequest::Kind::release, {}};
   (void)::send(guard_socket_.get(), &request, sizeof(request), MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 

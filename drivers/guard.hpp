@@ -21,8 +21,9 @@ struct GuardOptions {
 
 /// A CAN interface behind a guard: a small process of its own that owns the socket, and through which all
 /// frames pass. It stops the base at once when the navigator dies, and when it hangs; then it holds commands
-/// back until resume(). It runs with real-time priority and locked memory where that is permitted. If the
-/// guard itself dies, nothing is sent any more and the base stops by its own timeout.
+/// back until resume(). A base that was released it leaves alone. It runs with real-time priority and locked
+/// memory where that is permitted. If the guard itself dies, nothing is sent any more and the base stops by
+/// its own timeout.
 class GuardedBus final : public CanBus {
  public:
   /// Starts the guard; to be called early, while the process is small and has one thread. Throws InputError
@@ -35,6 +36,7 @@ class GuardedBus final : public CanBus {
   std::optional<StampedCanFrame> poll() override;
   [[nodiscard]] BusHealth health() const override { return health_; }
   void resume() override;
+  void release() override;
 
   [[nodiscard]] pid_t guard_process() const { return guard_; }
 

@@ -56,14 +56,17 @@ void GuardLoop::take_requests() {
 }
 
 void GuardLoop::take(const GuardRequest& request) {
-  if (request.resume) {
-    holds_ = false;
+  if (request.kind != GuardRequest::Kind::send) {
+    released_ = request.kind == GuardRequest::Kind::release;
+    if (!released_) holds_ = false;
     repeats_left_ = 0;
+    moves_.assign(moves_.size(), false);
     return;
   }
   for (std::size_t i = 0; i < moves_.size(); ++i) {
     if (request.frame.id != options_.stop[i].id) continue;
     if (holds_) return;
+    released_ = false;
     silence_ = Duration::zero();
     moves_[i] = request.frame != options_.stop[i];
   }
@@ -80,7 +83,7 @@ void GuardLoop::watch_navigator() {
 void GuardLoop::stop_base() {
   holds_ = true;
   moves_.assign(moves_.size(), false);
-  repeats_left_ = options_.repeats;
+  repeats_left_ = released_ ? 0 : options_.repeats;
   last_stop_ = Stamp{};
 }
 

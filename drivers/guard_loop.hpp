@@ -7,8 +7,9 @@ namespace lodestar {
 
 /// From the navigator to its guard.
 struct GuardRequest {
-  bool resume = false;  ///< else: a frame to send
-  CanFrame frame;
+  enum class Kind { send, resume, release };
+  Kind kind = Kind::send;
+  CanFrame frame;  ///< to send
 };
 
 /// From the guard to its navigator: how the bus stands, and what was heard, if anything.
@@ -41,6 +42,7 @@ class GuardLoop {
   bool navigator_is_there_ = true;
   std::vector<bool> moves_;  ///< for each frame of `stop`: the newest command of its identifier is another
   bool holds_ = false;
+  bool released_ = false;  ///< somebody else drives
   int repeats_left_ = 0;
   Duration silence_{};  ///< of the navigator, as far as the guard itself was awake
   Stamp last_stop_;

@@ -26,6 +26,7 @@ class RecordedBus final : public CanBus {
   }
   [[nodiscard]] BusHealth health() const override { return bus_.health(); }
   void resume() override { bus_.resume(); }
+  void release() override { bus_.release(); }
 
  private:
   CanBus& bus_;

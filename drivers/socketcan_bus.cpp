@@ -6,17 +6,14 @@
 #include <cstring>
 #include <ctime>
 #include <fmt/format.h>
-#include <libsocketcan.h>
 #include <linux/can.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
-#include <linux/ethtool.h>
 #include <linux/net_tstamp.h>
-#include <linux/sockios.h>
 #include <net/if.h>
-#include <sys/ioctl.h>
 #include <sys/socket.h>
 
+#include "drivers/can_interface.hpp"
 #include "drivers/can_wire.hpp"
 #include "drivers/clock.hpp"
 #include "maps/input_error.hpp"
@@ -114,24 +111,6 @@ CanFrame frame_from(const can_frame& raw) {
   return frame;
 }
 
-bool is_switched_on(int socket, const std::string& interface) {
-  ifreq request{};
-  interface.copy(request.ifr_name, IFNAMSIZ - 1);
-  return ::ioctl(socket, SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
-}
-
-/// A virtual interface has none that could be asked.
-bool has_controller(int socket, const std::string& interface) {
-  ethtool_drvinfo info{};
-  info.cmd = ETHTOOL_GDRVINFO;
-  ifreq request{};
-  interface.copy(request.ifr_name, IFNAMSIZ - 1);
-  request.ifr_data = reinterpret_cast<char*>(&info);
-  if (::ioctl(socket, SIOCETHTOOL, &request) != 0) return true;
-  const std::string_view driver(info.driver);
-  return driver != "vcan" && driver != "vxcan";
-}
-
 }  // namespace
 
 SocketCanBus::SocketCanBus(std::string interface, const SocketCanOptions& options)
@@ -219,7 +198,7 @@ void SocketCanBus::check_interface() {
   }
   if (index != bound_index_) bind_to(index);
   if (bound_index_ == 0) return;
-  if (!is_switched_on(socket_.get(), interface_)) {
+  if (!is_switched_on(interface_)) {
     state_ = BusState::down;
   } else if (state_ == BusState::down || state_ == BusState::missing) {
     state_ = BusState::up;
@@ -284,10 +263,8 @@ void SocketCanBus::refuse() {
 
 /// Controllers that restart by themselves do not all say so.
 void SocketCanBus::recover_from_bus_off() {
-  if (!has_controller(socket_.get(), interface_)) return;
-  int state = 0;
-  if (can_get_state(interface_.c_str(), &state) != 0) return;
-  if (state < CAN_STATE_ERROR_PASSIVE) state_ = BusState::up;
+  const CanInterface seen = look_at_can_interface(interface_);
+  if (seen.controller == "error-active" || seen.controller == "error-warning") state_ = BusState::up;
 }
 
 }  // namespace lodestar

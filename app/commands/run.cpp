@@ -7,12 +7,11 @@
 
 #include "app/arguments.hpp"
 #include "app/base_setup.hpp"
+#include "app/camera_setup.hpp"
 #include "app/commands/command.hpp"
 #include "app/operator_input.hpp"
 #include "app/run_folder.hpp"
-#include "drivers/camera_stand_in.hpp"
 #include "drivers/guard.hpp"
-#include "maps/input_error.hpp"
 
 namespace lodestar {
 namespace {
@@ -38,14 +37,6 @@ GuardOptions guard_options(const BaseProtocol& protocol) {
   options.stop = protocol.stop();
   options.bus.identifiers = protocol.identifiers();
   return options;
-}
-
-std::unique_ptr<Camera> open_camera(const Site& site, const BaseConnection& base, std::uint64_t seed) {
-  if (site.camera == "simulated") {
-    return open_camera_stand_in(base.interface, site.registry, site.cameras.at(site.default_camera),
-                                site.robot.base_from_camera, seed);
-  }
-  throw InputError(site.folder / "site.yaml", 0, "camera: '" + site.camera + "'", "camera: simulated");
 }
 
 OperatorWish wish_of(OperatorInput& input) {
