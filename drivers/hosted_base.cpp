@@ -87,7 +87,7 @@ struct HostedBase::World {
         bus(chosen.interface),
         motion(chosen.base, chosen.start, chosen.seed, surroundings_of(chosen)),
         base(make_firmware(bus, motion, chosen)),
-        truth(chosen.interface),
+        truth(chosen.world.empty() ? chosen.interface : chosen.world),
         now(monotonic_now()),
         drive{.map_from_base = chosen.start} {}
 

@@ -37,6 +37,7 @@ enum class HostedProtocol { agilex, odrive };
 
 struct HostedBaseOptions {
   std::string interface;
+  std::string world;  ///< the interface by which the simulated camera finds it, when that is another one
   HostedProtocol protocol = HostedProtocol::agilex;
   SimulatedBaseOptions base;
   Pose2 start;

@@ -58,6 +58,7 @@ class SocketCanBus final : public CanBus {
   BusState state_ = BusState::missing;
   BusCounts counts_;
   std::optional<Stamp> checked_;
+  Stamp newest_;                    ///< of the frames received
   std::optional<Stamp> disturbed_;  ///< last word of the controller about being passive
   int refused_in_a_row_ = 0;
   Stamp refused_;                ///< the newest of them

@@ -21,6 +21,7 @@ void take_signal(int /*signal*/) {
 
 struct BaseArguments {
   std::string interface;
+  std::string world;
   std::string protocol = "agilex";
   std::string site;
   bool dbc = false;
@@ -63,6 +64,7 @@ HostedBaseOptions options_from(const BaseArguments& arguments) {
   HostedBaseOptions options;
   options.interface = arguments.interface;
   options.protocol = protocol_of(arguments);
+  options.world = arguments.world;
   options.seed = arguments.seed;
   for (const std::string& text : arguments.faults) options.faults.push_back(parse_fault(text));
   if (arguments.site.empty()) return options;
@@ -106,6 +108,8 @@ std::vector<Command> base_commands(CLI::App& lodestar) {
       ->check(CLI::IsMember({"agilex", "odrive"}))
       ->capture_default_str();
   command->add_flag("--dbc", arguments->dbc, "Print the protocol as a .dbc file, and do nothing else");
+  command->add_option("--world", arguments->world,
+                      "The CAN interface of the navigator, when the base is at the other end of a cable");
   command->add_option("--seed", arguments->seed, "Of its slip")->capture_default_str();
   command
       ->add_option(

@@ -44,10 +44,8 @@ TEST_F(BaseFaults, an_emergency_stop_is_latched_and_not_ended_by_its_release) {
   ASSERT_TRUE(pressed);
   expect_no_motion(pressed->stamp, 40ms);
   EXPECT_TRUE(wait_for_words("the emergency stop is pressed", 1s));
-  const Stamp resumed = monotonic_now();
-  run->say("resume");
-  EXPECT_TRUE(witness->wait_for(is_moving_command, resumed, 3s));
-  EXPECT_EQ(run->wait(30s), 0);
+  measure("emergency stop", pressed->stamp);
+  EXPECT_EQ(resume_until_the_end(40s), 0);
 }
 
 TEST_F(BaseFaults, the_remote_control_is_not_fought) {
@@ -58,6 +56,7 @@ TEST_F(BaseFaults, the_remote_control_is_not_fought) {
   const Stamp settled = taken->stamp + 40ms + kernel_slack;
   EXPECT_TRUE(witness->heard(is_motion_command, settled).empty()) << "somebody else drives";
   EXPECT_TRUE(wait_for_words("not in CAN mode", 1s));
+  measure("remote control takes over", taken->stamp);
   run->signal(SIGKILL);
   sleep_until(monotonic_now() + 300ms);
   EXPECT_TRUE(witness->heard(is_motion_command, settled).empty()) << "not even by the guard";
@@ -68,6 +67,7 @@ TEST_F(BaseFaults, a_fault_bit_stops) {
   const auto seen = witness->wait_for(says_fault_bits, Stamp{}, 20s);
   ASSERT_TRUE(seen);
   expect_no_motion(seen->stamp, 40ms);
+  measure("fault bit", seen->stamp);
 }
 
 TEST_F(BaseFaults, a_silent_base_is_noticed_within_100_ms) {
@@ -80,6 +80,7 @@ TEST_F(BaseFaults, a_silent_base_is_noticed_within_100_ms) {
   ASSERT_FALSE(moving.empty());
   EXPECT_LE(moving.back().stamp - heard.back().stamp, 120ms + kernel_slack);
   EXPECT_TRUE(is_zero_command(witness->heard(is_motion_command, Stamp{}).back().frame)) << "send zero anyway";
+  measure("base silent", heard.back().stamp);
 }
 
 TEST_F(BaseFaults, a_base_that_ignores_its_commands_is_noticed) {
@@ -103,6 +104,7 @@ TEST_F(BaseFaults, a_second_master_is_noticed_within_40_ms) {
   ASSERT_TRUE(foreign);
   expect_no_motion(foreign->stamp, 40ms);
   EXPECT_TRUE(wait_for_words("somebody else sends motion commands", 1s));
+  measure("second master", foreign->stamp);
 }
 
 TEST_F(BaseFaults, odd_frames_and_a_flood_of_others_do_nothing) {

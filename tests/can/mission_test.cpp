@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 class Mission : public CanLab {};
 
 TEST_F(Mission, arrives_and_candump_saw_it) {
-  Process candump({"candump", "-L", interface}, "candump.log");
+  Process candump({"candump", "-L", base_end}, "candump.log");
   start_base();
   start_run("--goal 2.4,5.6 --goal 2.2,5.6,90 -o run");
   EXPECT_EQ(run->wait(60s), 0);
@@ -48,6 +48,22 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   EXPECT_LE(late, commands.size() / 100) << "a command every 20 ms; two periods and what this kernel takes";
   EXPECT_TRUE(is_zero_command(commands.back().frame));
   EXPECT_FALSE(load_candump("run/can.log").empty());
+}
+
+/// The same drive on the two axes of an ODrive.
+TEST_F(Mission, arrives_with_an_odrive) {
+  ASSERT_TRUE(shell(
+      "cp -r " LODESTAR_SOURCE_DIR
+      "/sites/lab odrive && sed -i 's/^base:.*/base: {bus: socketcan:vcan0, "
+      "protocol: odrive, wheel_diameter_m: 0.17, left_node: 0, right_node: 1, right_is_mirrored: true}/' "
+      "odrive/site.yaml"));
+  site = "odrive";
+  start_base("--protocol odrive");
+  start_run("--goal 2.4,5.6");
+  EXPECT_EQ(run->wait(40s), 0);
+  const Truth truth = end_base();
+  EXPECT_NEAR(truth.x_m, 2.4, 0.03);
+  EXPECT_NEAR(truth.y_m, 5.6, 0.03);
 }
 
 TEST_F(Mission, waits_for_an_interface_and_a_base_that_come_later) {

@@ -40,6 +40,7 @@ TEST_F(ProcessFaults, a_killed_navigator_is_stopped_within_50_ms) {
   EXPECT_LE(zero->stamp - killed, 50ms + kernel_slack);
   EXPECT_TRUE(witness->heard(is_moving_command, zero->stamp).empty());
   expect_rest(killed);
+  measure("navigator killed", killed);
 }
 
 TEST_F(ProcessFaults, a_hung_navigator_is_stopped_within_150_ms_and_stays_stopped_when_it_wakes) {
@@ -50,6 +51,7 @@ TEST_F(ProcessFaults, a_hung_navigator_is_stopped_within_150_ms_and_stays_stoppe
   ASSERT_TRUE(zero);
   EXPECT_LE(zero->stamp - hung, 150ms + kernel_slack);
   expect_rest(hung);
+  measure("navigator hung", hung);
 
   const Stamp woken = monotonic_now();
   run->signal(SIGCONT);
@@ -70,6 +72,7 @@ TEST_F(ProcessFaults, a_killed_guard_leaves_the_base_to_its_own_timeout) {
   EXPECT_EQ(run->wait(3s), 1);
   EXPECT_TRUE(witness->heard(is_motion_command, killed + 20ms).empty()) << "nobody can command any more";
   EXPECT_TRUE(witness->wait_for(says_standing, killed, 2s));
+  measure("guard killed", killed);
 }
 
 TEST_F(ProcessFaults, with_both_killed_the_base_comes_to_rest_by_itself) {
@@ -83,6 +86,7 @@ TEST_F(ProcessFaults, with_both_killed_the_base_comes_to_rest_by_itself) {
   ASSERT_TRUE(rest);
   // 500 ms until the base gives up waiting, 300 ms to slow down from 0.6 m/s at 2 m/s2, its lag and a period.
   EXPECT_LE(rest->stamp - killed, 1200ms + kernel_slack);
+  measure("navigator and guard killed", killed);
 }
 
 TEST_F(ProcessFaults, an_hour_on_the_wall_clock_is_no_fault) {
