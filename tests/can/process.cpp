@@ -21,6 +21,7 @@ Process::Process(std::vector<std::string> words, std::string log) : log_(std::mo
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   FileDescriptor reading(ends[0]);
   input_ = FileDescriptor(ends[1]);
+  std::ofstream{log_};  // nobody reads what a process before it has printed
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
