@@ -18,7 +18,7 @@ class TravelCounter {
   // that; travel then goes on from this reading and takes no leap.
 
   /// An odometer that wraps around at 32 bits of millimetres.
-  std::optional<WheelTravel> take(Stamp stamp, const agilex::Odometer& reading);
+  std::optional<WheelTravel> take(Stamp stamp, const agilex::Odometer& odometer);
   /// Positions that do not wrap around.
   std::optional<WheelTravel> take(Stamp stamp, double left_mm, double right_mm);
 
