@@ -15,7 +15,7 @@ namespace tables = odrive::tables;
 constexpr double mm_per_m = 1000.0;
 /// What both axes say belongs together only when it is about as old.
 constexpr Duration most_apart = std::chrono::milliseconds(300);
-constexpr Duration most_apart_moving = std::chrono::milliseconds(15);
+constexpr Duration most_apart_moving = std::chrono::milliseconds(40);
 
 constexpr std::array<std::pair<std::uint32_t, const char*>, 20> error_names{{
     {0x1, "initializing"},

@@ -60,7 +60,7 @@ TEST_F(Mission, arrives_with_an_odrive) {
   site = "odrive";
   start_base("--protocol odrive");
   start_run("--goal 2.4,5.6");
-  EXPECT_EQ(run->wait(40s), 0);
+  EXPECT_EQ(resume_until_the_end(40s), 0);
   const Truth truth = end_base();
   EXPECT_NEAR(truth.x_m, 2.4, 0.03);
   EXPECT_NEAR(truth.y_m, 5.6, 0.03);
