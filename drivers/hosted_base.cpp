@@ -38,7 +38,9 @@ std::optional<SimulatedMotion::Surroundings> surroundings_of(const HostedBaseOpt
 std::unique_ptr<SimulatedFirmware> make_firmware(CanBus& bus, SimulatedMotion& motion,
                                                  const HostedBaseOptions& options) {
   if (options.protocol == HostedProtocol::odrive) return std::make_unique<SimulatedOdrive>(bus, motion);
-  return std::make_unique<SimulatedBase>(bus, motion, options.base);
+  SimulatedBaseOptions talkative = options.base;
+  talkative.tells_of_motors = true;
+  return std::make_unique<SimulatedBase>(bus, motion, talkative);
 }
 
 void set_fault(SimulatedFirmware& base, ScriptedFault fault, bool on) {

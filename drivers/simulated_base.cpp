@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/agilex_v2_table.hpp"
 #include "drivers/simulated_motion.hpp"
 
 namespace lodestar {
@@ -117,6 +118,27 @@ void SimulatedBase::send_feedback() {
                                 agilex::encode_odometer(odometer)}) {
     if (!bus_.send(frame)) return;
   }
+  if (options_.tells_of_motors) send_motors_and_battery();
+}
+
+/// Motor speeds with every feedback, temperatures with each fifth, the battery twice a second.
+void SimulatedBase::send_motors_and_battery() {
+  constexpr double rim_m_per_turn = 0.5;
+  constexpr double seconds_per_minute = 60.0;
+  constexpr double room_degc = 25.0;
+  namespace tables = agilex::tables;
+  const double half_difference_mps = measured_.turn_radps * options_.track_width_m / 2.0;
+  const auto rpm = [](double rim_mps) { return rim_mps / rim_m_per_turn * seconds_per_minute; };
+  (void)bus_.send(encode(tables::motor1_fast, {rpm(measured_.forward_mps - half_difference_mps)}));
+  (void)bus_.send(encode(tables::motor2_fast, {rpm(measured_.forward_mps + half_difference_mps)}));
+  if (feedbacks_ % 5 == 0) {
+    (void)bus_.send(encode(tables::motor1_slow, {options_.battery_v, room_degc, room_degc}));
+    (void)bus_.send(encode(tables::motor2_slow, {options_.battery_v, room_degc, room_degc}));
+  }
+  if (feedbacks_ % 25 == 0) {
+    (void)bus_.send(encode(tables::battery_state, {80.0, 100.0, options_.battery_v, 0.0, room_degc}));
+  }
+  ++feedbacks_;
 }
 
 }  // namespace lodestar

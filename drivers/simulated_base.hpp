@@ -28,6 +28,7 @@ struct SimulatedBaseOptions {
   Duration command_timeout = std::chrono::milliseconds(500);
   Duration feedback_period = std::chrono::milliseconds(20);
   Duration can_latency = std::chrono::milliseconds(1);
+  bool tells_of_motors = false;  ///< and of its battery: not for our driver, but for other clients
 };
 
 class SimulatedMotion;
@@ -49,6 +50,7 @@ class SimulatedBase final : public SimulatedFirmware {
   void take_in(const CanFrame& frame, Stamp now);
   void drive_wheels(Stamp now);
   void send_feedback();
+  void send_motors_and_battery();
   [[nodiscard]] agilex::VehicleState vehicle_state() const;
   [[nodiscard]] bool takes_commands() const;
   [[nodiscard]] BodyVelocity wanted_velocity(Stamp now) const;
@@ -68,6 +70,7 @@ class SimulatedBase final : public SimulatedFirmware {
   std::uint8_t counter_ = 0;
   std::optional<Command> command_;
   std::optional<Stamp> next_feedback_;
+  int feedbacks_ = 0;  ///< sent so far
   double last_left_m_ = 0.0;
   double last_right_m_ = 0.0;
   BodyVelocity measured_;

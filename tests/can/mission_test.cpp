@@ -66,6 +66,26 @@ TEST_F(Mission, arrives_with_an_odrive) {
   EXPECT_NEAR(truth.y_m, 5.6, 0.03);
 }
 
+/// What clients of other makers look for, at its period.
+TEST_F(Mission, base_speaks_as_the_manual_says) {
+  start_base();
+  const auto first = witness->wait_for([](const CanFrame& frame) { return frame.id == 0x211; }, Stamp{}, 10s);
+  ASSERT_TRUE(first);
+  sleep_until(first->stamp + 2500ms);
+  for (const auto& [id, expected] : {std::pair{0x211U, 100.0},
+                                     {0x221U, 100.0},
+                                     {0x311U, 100.0},
+                                     {0x251U, 100.0},
+                                     {0x252U, 100.0},
+                                     {0x261U, 20.0},
+                                     {0x262U, 20.0},
+                                     {0x361U, 4.0}}) {
+    const auto heard = witness->heard([id = id](const CanFrame& frame) { return frame.id == id; },
+                                      first->stamp, first->stamp + 2000ms);
+    EXPECT_NEAR(static_cast<double>(heard.size()), expected, 1.0 + 0.2 * expected) << std::hex << id;
+  }
+}
+
 TEST_F(Mission, waits_for_an_interface_and_a_base_that_come_later) {
   ASSERT_TRUE(shell("ip link del vcan0"));
   start_run("--goal 1.8,5.6");
