@@ -74,5 +74,20 @@ TEST_F(Cable, that_is_cut_is_noticed_within_100_ms) {
   EXPECT_EQ(resume_until_the_end(40s), 0);
 }
 
+TEST_F(Cable, that_takes_no_more_frames_is_noticed_and_brings_no_old_ones_later) {
+  start_base();
+  start_run("--goal 2.4,5.6");
+  wait_until_driving();
+  const Stamp stalled = monotonic_now();
+  ASSERT_TRUE(shell("tc qdisc replace dev vxcan0 root netem limit 1 delay 1500ms"));
+  EXPECT_TRUE(wait_for_words("base: stopped by a fault", 1s));
+  measure("interface takes no frames", stalled);
+  ASSERT_TRUE(shell("tc qdisc del dev vxcan0 root"));
+  const Stamp flows = monotonic_now();
+  EXPECT_LE(witness->heard(is_moving_command, stalled + 300ms).size(), 2U) << "one old command, or two";
+  EXPECT_FALSE(witness->wait_for(is_moving_command, flows, 1s)) << "moves without a resume";
+  EXPECT_EQ(resume_until_the_end(40s), 0);
+}
+
 }  // namespace
 }  // namespace lodestar
