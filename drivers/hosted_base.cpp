@@ -35,6 +35,18 @@ std::optional<SimulatedMotion::Surroundings> surroundings_of(const HostedBaseOpt
   return SimulatedMotion::Surroundings{*options.map, options.robot_radius_m};
 }
 
+const ProtocolTable& table_of(HostedProtocol protocol) {
+  return protocol == HostedProtocol::odrive ? odrive::table : agilex::table;
+}
+
+std::vector<std::uint32_t> identifiers_of(const ProtocolTable& table) {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t node = 0; node < static_cast<std::uint32_t>(table.nodes); ++node) {
+    for (const MessageSpec& message : table.messages) all.push_back(message.id + node * table.node_step);
+  }
+  return all;
+}
+
 std::unique_ptr<SimulatedFirmware> make_firmware(CanBus& bus, SimulatedMotion& motion,
                                                  const HostedBaseOptions& options) {
   if (options.protocol == HostedProtocol::odrive) return std::make_unique<SimulatedOdrive>(bus, motion);
@@ -80,13 +92,13 @@ std::optional<ScriptedFault> fault_named(const std::string& name) {
 }
 
 std::string dbc_of(HostedProtocol protocol) {
-  return dbc_text(protocol == HostedProtocol::odrive ? odrive::table : agilex::table);
+  return dbc_text(table_of(protocol));
 }
 
 struct HostedBase::World {
   explicit World(const HostedBaseOptions& chosen)
       : options(chosen),
-        bus(chosen.interface),
+        bus(chosen.interface, {.identifiers = identifiers_of(table_of(chosen.protocol))}),
         motion(chosen.base, chosen.start, chosen.seed, surroundings_of(chosen)),
         base(make_firmware(bus, motion, chosen)),
         truth(chosen.world.empty() ? chosen.interface : chosen.world),

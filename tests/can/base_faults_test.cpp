@@ -113,7 +113,7 @@ TEST_F(BaseFaults, odd_frames_and_a_flood_of_others_do_nothing) {
   ASSERT_TRUE(
       shell("for f in 211#00 211# 221#01 311#0102030405 241#FFFFFFFFFFFFFFFF 7FF#00 20000004#00 211##1FF "
             "00000211#0101010101010101 211#R; do cansend vcan0 $f; done 2>/dev/null; true"));
-  Process flood({"cangen", "vcan0", "-g", "1", "-I", "5AA", "-L", "8"}, "flood.log");
+  Process flood({"cangen", "vcan0", "-g", "4", "-I", "5AA", "-L", "8"}, "flood.log");
   EXPECT_EQ(run->wait(40s), 0);
   EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
 }

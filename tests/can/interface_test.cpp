@@ -1,3 +1,5 @@
+#include <fstream>
+
 #include "tests/can/lab.hpp"
 
 // What happens to the interface itself: each fault is latched, lived through, and after an explicit resume
@@ -70,8 +72,9 @@ TEST_F(Interface, bus_off_until_the_controller_restarts) {
 TEST_F(Interface, error_passive_makes_it_slow) {
   drive("4.2,5.6");
   const Stamp passive = monotonic_now();
-  Process words({"bash", "-c", "while true; do cansend vcan0 20000204#0020000000008080; sleep 0.3; done"},
-                "words.log");
+  std::ofstream("passive.log") << "(1.000000) vcan0 20000204#0020000000008080\n"
+                               << "(1.200000) vcan0 20000204#0020000000008080\n";
+  Process words({"canplayer", "-I", "passive.log", "-l", "i"}, "words.log");
   EXPECT_TRUE(witness->wait_for(drives_faster_than(0.1), passive + 1s, 3s));
   EXPECT_TRUE(witness->heard(drives_faster_than(0.35), passive + 1s).empty());
   words.end();
