@@ -33,16 +33,22 @@ MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& st
       return watch_drive(input, step);
     case State::settling:
       return settle(input);
+    case State::held:
+      return hold(input);
   }
   return MissionEvent::none;
 }
 
 MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep& step) {
   if (!since_) since_ = input.now;
+  if (input.base.state == BaseState::fault && options_.hold_on_base_fault) return hold(input);
   const bool may_start = !step.stop && input.base.state == BaseState::ready && at_rest(input.base);
   if (!may_start) {
     if (input.now - *since_ < options_.max_wait_for_start) return MissionEvent::none;
-    if (input.base.state != BaseState::ready) return fail(input.now, "the base is not ready");
+    if (input.base.state != BaseState::ready) {
+      return fail(input.now, fmt::format("the base is not ready: {}",
+                                         to_string(input.base.fault.value_or(BaseFault::feedback_lost))));
+    }
     return fail(input.now,
                 fmt::format("cannot start: {}", step.stop ? to_string(*step.stop) : "not at rest"));
   }
@@ -58,7 +64,7 @@ MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep&
 }
 
 MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep& step) {
-  if (input.base.state == BaseState::fault) return fail(input.now, "the base reports a fault");
+  if (input.base.state == BaseState::fault) return hold(input);
   if (navigation_.arrived()) {
     state_ = State::settling;
     since_.reset();
@@ -73,7 +79,21 @@ MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep
   return fail(input.now, fmt::format("stopped for too long: {}", to_string(*step.stop)));
 }
 
+/// Where a stopped robot stands is not where its path is: once the base is ready again, it plans anew.
+MissionEvent Mission::hold(const SensorInput& input) {
+  const bool is_hopeless = input.base.fault == BaseFault::guard_lost;
+  if (!options_.hold_on_base_fault || is_hopeless) {
+    return fail(input.now, fmt::format("the base was stopped: {}",
+                                       input.base.fault ? to_string(*input.base.fault) : "no cause known"));
+  }
+  navigation_.halt();
+  state_ = input.base.state == BaseState::ready ? State::starting : State::held;
+  since_.reset();
+  return MissionEvent::none;
+}
+
 MissionEvent Mission::settle(const SensorInput& input) {
+  if (input.base.state == BaseState::fault) return hold(input);
   if (!since_ || !at_rest(input.base)) since_ = input.now;
   if (input.now - *since_ < options_.settle) return MissionEvent::none;
   return end_goal(input.now, MissionEvent::goal_arrived);

@@ -11,6 +11,7 @@ struct MissionOptions {
   Duration max_wait_for_start = std::chrono::seconds(15);  ///< for a first pose and a base that obeys
   Duration max_stop = std::chrono::seconds(20);            ///< a safety stop that lasts longer fails the goal
   Duration settle = std::chrono::milliseconds(400);        ///< at rest for so long before arrival is claimed
+  bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
 };
 
 enum class MissionEvent { none, path_planned, goal_arrived, goal_failed };
@@ -36,9 +37,10 @@ class Mission {
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
  private:
-  enum class State { starting, driving, settling };
+  enum class State { starting, driving, settling, held };
 
   MissionEvent advance(const SensorInput& input, const NavigationStep& step);
+  MissionEvent hold(const SensorInput& input);
   MissionEvent start_goal(const SensorInput& input, const NavigationStep& step);
   MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
   MissionEvent settle(const SensorInput& input);

@@ -5,6 +5,7 @@
 
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
+#include "app/run_recorder.hpp"
 #include "drivers/simulation.hpp"
 
 namespace lodestar {
@@ -28,41 +29,11 @@ SensorInput sense(Simulation& simulation, BaseDriver& base) {
   return input;
 }
 
-void record_step(RunRecord& record, const SensorInput& input, const NavigationStep& step) {
-  record.frames += static_cast<int>(input.frames.size());
-  for (const UsedFix& used : step.fixes) {
-    const bool accepted =
-        used.outcome != FixOutcome::refused_gate && used.outcome != FixOutcome::refused_late;
-    record.fixes.push_back({.stamp = used.fix.stamp,
-                            .map_from_base = used.planar.map_from_base,
-                            .ids = used.fix.ids,
-                            .confidence = used.fix.confidence,
-                            .accepted = accepted});
-  }
-  if (!step.estimate) return;
-  record.steps.push_back({.estimate = *step.estimate,
-                          .commanded = step.command,
-                          .measured = input.base.measured.value_or(BodyVelocity{})});
-}
-
-/// Tells the judge and the record what has come of a goal.
-void record_event(RunRecord& record, Scorer& scorer, const Mission& mission, MissionEvent event, Stamp now) {
-  if (event == MissionEvent::none) return;
-  if (event == MissionEvent::path_planned) {
-    GoalRecord& goal = record.goals.at(mission.current());
-    goal.planned = mission.path();
-    goal.travel_time = -now.time_since_epoch();
-    scorer.claim_path(mission.path());
-    return;
-  }
+/// Tells the judge what has come of a goal, and records his score.
+void judge(RunRecord& record, Scorer& scorer, const Mission& mission, MissionEvent event) {
+  if (event == MissionEvent::path_planned) scorer.claim_path(mission.path());
+  if (event != MissionEvent::goal_arrived) return;
   GoalRecord& goal = record.goals.at(mission.current() - 1);
-  if (!goal.planned.waypoints_m.empty()) goal.travel_time += now.time_since_epoch();
-  goal.ended = now;
-  if (event == MissionEvent::goal_failed) {
-    goal.failure = mission.failure();
-    return;
-  }
-  goal.arrived = true;
   scorer.claim_arrival(goal.goal.position_m, goal.goal.heading_rad);
   goal.score = scorer.arrivals().back();
 }
@@ -107,7 +78,8 @@ RunRecord replay(const Site& site, const ReplayOptions& options) {
     base.command(step.navigation.command);
 
     record_step(record, input, step.navigation);
-    record_event(record, simulation.scorer(), mission, step.event, simulation.now());
+    record_event(record, mission, step.event, simulation.now());
+    judge(record, simulation.scorer(), mission, step.event);
     if (options.progress) options.progress(share_done(record, mission, step.navigation.estimate));
     if (options.realtime) std::this_thread::sleep_until(wall_start + simulation.now().time_since_epoch());
   }

@@ -65,6 +65,34 @@ void read_arrival(StrictYaml yaml, Robot& robot) {
   yaml.finish();
 }
 
+/// "socketcan:can0".
+BaseConnection read_base(StrictYaml yaml) {
+  const std::string bus = yaml.text("bus");
+  const std::string driver = "socketcan:";
+  if (!bus.starts_with(driver) || bus.size() == driver.size()) {
+    yaml.refuse("bus", "'" + bus + "'", "'socketcan:' and the name of an interface");
+  }
+  BaseConnection base;
+  base.interface = bus.substr(driver.size());
+  base.protocol = yaml.text("protocol");
+  if (base.protocol != "agilex" && base.protocol != "odrive") {
+    yaml.refuse("protocol", "'" + base.protocol + "'", "agilex or odrive");
+  }
+  if (base.protocol == "agilex" && yaml.has("model")) {
+    base.model = yaml.text("model");
+    const bool is_known = base.model == "tracer" || base.model == "scout" || base.model == "hunter";
+    if (!is_known) yaml.refuse("model", "'" + base.model + "'", "tracer, scout or hunter");
+  }
+  if (base.protocol == "odrive") {
+    base.wheel_diameter_m = yaml.number("wheel_diameter_m", 0.01, 2.0);
+    base.left_node = yaml.integer("left_node", 0, 63);
+    base.right_node = yaml.integer("right_node", 0, 63);
+    base.right_is_mirrored = yaml.boolean("right_is_mirrored");
+  }
+  yaml.finish();
+  return base;
+}
+
 }  // namespace
 
 Robot load_robot(const std::filesystem::path& file) {
@@ -106,6 +134,8 @@ Site load_site(const std::filesystem::path& folder) {
   site.start = read_start(yaml.mapping("start"));
   for (StrictYaml& goal : yaml.list_of_mappings("goals")) site.goals.push_back(read_goal(goal));
   if (site.goals.empty()) yaml.refuse("goals", "an empty list", "at least one goal");
+  if (yaml.has("camera")) site.camera = yaml.text("camera");
+  if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
   yaml.finish();
   return site;
 }

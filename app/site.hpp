@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,18 @@ struct Robot {
   double arrival_heading_rad = 0.0;
 };
 
+/// Where the real base is.
+struct BaseConnection {
+  std::string interface;            ///< of CAN
+  std::string protocol = "agilex";  ///< or "odrive"
+  std::string model = "tracer";     ///< of AgileX: or "scout", "hunter"; their fault bits differ
+  // Of ODrive: which node drives which wheel.
+  double wheel_diameter_m = 0.17;
+  int left_node = 0;
+  int right_node = 1;
+  bool right_is_mirrored = true;  ///< turns backwards to drive ahead
+};
+
 /// A site folder: the map, the markers above it, the cameras, the robot and the usual drive.
 struct Site {
   std::string name;
@@ -44,6 +57,8 @@ struct Site {
   Robot robot;
   Pose2 start;
   std::vector<Goal> goals;
+  std::string camera;                  ///< that is mounted: "simulated"; empty when the site has none
+  std::optional<BaseConnection> base;  ///< nothing when the site is for replays only
 };
 
 /// Reads `folder`/site.yaml and all files that it names. Throws InputError with file and line.

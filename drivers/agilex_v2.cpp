@@ -1,75 +1,24 @@
 #include "drivers/agilex_v2.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "drivers/agilex_v2_table.hpp"
 
 namespace lodestar::agilex {
 namespace {
 
-constexpr std::uint8_t full_length = 8;
-
-void put_u16(CanFrame& frame, std::size_t at, std::uint16_t value) {
-  frame.data[at] = static_cast<std::uint8_t>(value >> 8U);
-  frame.data[at + 1] = static_cast<std::uint8_t>(value & 0xFFU);
+std::optional<BodyVelocity> decode_velocity(const MessageSpec& message, const CanFrame& frame) {
+  const auto values = decode(message, frame);
+  if (!values) return std::nullopt;
+  return BodyVelocity{(*values)[0], (*values)[1]};
 }
 
-std::uint16_t get_u16(const CanFrame& frame, std::size_t at) {
-  return static_cast<std::uint16_t>((frame.data[at] << 8U) | frame.data[at + 1]);
-}
-
-void put_i32(CanFrame& frame, std::size_t at, std::int32_t value) {
-  const auto bits = static_cast<std::uint32_t>(value);
-  put_u16(frame, at, static_cast<std::uint16_t>(bits >> 16U));
-  put_u16(frame, at + 2, static_cast<std::uint16_t>(bits & 0xFFFFU));
-}
-
-std::int32_t get_i32(const CanFrame& frame, std::size_t at) {
-  const std::uint32_t high = get_u16(frame, at);
-  return static_cast<std::int32_t>((high << 16U) | get_u16(frame, at + 2));
-}
-
-/// The nearest whole number of the type, saturated; 0 for NaN.
-template <typename Integer>
-Integer saturated(double value) {
-  using Limits = std::numeric_limits<Integer>;
-  if (std::isnan(value)) return 0;
-  return static_cast<Integer>(
-      std::lround(std::clamp<double>(value, double{Limits::min()}, double{Limits::max()})));
-}
-
-constexpr double steps_per_unit = 1000.0;  // mm and mrad
-
-void put_thousandths(CanFrame& frame, std::size_t at, double value) {
-  put_u16(frame, at, static_cast<std::uint16_t>(saturated<std::int16_t>(value * steps_per_unit)));
-}
-
-double get_thousandths(const CanFrame& frame, std::size_t at) {
-  return static_cast<std::int16_t>(get_u16(frame, at)) / steps_per_unit;
-}
-
-CanFrame velocity_frame(std::uint32_t id, const BodyVelocity& velocity) {
-  CanFrame frame{id, full_length, {}};
-  put_thousandths(frame, 0, velocity.forward_mps);
-  put_thousandths(frame, 2, velocity.turn_radps);
-  return frame;
-}
-
-bool is_frame(const CanFrame& frame, std::uint32_t id, std::uint8_t least_length) {
-  return frame.id == id && frame.length >= least_length;
-}
-
-std::optional<BodyVelocity> decode_velocity(std::uint32_t id, const CanFrame& frame) {
-  if (!is_frame(frame, id, full_length)) return std::nullopt;
-  return BodyVelocity{get_thousandths(frame, 0), get_thousandths(frame, 2)};
-}
-
-VehicleState vehicle_state(std::uint8_t byte) {
+VehicleState vehicle_state(double value) {
+  const auto byte = static_cast<std::uint8_t>(value);
   return byte <= static_cast<std::uint8_t>(VehicleState::exception) ? static_cast<VehicleState>(byte)
                                                                     : VehicleState::unknown;
 }
 
-ControlMode control_mode(std::uint8_t byte) {
+ControlMode control_mode(double value) {
+  const auto byte = static_cast<std::uint8_t>(value);
   return byte <= static_cast<std::uint8_t>(ControlMode::remote) ? static_cast<ControlMode>(byte)
                                                                 : ControlMode::unknown;
 }
@@ -77,64 +26,62 @@ ControlMode control_mode(std::uint8_t byte) {
 }  // namespace
 
 CanFrame encode_motion_command(const BodyVelocity& velocity) {
-  return velocity_frame(motion_command_id, velocity);
+  return encode(tables::motion_command, {velocity.forward_mps, velocity.turn_radps});
 }
 
 CanFrame encode_control_mode(ControlMode mode) {
-  return {control_mode_id, 1, {static_cast<std::uint8_t>(mode)}};
+  return encode(tables::control_mode, {static_cast<double>(mode)});
 }
 
 CanFrame encode_clear_fault() {
-  return {clear_fault_id, 1, {}};
+  return encode(tables::clear_fault, {});
 }
 
 CanFrame encode_system_state(const SystemState& state) {
-  CanFrame frame{system_state_id, full_length, {}};
-  frame.data[0] = static_cast<std::uint8_t>(state.vehicle);
-  frame.data[1] = static_cast<std::uint8_t>(state.mode);
-  put_u16(frame, 2, saturated<std::uint16_t>(state.battery_v * 10.0));
-  put_u16(frame, 4, state.fault_bits);
-  frame.data[7] = state.counter;
-  return frame;
+  return encode(tables::system_state,
+                {static_cast<double>(state.vehicle), static_cast<double>(state.mode), state.battery_v,
+                 static_cast<double>(state.fault_bits), static_cast<double>(state.counter)});
 }
 
 CanFrame encode_motion_state(const BodyVelocity& velocity) {
-  return velocity_frame(motion_state_id, velocity);
+  return encode(tables::motion_state, {velocity.forward_mps, velocity.turn_radps});
 }
 
 CanFrame encode_odometer(const Odometer& odometer) {
-  CanFrame frame{odometer_id, full_length, {}};
-  put_i32(frame, 0, odometer.left_mm);
-  put_i32(frame, 4, odometer.right_mm);
-  return frame;
+  return encode(tables::odometer_state,
+                {static_cast<double>(odometer.left_mm), static_cast<double>(odometer.right_mm)});
 }
 
 std::optional<BodyVelocity> decode_motion_command(const CanFrame& frame) {
-  return decode_velocity(motion_command_id, frame);
+  return decode_velocity(tables::motion_command, frame);
 }
 
 std::optional<ControlMode> decode_control_mode(const CanFrame& frame) {
-  if (!is_frame(frame, control_mode_id, 1)) return std::nullopt;
-  return control_mode(frame.data[0]);
+  const auto values = decode(tables::control_mode, frame);
+  if (!values) return std::nullopt;
+  return control_mode((*values)[0]);
 }
 
 bool is_clear_fault(const CanFrame& frame) {
-  return is_frame(frame, clear_fault_id, 1) && frame.data[0] == 0;
+  const auto values = decode(tables::clear_fault, frame);
+  return values && (*values)[0] == 0.0;
 }
 
 std::optional<SystemState> decode_system_state(const CanFrame& frame) {
-  if (!is_frame(frame, system_state_id, full_length)) return std::nullopt;
-  return SystemState{vehicle_state(frame.data[0]), control_mode(frame.data[1]), get_u16(frame, 2) / 10.0,
-                     get_u16(frame, 4), frame.data[7]};
+  const auto values = decode(tables::system_state, frame);
+  if (!values) return std::nullopt;
+  return SystemState{vehicle_state((*values)[0]), control_mode((*values)[1]), (*values)[2],
+                     static_cast<std::uint32_t>((*values)[3]), static_cast<std::uint8_t>((*values)[4])};
 }
 
 std::optional<BodyVelocity> decode_motion_state(const CanFrame& frame) {
-  return decode_velocity(motion_state_id, frame);
+  return decode_velocity(tables::motion_state, frame);
 }
 
 std::optional<Odometer> decode_odometer(const CanFrame& frame) {
-  if (!is_frame(frame, odometer_id, full_length)) return std::nullopt;
-  return Odometer{get_i32(frame, 0), get_i32(frame, 4)};
+  const auto values = decode(tables::odometer_state, frame);
+  if (!values) return std::nullopt;
+  return Odometer{static_cast<std::int32_t>((*values)[0]), static_cast<std::int32_t>((*values)[1])};
 }
 
 }  // namespace lodestar::agilex

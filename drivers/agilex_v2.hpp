@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <optional>
 
+#include "drivers/base_state.hpp"
 #include "drivers/can_bus.hpp"
 #include "maps/motion.hpp"
 
-// AgileX protocol V2: CAN 2.0B at 500 kbit/s, 11-bit identifiers, big-endian, two's complement.
+// AgileX protocol V2: CAN 2.0B at 500 kbit/s, 11-bit identifiers, big-endian, two's complement. The table
+// that it follows is in agilex_v2_table.hpp.
 namespace lodestar::agilex {
 
 inline constexpr std::uint32_t motion_command_id = 0x111;
@@ -16,17 +18,9 @@ inline constexpr std::uint32_t odometer_id = 0x311;
 inline constexpr std::uint32_t control_mode_id = 0x421;
 inline constexpr std::uint32_t clear_fault_id = 0x441;
 
-// A byte that the protocol does not name is read as `unknown`, which nobody may take for a good one.
-enum class VehicleState : std::uint8_t { normal = 0, emergency_stop = 1, exception = 2, unknown = 0xFF };
-enum class ControlMode : std::uint8_t { standby = 0, can = 1, uart = 2, remote = 3, unknown = 0xFF };
-
-struct SystemState {
-  VehicleState vehicle = VehicleState::normal;
-  ControlMode mode = ControlMode::standby;
-  double battery_v = 0.0;        ///< in steps of 0.1 V
-  std::uint16_t fault_bits = 0;  ///< their meaning differs from model to model
-  std::uint8_t counter = 0;      ///< one more from frame to frame, wraps around
-};
+using lodestar::ControlMode;
+using lodestar::SystemState;
+using lodestar::VehicleState;
 
 /// Cumulative, wraps around at 32 bits.
 struct Odometer {

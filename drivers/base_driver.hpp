@@ -1,14 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "drivers/agilex_v2.hpp"
+#include "drivers/base_protocol.hpp"
 #include "drivers/can_bus.hpp"
 #include "drivers/command_following.hpp"
-#include "drivers/travel_counter.hpp"
 #include "maps/motion.hpp"
 
 namespace lodestar {
@@ -22,9 +23,9 @@ struct BaseDriverOptions {
   Duration max_kind_age =
       std::chrono::milliseconds(300);  ///< of system state, motion state and odometer, each for itself
   Duration base_command_timeout = std::chrono::milliseconds(500);  ///< after which the base stops by itself
-  std::uint16_t ignored_fault_bits = 0;  ///< that may be set on this model without being a fault
-  double max_plausible_wheel_mps = 5.0;  ///< an odometer faster than this is not believed
+  std::uint32_t ignored_fault_bits = 0;  ///< that may be set on this model without being a fault
   int max_failed_sends = 3;              ///< in a row
+  double error_passive_share = 0.3;      ///< of the speed limits, while frames are damaged on the wire
   CommandFollowingOptions following{};
 };
 
@@ -44,7 +45,13 @@ enum class BaseFault {
   fault_bits,         ///< a bit set that is not on the list of the ignored
   not_following,      ///< moves otherwise than commanded
   second_master,      ///< somebody else sends motion commands on the bus
-  send_failed         ///< several commands in a row could not be handed over
+  send_failed,        ///< several commands in a row could not be handed over
+  bus_stalled,        ///< the bus takes no frames any more
+  bus_off,            ///< the CAN controller has left the bus
+  bus_down,           ///< the CAN interface is switched off
+  bus_missing,        ///< the CAN interface is not there
+  guard_stopped,      ///< the navigator had hung
+  guard_lost          ///< the guard process is gone; nothing brings it back
 };
 
 // In words for people.
@@ -57,8 +64,8 @@ struct BaseFeedback {
   std::optional<BaseFault> fault;        ///< in state fault: the first cause. Before ready: what is missing.
   std::vector<WheelTravel> travel;       ///< new odometer readings, oldest first, unwrapped
   std::optional<BodyVelocity> measured;  ///< the newest motion state ever heard
-  std::optional<agilex::SystemState> system;  ///< the newest ever heard
-  std::optional<Stamp> last_heard;            ///< of the newest valid frame from the base
+  std::optional<SystemState> system;     ///< the newest ever heard
+  std::optional<Stamp> last_heard;       ///< of the newest valid frame from the base
 };
 
 /// What went wrong without stopping the robot, since the start.
@@ -71,12 +78,14 @@ struct BaseDriverCounts {
   std::uint64_t counter_repeats = 0;  ///< system states whose counter stood still
 };
 
-/// The navigator's side of an AgileX V2 base. It knows the base by CAN frames only: that a frame could be
+/// The navigator's side of a base. It knows the base by CAN frames only: that a frame could be
 /// sent proves nothing. Any cause that takes a ready base away is latched; the robot does not move again
 /// until somebody says resume(), and the driver does not fight for a base that was taken over.
 class BaseDriver {
  public:
+  /// An AgileX V2 base.
   explicit BaseDriver(CanBus& bus, const BaseDriverOptions& options = {});
+  BaseDriver(CanBus& bus, std::unique_ptr<BaseProtocol> protocol, const BaseDriverOptions& options = {});
 
   /// Takes in all frames that have arrived, and carries on the handshake. `now` is on the clock of the bus's
   /// stamps.
@@ -88,7 +97,8 @@ class BaseDriver {
   void command(const BodyVelocity& velocity);
 
   /// Leaves the latched fault for a new handshake. False, and nothing changes, while the cause is still
-  /// there: a base must not start to move because somebody releases its emergency stop.
+  /// there: a base must not start to move because somebody releases its emergency stop. A base that keeps its
+  /// own faults is asked to clear them; then the next resume() may succeed.
   [[nodiscard]] bool resume(Stamp now);
 
   [[nodiscard]] const BaseDriverCounts& counts() const { return counts_; }
@@ -96,18 +106,19 @@ class BaseDriver {
 
  private:
   void take_in(const StampedCanFrame& received, std::vector<WheelTravel>& travel);
-  void take_in_system_state(Stamp stamp, const agilex::SystemState& state);
-  void take_in_odometer(Stamp stamp, const agilex::Odometer& reading, std::vector<WheelTravel>& travel);
+  void take_in_system_state(Stamp stamp, const SystemState& state);
   void watch(Stamp now);
   void shake_hands(Stamp now);
   void latch(BaseFault fault);
-  bool send(const CanFrame& frame);
+  bool send(const std::vector<CanFrame>& frames);
   [[nodiscard]] bool hears_state(Stamp now) const;
   [[nodiscard]] bool hears_everything(Stamp now) const;
-  [[nodiscard]] std::optional<BaseFault> complaint(const agilex::SystemState& state) const;
+  [[nodiscard]] std::optional<BaseFault> complaint(const SystemState& state) const;
+  [[nodiscard]] std::optional<BaseFault> complaint_of_bus() const;
   [[nodiscard]] BodyVelocity within_limits(const BodyVelocity& velocity);
 
   CanBus& bus_;
+  std::unique_ptr<BaseProtocol> protocol_;
   BaseDriverOptions options_;
   BaseState state_ = BaseState::waiting_for_base;
   std::optional<BaseFault> fault_;
@@ -120,9 +131,8 @@ class BaseDriver {
   std::optional<Stamp> last_alive_;  ///< newest system state whose counter had moved
   std::optional<Stamp> last_motion_state_;
   std::optional<Stamp> last_odometer_;
-  std::optional<agilex::SystemState> system_;
+  std::optional<SystemState> system_;
   std::optional<BodyVelocity> measured_;
-  TravelCounter travel_;
 
   BodyVelocity commanded_;  ///< as sent
   std::optional<Stamp> commanded_at_;

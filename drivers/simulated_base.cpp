@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/agilex_v2_table.hpp"
 #include "drivers/simulated_motion.hpp"
 
 namespace lodestar {
@@ -25,6 +26,8 @@ void SimulatedBase::step(Stamp now) {
   if (!next_feedback_) next_feedback_ = now;
   if (now < *next_feedback_) return;
   *next_feedback_ += options_.feedback_period;
+  if (*next_feedback_ <= now)
+    next_feedback_ = now + options_.feedback_period;  // held up: nothing to catch up
   measure_speed();
   send_feedback();
 }
@@ -42,6 +45,10 @@ void SimulatedBase::set_fault_bits(std::uint16_t bits) {
 void SimulatedBase::take_over_by_remote(bool taken) {
   mode_ = taken ? agilex::ControlMode::remote : agilex::ControlMode::standby;
   command_.reset();
+}
+
+bool SimulatedBase::is_told_to_move() const {
+  return command_ && (command_->velocity.forward_mps != 0.0 || command_->velocity.turn_radps != 0.0);
 }
 
 void SimulatedBase::take_in(const CanFrame& frame, Stamp now) {
@@ -69,6 +76,8 @@ bool SimulatedBase::takes_commands() const {
 }
 
 BodyVelocity SimulatedBase::wanted_velocity(Stamp now) const {
+  if (defects_.runs_away) return {options_.max_wheel_mps, 0.0};
+  if (defects_.ignores_commands) return {};
   const bool has_command = command_ && now - command_->stamp <= options_.command_timeout;
   return takes_commands() && has_command ? command_->velocity : BodyVelocity{};
 }
@@ -86,10 +95,12 @@ void SimulatedBase::drive_wheels(Stamp now) {
 /// Encoder steps over the last period, smoothed: one step in 20 ms is already 25 mm/s.
 void SimulatedBase::measure_speed() {
   const double period_s = seconds(options_.feedback_period);
-  const double left_mps = (motion_.left_encoder_m() - last_left_m_) / period_s;
-  const double right_mps = (motion_.right_encoder_m() - last_right_m_) / period_s;
-  last_left_m_ = motion_.left_encoder_m();
-  last_right_m_ = motion_.right_encoder_m();
+  const double left_m = defects_.left_encoder_stuck ? last_left_m_ : motion_.left_encoder_m();
+  const double right_m = motion_.right_encoder_m();
+  const double left_mps = (left_m - last_left_m_) / period_s;
+  const double right_mps = (right_m - last_right_m_) / period_s;
+  last_left_m_ = left_m;
+  last_right_m_ = right_m;
 
   const double share = period_s / (period_s + options_.speed_filter_s);
   measured_.forward_mps += share * ((left_mps + right_mps) / 2.0 - measured_.forward_mps);
@@ -98,13 +109,36 @@ void SimulatedBase::measure_speed() {
 
 /// Nobody hears it when the bus does not take a frame; the next one is newer.
 void SimulatedBase::send_feedback() {
-  const agilex::SystemState state{vehicle_state(), mode_, options_.battery_v, fault_bits_, counter_++};
+  if (defects_.silent) return;
+  const agilex::SystemState state{vehicle_state(), mode_, options_.battery_v, fault_bits_, counter_};
+  if (!defects_.counter_stuck) ++counter_;
   const agilex::Odometer odometer{counter_mm(last_left_m_, options_.odometer_start_mm),
                                   counter_mm(last_right_m_, options_.odometer_start_mm)};
   for (const CanFrame& frame : {agilex::encode_system_state(state), agilex::encode_motion_state(measured_),
                                 agilex::encode_odometer(odometer)}) {
     if (!bus_.send(frame)) return;
   }
+  if (options_.tells_of_motors) send_motors_and_battery();
+}
+
+/// Motor speeds with every feedback, temperatures with each fifth, the battery twice a second.
+void SimulatedBase::send_motors_and_battery() {
+  constexpr double rim_m_per_turn = 0.5;
+  constexpr double seconds_per_minute = 60.0;
+  constexpr double room_degc = 25.0;
+  namespace tables = agilex::tables;
+  const double half_difference_mps = measured_.turn_radps * options_.track_width_m / 2.0;
+  const auto rpm = [](double rim_mps) { return rim_mps / rim_m_per_turn * seconds_per_minute; };
+  (void)bus_.send(encode(tables::motor1_fast, {rpm(measured_.forward_mps - half_difference_mps)}));
+  (void)bus_.send(encode(tables::motor2_fast, {rpm(measured_.forward_mps + half_difference_mps)}));
+  if (feedbacks_ % 5 == 0) {
+    (void)bus_.send(encode(tables::motor1_slow, {options_.battery_v, room_degc, room_degc}));
+    (void)bus_.send(encode(tables::motor2_slow, {options_.battery_v, room_degc, room_degc}));
+  }
+  if (feedbacks_ % 25 == 0) {
+    (void)bus_.send(encode(tables::battery_state, {80.0, 100.0, options_.battery_v, 0.0, room_degc}));
+  }
+  ++feedbacks_;
 }
 
 }  // namespace lodestar

@@ -5,6 +5,7 @@
 
 #include "drivers/agilex_v2.hpp"
 #include "drivers/can_bus.hpp"
+#include "drivers/simulated_firmware.hpp"
 #include "maps/motion.hpp"
 
 namespace lodestar {
@@ -27,6 +28,7 @@ struct SimulatedBaseOptions {
   Duration command_timeout = std::chrono::milliseconds(500);
   Duration feedback_period = std::chrono::milliseconds(20);
   Duration can_latency = std::chrono::milliseconds(1);
+  bool tells_of_motors = false;  ///< and of its battery: not for our driver, but for other clients
 };
 
 class SimulatedMotion;
@@ -34,22 +36,21 @@ class SimulatedMotion;
 /// The firmware of an AgileX V2 base over the simulated wheels. It reads their encoders and drives their
 /// motors; where the robot is on the floor it knows no better than a real one does. After power-up it
 /// stands by until it is asked for CAN mode; without motion commands it comes to rest.
-class SimulatedBase {
+class SimulatedBase final : public SimulatedFirmware {
  public:
   SimulatedBase(CanBus& bus, SimulatedMotion& motion, const SimulatedBaseOptions& options = {});
 
-  /// One pass of the firmware's loop; to be called often, at a steady rate.
-  void step(Stamp now);
-
-  // What people, wear and the shop floor do to a base.
-  void press_emergency_stop(bool pressed);
-  void take_over_by_remote(bool taken);  ///< given back, the base stands by
-  void set_fault_bits(std::uint16_t bits);
+  void step(Stamp now) override;
+  void press_emergency_stop(bool pressed) override;
+  void take_over_by_remote(bool taken) override;
+  void set_fault_bits(std::uint16_t bits) override;
+  [[nodiscard]] bool is_told_to_move() const override;
 
  private:
   void take_in(const CanFrame& frame, Stamp now);
   void drive_wheels(Stamp now);
   void send_feedback();
+  void send_motors_and_battery();
   [[nodiscard]] agilex::VehicleState vehicle_state() const;
   [[nodiscard]] bool takes_commands() const;
   [[nodiscard]] BodyVelocity wanted_velocity(Stamp now) const;
@@ -69,6 +70,7 @@ class SimulatedBase {
   std::uint8_t counter_ = 0;
   std::optional<Command> command_;
   std::optional<Stamp> next_feedback_;
+  int feedbacks_ = 0;  ///< sent so far
   double last_left_m_ = 0.0;
   double last_right_m_ = 0.0;
   BodyVelocity measured_;

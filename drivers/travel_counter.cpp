@@ -1,15 +1,17 @@
 #include "drivers/travel_counter.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <utility>
 
 namespace lodestar {
 namespace {
 
 /// The shorter way round from one reading to the other, as two's complement gives it.
-std::int32_t difference(std::int32_t newer, std::int32_t older) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(newer) - static_cast<std::uint32_t>(older));
+double difference(double newer, double older) {
+  const auto steps =
+      static_cast<std::uint32_t>(static_cast<std::int64_t>(newer) - static_cast<std::int64_t>(older));
+  return static_cast<std::int32_t>(steps);
 }
 
 constexpr double mm_per_m = 1000.0;
@@ -18,19 +20,29 @@ constexpr double stamp_slack_s = 0.1;
 
 }  // namespace
 
-std::optional<WheelTravel> TravelCounter::take(Stamp stamp, const agilex::Odometer& reading) {
-  const auto last = std::exchange(last_, Reading{stamp, reading});
+std::optional<WheelTravel> TravelCounter::take(Stamp stamp, const agilex::Odometer& odometer) {
+  const Reading reading{stamp, static_cast<double>(odometer.left_mm), static_cast<double>(odometer.right_mm)};
+  if (!last_) return go_on(reading, 0.0, 0.0);
+  return go_on(reading, difference(reading.left_mm, last_->left_mm),
+               difference(reading.right_mm, last_->right_mm));
+}
+
+std::optional<WheelTravel> TravelCounter::take(Stamp stamp, double left_mm, double right_mm) {
+  const Reading reading{stamp, left_mm, right_mm};
+  if (!last_) return go_on(reading, 0.0, 0.0);
+  return go_on(reading, left_mm - last_->left_mm, right_mm - last_->right_mm);
+}
+
+std::optional<WheelTravel> TravelCounter::go_on(const Reading& reading, double left_mm, double right_mm) {
+  const auto last = std::exchange(last_, reading);
   if (last) {
-    const std::int64_t left_mm = difference(reading.left_mm, last->odometer.left_mm);
-    const std::int64_t right_mm = difference(reading.right_mm, last->odometer.right_mm);
-    const double most_mm = mm_per_m * max_wheel_mps_ * (seconds(stamp - last->stamp) + stamp_slack_s);
-    const auto farthest_mm = static_cast<double>(std::max(std::abs(left_mm), std::abs(right_mm)));
-    if (stamp < last->stamp || farthest_mm > most_mm) return std::nullopt;
-    left_mm_ += left_mm;
-    right_mm_ += right_mm;
+    const double most_mm = mm_per_m * max_wheel_mps_ * (seconds(reading.stamp - last->stamp) + stamp_slack_s);
+    const double farthest_mm = std::max(std::abs(left_mm), std::abs(right_mm));
+    if (reading.stamp < last->stamp || farthest_mm > most_mm) return std::nullopt;
   }
-  return WheelTravel{stamp, static_cast<double>(left_mm_) / mm_per_m,
-                     static_cast<double>(right_mm_) / mm_per_m};
+  left_mm_ += left_mm;
+  right_mm_ += right_mm;
+  return WheelTravel{reading.stamp, left_mm_ / mm_per_m, right_mm_ / mm_per_m};
 }
 
 }  // namespace lodestar

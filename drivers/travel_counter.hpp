@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "drivers/agilex_v2.hpp"
@@ -8,28 +7,34 @@
 
 namespace lodestar {
 
-/// Turns the base's odometer, which wraps around at 32 bits of millimetres, into travel since the first
-/// reading.
+/// Turns readings of both wheels' positions into travel since the first reading.
 class TravelCounter {
  public:
   /// `max_wheel_mps` is far beyond what the base can do: a reading that would need more comes from a
   /// restarted base or a broken frame.
   explicit TravelCounter(double max_wheel_mps) : max_wheel_mps_(max_wheel_mps) {}
 
-  /// Nothing when the wheels cannot have rolled that far since the last reading, or when it is older than
-  /// that; travel then goes on from this reading and takes no leap.
-  std::optional<WheelTravel> take(Stamp stamp, const agilex::Odometer& reading);
+  // Nothing when the wheels cannot have rolled that far since the last reading, or when it is older than
+  // that; travel then goes on from this reading and takes no leap.
+
+  /// An odometer that wraps around at 32 bits of millimetres.
+  std::optional<WheelTravel> take(Stamp stamp, const agilex::Odometer& odometer);
+  /// Positions that do not wrap around.
+  std::optional<WheelTravel> take(Stamp stamp, double left_mm, double right_mm);
 
  private:
   struct Reading {
     Stamp stamp;
-    agilex::Odometer odometer;
+    double left_mm = 0.0;
+    double right_mm = 0.0;
   };
+
+  std::optional<WheelTravel> go_on(const Reading& reading, double left_mm, double right_mm);
 
   double max_wheel_mps_ = 0.0;
   std::optional<Reading> last_;
-  std::int64_t left_mm_ = 0;
-  std::int64_t right_mm_ = 0;
+  double left_mm_ = 0.0;
+  double right_mm_ = 0.0;
 };
 
 }  // namespace lodestar

@@ -24,5 +24,8 @@ std::vector<Command> markers_commands(CLI::App& lodestar);
 std::vector<Command> calibrate_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
 Command bench_localize_command(CLI::App& bench);
+std::vector<Command> base_commands(CLI::App& lodestar);
+std::vector<Command> run_commands(CLI::App& lodestar);
+std::vector<Command> doctor_commands(CLI::App& lodestar);
 
 }  // namespace lodestar

@@ -36,5 +36,13 @@ TEST(Site, mount_becomes_the_prior_of_the_pose_estimate) {
   EXPECT_NEAR(*prior.height_m, 1.1, 0.05);
 }
 
+TEST(Site, names_its_camera_and_its_base) {
+  const Site site = lab();
+  EXPECT_EQ(site.camera, "simulated");
+  ASSERT_TRUE(site.base);
+  EXPECT_EQ(site.base->interface, "vcan0");
+  EXPECT_EQ(site.base->protocol, "agilex");
+}
+
 }  // namespace
 }  // namespace lodestar

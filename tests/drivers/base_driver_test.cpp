@@ -30,7 +30,14 @@ class ScriptedBus final : public CanBus {
     return frame;
   }
 
+  [[nodiscard]] BusHealth health() const override { return {state, {}}; }
+  void resume() override { ++resumes; }
+  void release() override { ++releases; }
+
   bool takes_frames = true;
+  BusState state = BusState::up;
+  int resumes = 0;
+  int releases = 0;
   std::vector<CanFrame> sent;
   std::deque<StampedCanFrame> arriving;
 };
@@ -408,6 +415,57 @@ TEST(BaseWords, tell_states_and_faults_apart) {
     words.insert(to_string(fault));
   }
   EXPECT_EQ(words.size(), 12U);
+}
+
+TEST_F(BaseDriverTest, latches_what_becomes_of_the_bus_and_does_not_resume_before_it_is_well) {
+  for (const auto& [state, fault] :
+       {std::pair{BusState::stalled, BaseFault::bus_stalled},
+        std::pair{BusState::bus_off, BaseFault::bus_off}, std::pair{BusState::down, BaseFault::bus_down},
+        std::pair{BusState::missing, BaseFault::bus_missing},
+        std::pair{BusState::guard_lost, BaseFault::guard_lost}}) {
+    make_ready();
+    bus.state = state;
+    expect_latched(fault, period());
+    EXPECT_FALSE(driver.resume(now));
+    bus.state = BusState::up;
+    expect_latched(fault, period());
+    EXPECT_TRUE(driver.resume(now));
+  }
+}
+
+TEST_F(BaseDriverTest, asks_a_guard_that_holds_back_to_let_go_only_on_resume) {
+  make_ready();
+  bus.state = BusState::held;
+  expect_latched(BaseFault::guard_stopped, periods(10));
+  EXPECT_EQ(bus.resumes, 0);
+  EXPECT_TRUE(driver.resume(now));
+  EXPECT_EQ(bus.resumes, 1);
+  EXPECT_NE(period().state, BaseState::ready) << "the guard has not let go yet";
+  bus.state = BusState::up;
+  EXPECT_EQ(period().state, BaseState::ready);
+}
+
+TEST_F(BaseDriverTest, is_slow_while_the_controller_is_error_passive) {
+  make_ready();
+  bus.state = BusState::error_passive;
+  EXPECT_EQ(period().state, BaseState::ready);
+  driver.command({1.0, 0.0});
+  EXPECT_NEAR(agilex::decode_motion_command(bus.sent.back())->forward_mps, 0.3, 1e-9);
+}
+
+TEST_F(BaseDriverTest, releases_a_base_that_somebody_else_has_taken) {
+  make_ready();
+  system.mode = ControlMode::remote;
+  expect_latched(BaseFault::left_can_mode, period());
+  EXPECT_EQ(bus.releases, 1) << "so that no guard stops it in our name";
+}
+
+TEST_F(BaseDriverTest, gives_a_base_one_more_period_after_a_pause_of_its_own) {
+  make_ready();
+  now += milliseconds(300);
+  EXPECT_EQ(driver.poll(now).state, BaseState::ready);
+  now += milliseconds(20);
+  expect_latched(BaseFault::feedback_lost, driver.poll(now));
 }
 
 }  // namespace

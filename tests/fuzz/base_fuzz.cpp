@@ -28,25 +28,32 @@ class FedBus : public CanBus {
 
 constexpr std::size_t bytes_per_frame = 11;
 
+using Identifiers = std::array<std::uint32_t, 8>;
+constexpr Identifiers of_agilex{0x111, 0x211, 0x221, 0x311, 0x421, 0x441, 0x000, 0x7FF};
+constexpr Identifiers of_odrive{0x001, 0x021, 0x009, 0x029, 0x00D, 0x02D, 0x007, 0x7FF};
+
 /// Identifier among those of the protocol (or beside them), length, 8 bytes of data, milliseconds to the
 /// next.
-CanFrame frame_from(const std::uint8_t* bytes) {
-  constexpr std::array<std::uint32_t, 8> ids{0x111, 0x211, 0x221, 0x311, 0x421, 0x441, 0x000, 0x7FF};
+CanFrame frame_from(const std::uint8_t* bytes, const Identifiers& ids) {
   CanFrame frame{ids[bytes[0] % ids.size()], static_cast<std::uint8_t>(bytes[1] % 9), {}};
   std::copy(bytes + 2, bytes + 10, frame.data.begin());
   return frame;
 }
 
-void drive(const std::uint8_t* data, std::size_t size) {
+void drive(const std::uint8_t* data, std::size_t size, std::unique_ptr<BaseProtocol> protocol,
+           const Identifiers& ids) {
   FedBus bus;
-  BaseDriver driver(bus);
+  BaseDriver driver(bus, std::move(protocol));
   Stamp now(std::chrono::seconds(1));
   for (std::size_t at = 0; at + bytes_per_frame <= size; at += bytes_per_frame) {
     now += std::chrono::milliseconds(data[at + 10]);
-    bus.frames.push_back({now, frame_from(data + at)});
+    bus.frames.push_back({now, frame_from(data + at, ids)});
     const BaseFeedback feedback = driver.poll(now);
     if (feedback.state == BaseState::fault && !feedback.fault) __builtin_trap();
     if (feedback.measured && !std::isfinite(feedback.measured->forward_mps)) __builtin_trap();
+    for (const WheelTravel& travel : feedback.travel) {
+      if (!std::isfinite(travel.left_m) || !std::isfinite(travel.right_m)) __builtin_trap();
+    }
     driver.command({0.2, 0.1});
     if ((data[at] & 0x80) != 0) (void)driver.resume(now);
   }
@@ -57,6 +64,7 @@ void drive(const std::uint8_t* data, std::size_t size) {
 
 // Whatever comes over the bus, the driver neither breaks nor is in a fault without saying which.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  lodestar::drive(data, size);
+  lodestar::drive(data, size, lodestar::make_agilex_protocol(), lodestar::of_agilex);
+  lodestar::drive(data, size, lodestar::make_odrive_protocol({}), lodestar::of_odrive);
   return 0;
 }

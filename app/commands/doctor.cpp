@@ -1,0 +1,78 @@
+#include "app/doctor.hpp"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/command.hpp"
+
+namespace lodestar {
+namespace {
+
+struct DoctorArguments {
+  std::string site;
+  std::string interface;
+  bool json = false;
+};
+
+const char* word_for(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::good:
+      return "ok";
+    case Verdict::doubtful:
+      return "??";
+    case Verdict::bad:
+      return "NO";
+  }
+  return "";
+}
+
+const char* key_of(Verdict verdict) {
+  return verdict == Verdict::good ? "good" : verdict == Verdict::doubtful ? "doubtful" : "bad";
+}
+
+void print(const Finding& finding) {
+  fmt::print("{}  {:<12} {}\n", word_for(finding.verdict), finding.what, finding.found);
+  if (!finding.remedy.empty()) fmt::print("    {:<12} -> {}\n", "", finding.remedy);
+}
+
+void print_json(const std::vector<Finding>& findings) {
+  nlohmann::ordered_json report = nlohmann::ordered_json::array();
+  for (const Finding& finding : findings) {
+    report.push_back({{"what", finding.what},
+                      {"verdict", key_of(finding.verdict)},
+                      {"found", finding.found},
+                      {"remedy", finding.remedy}});
+  }
+  fmt::print("{}\n", report.dump(2));
+}
+
+ExitCode doctor_command(const DoctorArguments& arguments) {
+  const Site site = load_site(arguments.site);
+  const std::vector<Finding> findings = examine(site, connection_of(site, arguments.interface));
+  if (arguments.json) {
+    print_json(findings);
+  } else {
+    for (const Finding& finding : findings) print(finding);
+  }
+  const bool may_move =
+      std::ranges::none_of(findings, [](const Finding& finding) { return finding.verdict == Verdict::bad; });
+  return may_move ? done : job_failed;
+}
+
+}  // namespace
+
+std::vector<Command> doctor_commands(CLI::App& lodestar) {
+  const auto arguments = std::make_shared<DoctorArguments>();
+  CLI::App* command = lodestar.add_subcommand(
+      "doctor",
+      "Why does it not move? A line for each thing that must be right, with what to do; exit 1 when one is "
+      "not. Sends nothing");
+  command->add_option("site", arguments->site, "Site folder")->required();
+  command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
+  command->add_flag("--json", arguments->json, "As JSON");
+  return {{command, [arguments] { return doctor_command(*arguments); }}};
+}
+
+}  // namespace lodestar

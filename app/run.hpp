@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/run_record.hpp"
+#include "app/site.hpp"
+#include "drivers/base_protocol.hpp"
+#include "drivers/camera.hpp"
+#include "drivers/can_bus.hpp"
+
+namespace lodestar {
+
+/// What somebody wants of a robot that drives.
+enum class OperatorWish { none, resume, stop };
+
+struct RunOptions {
+  std::string camera;  ///< a profile of the site
+  std::vector<Goal> goals;
+  bool hold_on_base_fault = true;                ///< wait for resume; else the goal fails
+  std::function<OperatorWish()> operator_wish;   ///< asked at every step
+  std::function<void(const std::string&)> tell;  ///< what happens, in words for people
+};
+
+/// Drives the real robot through the goals, in real time: the road of replay(), with a bus and a camera that
+/// somebody else has opened. What the base and bus say is recorded; the truth is not known here.
+RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> protocol, Camera& camera,
+              const RunOptions& options);
+
+}  // namespace lodestar

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "drivers/can_bus.hpp"
+#include "drivers/simulated_base.hpp"
+#include "drivers/simulated_firmware.hpp"
+
+namespace lodestar {
+
+struct SimulatedOdriveOptions {
+  double wheel_diameter_m = 0.17;
+  double max_wheel_mps = 1.6;
+  bool right_is_mirrored = true;
+  Duration heartbeat_period = std::chrono::milliseconds(100);
+  Duration estimate_period = std::chrono::milliseconds(10);
+  std::optional<Duration> watchdog;  ///< as delivered, an ODrive has none: it drives on as told last
+};
+
+class SimulatedMotion;
+
+/// An ODrive with two axes, node 0 left and node 1 right, that speaks CANSimple.
+class SimulatedOdrive final : public SimulatedFirmware {
+ public:
+  SimulatedOdrive(CanBus& bus, SimulatedMotion& motion, const SimulatedOdriveOptions& options = {});
+
+  void step(Stamp now) override;
+  void press_emergency_stop(bool pressed) override;
+  /// Someone else brings the axes to rest.
+  void take_over_by_remote(bool taken) override;
+  void set_fault_bits(std::uint16_t bits) override;
+  [[nodiscard]] bool is_told_to_move() const override;
+
+ private:
+  struct Axis {
+    std::uint8_t state = 1;
+    std::uint32_t errors = 0;
+    double wanted_rps = 0.0;
+    std::optional<Stamp> fed;  ///< the watchdog
+    double last_m = 0.0;
+    double speed_rps = 0.0;
+  };
+
+  void take_in(const CanFrame& frame, Stamp now);
+  void watch(Axis& axis, Stamp now) const;
+  void drive_wheels();
+  void send_estimates(double elapsed_s);
+  void send_heartbeats();
+  void disarm(std::uint32_t error);
+  [[nodiscard]] double m_per_rev() const;
+
+  CanBus& bus_;
+  SimulatedMotion& motion_;
+  SimulatedOdriveOptions options_;
+  std::array<Axis, 2> axes_;
+  bool emergency_stop_ = false;
+  std::optional<Stamp> next_estimate_;
+  std::optional<Stamp> next_heartbeat_;
+};
+
+}  // namespace lodestar

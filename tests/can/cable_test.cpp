@@ -1,0 +1,93 @@
+#include "tests/can/lab.hpp"
+
+// The cable between the navigator and the base: bad, or cut.
+namespace lodestar {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kernel_slack = 50ms;  ///< of User-Mode Linux
+
+class Cable : public CanLab {
+ protected:
+  void lay_cable() override {
+    navigator_end = "vxcan0";
+    base_end = "vxcan1";
+    ASSERT_TRUE(
+        shell("ip link add dev vxcan0 type vxcan peer name vxcan1 && ip link set vxcan0 txqueuelen 10 up && "
+              "ip link set vxcan1 txqueuelen 10 up"));
+  }
+  void take_cable_away() override { (void)shell("ip link del vxcan0 2>/dev/null"); }
+
+  /// Both ways.
+  void spoil(const std::string& how) {
+    for (const std::string& end : {navigator_end, base_end}) {
+      ASSERT_TRUE(shell("tc qdisc replace dev " + end + " root netem limit 1000 " + how));
+    }
+  }
+
+  void expect_to_arrive() {
+    start_base();
+    start_run("--goal 2.4,5.6");
+    EXPECT_EQ(run->wait(40s), 0);
+    const Truth truth = end_base();
+    EXPECT_NEAR(truth.x_m, 2.4, 0.04);
+    EXPECT_NEAR(truth.y_m, 5.6, 0.04);
+    EXPECT_EQ(truth.contacts, 0);
+  }
+};
+
+TEST_F(Cable, that_loses_a_third_of_the_frames_is_driven_through) {
+  spoil("loss 30%");
+  expect_to_arrive();
+  EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
+}
+
+TEST_F(Cable, that_delays_doubles_and_reorders_frames_is_driven_through) {
+  spoil("delay 30ms 5ms duplicate 20%");
+  expect_to_arrive();
+  EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
+}
+
+TEST_F(Cable, that_is_cut_is_noticed_within_100_ms) {
+  start_base();
+  start_run("--goal 2.4,5.6");
+  wait_until_driving();
+  Witness navigator_side(navigator_end);
+  const Stamp cut = monotonic_now();
+  ASSERT_TRUE(shell("ip link set vxcan1 down"));
+  const auto zero = navigator_side.wait_for(is_zero_command, cut, 2s);
+  ASSERT_TRUE(zero) << "send zero anyway";
+  const auto heard = navigator_side.heard(
+      [](const CanFrame& frame) {
+        return frame.id == agilex::system_state_id || frame.id == agilex::odometer_id;
+      },
+      Stamp{}, zero->stamp);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_LE(zero->stamp - heard.back().stamp, 120ms + kernel_slack);
+  EXPECT_TRUE(navigator_side.heard(is_moving_command, zero->stamp).empty());
+  EXPECT_TRUE(wait_for_words("base: stopped by a fault", 1s));
+
+  const Stamp back = monotonic_now();
+  ASSERT_TRUE(shell("ip link set vxcan1 up"));
+  EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s)) << "moves without a resume";
+  EXPECT_EQ(resume_until_the_end(40s), 0);
+}
+
+TEST_F(Cable, that_takes_no_more_frames_is_noticed_and_brings_no_old_ones_later) {
+  start_base();
+  start_run("--goal 2.4,5.6");
+  wait_until_driving();
+  const Stamp stalled = monotonic_now();
+  ASSERT_TRUE(shell("tc qdisc replace dev vxcan0 root netem limit 1 delay 1500ms"));
+  EXPECT_TRUE(wait_for_words("base: stopped by a fault", 1s));
+  measure("interface takes no frames", stalled);
+  ASSERT_TRUE(shell("tc qdisc del dev vxcan0 root"));
+  const Stamp flows = monotonic_now();
+  EXPECT_LE(witness->heard(is_moving_command, stalled + 300ms).size(), 2U) << "one old command, or two";
+  EXPECT_FALSE(witness->wait_for(is_moving_command, flows, 1s)) << "moves without a resume";
+  EXPECT_EQ(resume_until_the_end(40s), 0);
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,86 @@
+#include <fstream>
+
+#include "tests/can/lab.hpp"
+
+// What happens to the interface itself: each fault is latched, lived through, and after an explicit resume
+// the mission goes on.
+namespace lodestar {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kernel_slack = 50ms;  ///< of User-Mode Linux
+
+class Interface : public CanLab {
+ protected:
+  void drive(const std::string& goal = "2.4,5.6") {
+    start_base();
+    start_run("--goal " + goal);
+    wait_until_driving();
+  }
+
+  /// The robot stays where it is until somebody resumes, and then arrives.
+  void expect_latched_until_resume(const std::string& words, Stamp back) {
+    EXPECT_TRUE(wait_for_words(words, 2s));
+    EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s)) << "moves without a resume";
+    EXPECT_EQ(resume_until_the_end(40s), 0);
+    const Truth truth = end_base();
+    EXPECT_NEAR(truth.x_m, 2.4, 0.03);
+    EXPECT_NEAR(truth.y_m, 5.6, 0.03);
+  }
+};
+
+TEST_F(Interface, switched_off_for_300_ms) {
+  drive();
+  const Stamp off = monotonic_now();
+  ASSERT_TRUE(shell("ip link set vcan0 down"));
+  EXPECT_TRUE(wait_for_words("the CAN interface is switched off", 20ms + kernel_slack));
+  sleep_until(monotonic_now() + 300ms);
+  const Stamp back = monotonic_now();
+  ASSERT_TRUE(shell("ip link set vcan0 up"));
+  measure("interface switched off for 300 ms", off);
+  expect_latched_until_resume("switched off", back);
+}
+
+TEST_F(Interface, removed_and_plugged_in_again) {
+  drive();
+  const Stamp off = monotonic_now();
+  ASSERT_TRUE(shell("ip link del vcan0"));
+  EXPECT_TRUE(wait_for_words("base: stopped by a fault", 20ms + kernel_slack));
+  sleep_until(monotonic_now() + 500ms);
+  const Stamp back = monotonic_now();
+  ASSERT_TRUE(shell("ip link add dev vcan0 type vcan && ip link set vcan0 txqueuelen 10 up"));
+  measure("interface removed for 500 ms", off);
+  expect_latched_until_resume("base: stopped by a fault", back);
+}
+
+TEST_F(Interface, bus_off_until_the_controller_restarts) {
+  drive();
+  const Stamp off = monotonic_now();
+  ASSERT_TRUE(shell("cansend vcan0 20000040#0000000000000000"));
+  EXPECT_TRUE(wait_for_words("bus-off", 20ms + kernel_slack));
+  const auto zero = witness->wait_for(is_zero_command, off, 1s);
+  ASSERT_TRUE(zero);
+  measure("bus-off", off);
+  run->say("resume");
+  EXPECT_TRUE(wait_for_words("cannot resume", 1s));
+  const Stamp back = monotonic_now();
+  ASSERT_TRUE(shell("cansend vcan0 20000100#0000000000000000"));
+  expect_latched_until_resume("bus-off", back);
+}
+
+TEST_F(Interface, error_passive_makes_it_slow) {
+  drive("4.2,5.6");
+  const Stamp passive = monotonic_now();
+  std::ofstream("passive.log") << "(1.000000) vcan0 20000204#0020000000008080\n"
+                               << "(1.200000) vcan0 20000204#0020000000008080\n";
+  Process words({"canplayer", "-I", "passive.log", "-l", "i"}, "words.log");
+  EXPECT_TRUE(witness->wait_for(drives_faster_than(0.1), passive + 1s, 3s));
+  EXPECT_TRUE(witness->heard(drives_faster_than(0.35), passive + 1s).empty());
+  words.end();
+  EXPECT_EQ(resume_until_the_end(40s), 0);
+  EXPECT_EQ(run->output().find("CAN controller"), std::string::npos) << "a warning is no fault";
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,122 @@
+#include "tests/can/lab.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace lodestar {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+bool is_in_user_mode_linux() {
+  std::ostringstream text;
+  text << std::ifstream("/proc/cpuinfo").rdbuf();
+  return text.str().find("User Mode Linux") != std::string::npos;
+}
+
+std::vector<std::string> words_in(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+std::string log_named(const std::string& name) {
+  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+  return std::string(test->name()) + "." + name + ".txt";
+}
+
+}  // namespace
+
+void CanLab::SetUp() {
+  if (!is_in_user_mode_linux()) GTEST_SKIP() << "to be run by tests/can/in_uml";
+  lay_cable();
+  witness = std::make_unique<Witness>(base_end);
+}
+
+void CanLab::lay_cable() {
+  ASSERT_TRUE(shell("ip link add dev vcan0 type vcan && ip link set vcan0 txqueuelen 10 up"));
+}
+
+void CanLab::take_cable_away() {
+  (void)shell("ip link del vcan0 2>/dev/null");
+}
+
+void CanLab::TearDown() {
+  if (HasFailure() && run) std::printf("--- run:\n%s\n", run->output().c_str());
+  if (HasFailure() && base) std::printf("--- base:\n%s\n", base->output().c_str());
+  run.reset();
+  base.reset();
+  witness.reset();
+  if (is_in_user_mode_linux()) take_cable_away();
+}
+
+void CanLab::start_base(const std::string& options) {
+  base = std::make_unique<Process>(words_in(std::string(LODESTAR_BINARY " base ") + site + " --can " +
+                                            base_end + " --world " + navigator_end + " " + options),
+                                   log_named("base"));
+}
+
+void CanLab::start_run(const std::string& goals) {
+  run = std::make_unique<Process>(
+      words_in(std::string(LODESTAR_BINARY " run ") + site + " --can " + navigator_end + " " + goals),
+      log_named("run"));
+}
+
+void CanLab::measure(const std::string& fault, Stamp since) const {
+  const auto rest = witness->wait_for(says_standing, since + 200ms, 5s);
+  const auto moving = witness->heard(is_moving_command, since, rest ? rest->stamp : Stamp::max());
+  const auto zero = witness->heard(is_zero_command, since);
+  const auto is_odometer = [](const CanFrame& frame) { return frame.id == agilex::odometer_id; };
+  const auto before = witness->heard(is_odometer, Stamp{}, since);
+  const auto after = witness->heard(is_odometer, since, rest ? rest->stamp + 20ms : Stamp::max());
+  const auto travel_mm = [](const StampedCanFrame& frame) {
+    const auto odometer = agilex::decode_odometer(frame.frame);
+    return (odometer->left_mm + odometer->right_mm) / 2.0;
+  };
+  std::ofstream csv("measured.csv", std::ios::app);
+  csv << fault << ',' << (moving.empty() ? 0.0 : 1e3 * lodestar::seconds(moving.back().stamp - since)) << ',';
+  if (!zero.empty()) csv << 1e3 * lodestar::seconds(zero.front().stamp - since);
+  csv << ',';
+  if (rest && !before.empty() && !after.empty()) csv << travel_mm(after.back()) - travel_mm(before.back());
+  csv << '\n';
+}
+
+Stamp CanLab::wait_until_driving() {
+  const auto driving = witness->wait_for(drives_faster_than(0.3), Stamp{}, 20s);
+  EXPECT_TRUE(driving) << "never drove";
+  return monotonic_now();
+}
+
+bool CanLab::wait_for_words(const std::string& words, Duration longest) const {
+  const Stamp end = monotonic_now() + longest;
+  while (run->output().find(words) == std::string::npos) {
+    if (monotonic_now() >= end) return false;
+    std::this_thread::sleep_for(10ms);
+  }
+  return true;
+}
+
+std::optional<int> CanLab::resume_until_the_end(Duration longest) {
+  std::optional<int> ended;
+  for (const Stamp end = monotonic_now() + longest; !ended && monotonic_now() < end;) {
+    run->say("resume");
+    ended = run->wait(1s);
+  }
+  return ended;
+}
+
+CanLab::Truth CanLab::end_base() {
+  const std::string output = base->end();
+  Truth truth;
+  const std::size_t line = output.find("at ");
+  if (line == std::string::npos) return truth;
+  std::istringstream in(output.substr(line));
+  std::string word;
+  in >> word >> truth.x_m >> truth.y_m >> truth.heading_deg >> word >> truth.driven_m >> word >>
+      truth.contacts;
+  return truth;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+
+#include "drivers/clock.hpp"
+
+#include "tests/can/process.hpp"
+#include "tests/can/witness.hpp"
+
+namespace lodestar {
+
+/// The simulated base and the navigator as processes on a CAN interface of this kernel, and a witness. The
+/// tests change network interfaces, so they refuse to run anywhere but in a User-Mode Linux.
+class CanLab : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  /// A virtual interface for both, unless the test lays another cable.
+  virtual void lay_cable();
+  virtual void take_cable_away();
+
+  void start_base(const std::string& options = "");
+  void start_run(const std::string& goals);
+
+  /// Once the base has come to rest: how long after `since` it was still told to move, when it was first told
+  /// to stand, and how far it went. Adds a line to measured.csv.
+  void measure(const std::string& fault, Stamp since) const;
+
+  /// Drives, on a straight leg. The time at which that was seen.
+  Stamp wait_until_driving();
+  /// The navigator has said so on its way.
+  bool wait_for_words(const std::string& words, Duration longest) const;
+  /// Somebody stands there and resumes, as often as it takes, until the mission is over; its exit code. (On a
+  /// machine that is busy with other things, this kernel itself may hang for a while.)
+  std::optional<int> resume_until_the_end(Duration longest);
+
+  /// How the simulated drive truly ended.
+  struct Truth {
+    double x_m = 0.0;
+    double y_m = 0.0;
+    double heading_deg = 0.0;
+    double driven_m = 0.0;
+    int contacts = -1;
+  };
+  Truth end_base();
+
+  std::string site = LODESTAR_SOURCE_DIR "/sites/lab";
+  std::string navigator_end = "vcan0";
+  std::string base_end = "vcan0";
+  std::unique_ptr<Witness> witness;
+  std::unique_ptr<Process> base;
+  std::unique_ptr<Process> run;
+};
+
+}  // namespace lodestar

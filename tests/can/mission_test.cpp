@@ -1,0 +1,107 @@
+#include <cmath>
+
+#include "drivers/candump.hpp"
+
+#include "tests/can/lab.hpp"
+
+// Whole missions by the real command line over a real kernel's CAN.
+namespace lodestar {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Mission : public CanLab {};
+
+TEST_F(Mission, arrives_and_candump_saw_it) {
+  Process candump({"candump", "-L", base_end}, "candump.log");
+  start_base();
+  start_run("--goal 2.4,5.6 --goal 2.2,5.6,90 -o run");
+  EXPECT_EQ(run->wait(60s), 0);
+  candump.end();
+  const Truth truth = end_base();
+
+  EXPECT_NEAR(truth.x_m, 2.2, 0.03);
+  EXPECT_NEAR(truth.y_m, 5.6, 0.03);
+  EXPECT_NEAR(truth.heading_deg, 90.0, 2.0);
+  EXPECT_EQ(truth.contacts, 0);
+
+  // The log of another program: CAN mode was asked for before the first command, commands came steadily, and
+  // the last one stands still.
+  const std::vector<LoggedCanFrame> log = load_candump("candump.log");
+  std::vector<StampedCanFrame> commands;
+  bool asked = false;
+  for (const LoggedCanFrame& logged : log) {
+    const CanFrame& frame = logged.received.frame;
+    asked = asked || agilex::decode_control_mode(frame) == agilex::ControlMode::can;
+    if (!is_motion_command(frame)) continue;
+    ASSERT_TRUE(asked);
+    commands.push_back(logged.received);
+  }
+  ASSERT_GT(commands.size(), 300U);
+  std::size_t late = 0;
+  for (std::size_t i = 1; i < commands.size(); ++i) {
+    if (is_zero_command(commands[i - 1].frame)) continue;
+    const Duration gap = commands[i].stamp - commands[i - 1].stamp;
+    EXPECT_LT(gap, 500ms) << "the base gives up waiting";
+    if (gap > 90ms) ++late;
+  }
+  EXPECT_LE(late, commands.size() / 100) << "a command every 20 ms; two periods and what this kernel takes";
+  EXPECT_TRUE(is_zero_command(commands.back().frame));
+  EXPECT_FALSE(load_candump("run/can.log").empty());
+}
+
+/// The same drive on the two axes of an ODrive.
+TEST_F(Mission, arrives_with_an_odrive) {
+  ASSERT_TRUE(shell(
+      "cp -r " LODESTAR_SOURCE_DIR
+      "/sites/lab odrive && sed -i 's/^base:.*/base: {bus: socketcan:vcan0, "
+      "protocol: odrive, wheel_diameter_m: 0.17, left_node: 0, right_node: 1, right_is_mirrored: true}/' "
+      "odrive/site.yaml"));
+  site = "odrive";
+  start_base("--protocol odrive");
+  start_run("--goal 2.4,5.6");
+  EXPECT_EQ(resume_until_the_end(40s), 0);
+  const Truth truth = end_base();
+  EXPECT_NEAR(truth.x_m, 2.4, 0.03);
+  EXPECT_NEAR(truth.y_m, 5.6, 0.03);
+}
+
+/// What clients of other makers look for, at its period.
+TEST_F(Mission, base_speaks_as_the_manual_says) {
+  start_base();
+  const auto first = witness->wait_for([](const CanFrame& frame) { return frame.id == 0x211; }, Stamp{}, 10s);
+  ASSERT_TRUE(first);
+  sleep_until(first->stamp + 2500ms);
+  for (const auto& [id, expected] : {std::pair{0x211U, 100.0},
+                                     {0x221U, 100.0},
+                                     {0x311U, 100.0},
+                                     {0x251U, 100.0},
+                                     {0x252U, 100.0},
+                                     {0x261U, 20.0},
+                                     {0x262U, 20.0},
+                                     {0x361U, 4.0}}) {
+    const auto heard = witness->heard([id = id](const CanFrame& frame) { return frame.id == id; },
+                                      first->stamp, first->stamp + 2000ms);
+    EXPECT_NEAR(static_cast<double>(heard.size()), expected, 1.0 + 0.2 * expected) << std::hex << id;
+  }
+}
+
+TEST_F(Mission, waits_for_an_interface_and_a_base_that_come_later) {
+  ASSERT_TRUE(shell("ip link del vcan0"));
+  start_run("--goal 1.8,5.6");
+  EXPECT_TRUE(wait_for_words("missing", 5s));
+  ASSERT_TRUE(shell("ip link add dev vcan0 type vcan && ip link set vcan0 up"));
+  EXPECT_TRUE(wait_for_words("silent", 5s));
+  EXPECT_TRUE(witness->heard(is_motion_command, Stamp{}).empty()) << "moves by itself";
+  start_base();
+  EXPECT_EQ(run->wait(30s), 0);
+}
+
+TEST_F(Mission, without_a_base_ends_in_failure) {
+  start_run("--goal 1.8,5.6");
+  EXPECT_EQ(run->wait(25s), 1);
+  EXPECT_TRUE(wait_for_words("the base is silent", 1s));
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,104 @@
+#include <csignal>
+
+#include "tests/can/lab.hpp"
+
+// The processes that drive die or hang; the base comes to rest.
+namespace lodestar {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kernel_slack = 50ms;  ///< of User-Mode Linux
+
+class ProcessFaults : public CanLab {
+ protected:
+  void drive() {
+    start_base();
+    start_run("--goal 9.0,5.0");
+    wait_until_driving();
+  }
+
+  void expect_rest(Stamp since) {
+    EXPECT_TRUE(witness->wait_for(says_standing, since + 300ms, 3s)) << "never came to rest";
+  }
+
+  pid_t guard_of_run() const {
+    FILE* const found = popen(("pgrep -P " + std::to_string(run->id())).c_str(), "r");
+    int id = -1;
+    if (std::fscanf(found, "%d", &id) != 1) id = -1;
+    pclose(found);
+    return id;
+  }
+};
+
+TEST_F(ProcessFaults, a_killed_navigator_is_stopped_within_50_ms) {
+  drive();
+  const Stamp killed = monotonic_now();
+  run->signal(SIGKILL);
+  const auto zero = witness->wait_for(is_zero_command, killed, 2s);
+  ASSERT_TRUE(zero);
+  EXPECT_LE(zero->stamp - killed, 50ms + kernel_slack);
+  EXPECT_TRUE(witness->heard(is_moving_command, zero->stamp).empty());
+  expect_rest(killed);
+  measure("navigator killed", killed);
+}
+
+TEST_F(ProcessFaults, a_hung_navigator_is_stopped_within_150_ms_and_stays_stopped_when_it_wakes) {
+  drive();
+  const Stamp hung = monotonic_now();
+  run->signal(SIGSTOP);
+  const auto zero = witness->wait_for(is_zero_command, hung, 2s);
+  ASSERT_TRUE(zero);
+  EXPECT_LE(zero->stamp - hung, 150ms + kernel_slack);
+  expect_rest(hung);
+  measure("navigator hung", hung);
+
+  const Stamp woken = monotonic_now();
+  run->signal(SIGCONT);
+  EXPECT_TRUE(wait_for_words("the guard has stopped a navigator that hung", 2s));
+  EXPECT_FALSE(witness->wait_for(is_moving_command, zero->stamp, 1s)) << "moves without a resume";
+  EXPECT_GT(monotonic_now() - woken, 900ms);
+
+  run->say("resume");
+  EXPECT_TRUE(witness->wait_for(drives_faster_than(0.2), woken, 5s));
+}
+
+TEST_F(ProcessFaults, a_killed_guard_leaves_the_base_to_its_own_timeout) {
+  drive();
+  const pid_t guard = guard_of_run();
+  ASSERT_GT(guard, 0);
+  const Stamp killed = monotonic_now();
+  ASSERT_EQ(kill(guard, SIGKILL), 0);
+  EXPECT_EQ(run->wait(3s), 1);
+  EXPECT_TRUE(witness->heard(is_motion_command, killed + 20ms).empty()) << "nobody can command any more";
+  EXPECT_TRUE(witness->wait_for(says_standing, killed, 2s));
+  measure("guard killed", killed);
+}
+
+TEST_F(ProcessFaults, with_both_killed_the_base_comes_to_rest_by_itself) {
+  drive();
+  const pid_t guard = guard_of_run();
+  ASSERT_GT(guard, 0);
+  const Stamp killed = monotonic_now();
+  ASSERT_EQ(kill(guard, SIGKILL), 0);
+  run->signal(SIGKILL);
+  const auto rest = witness->wait_for(says_standing, killed, 3s);
+  ASSERT_TRUE(rest);
+  // 500 ms until the base gives up waiting, 300 ms to slow down from 0.6 m/s at 2 m/s2, its lag and a period.
+  EXPECT_LE(rest->stamp - killed, 1200ms + kernel_slack);
+  measure("navigator and guard killed", killed);
+}
+
+TEST_F(ProcessFaults, an_hour_on_the_wall_clock_is_no_fault) {
+  start_base();
+  start_run("--goal 2.4,5.6");
+  wait_until_driving();
+  ASSERT_TRUE(shell("date -s '+1 hour' >/dev/null"));
+  wait_for_words("never said", 500ms);
+  ASSERT_TRUE(shell("date -s '-2 hours' >/dev/null"));
+  EXPECT_EQ(run->wait(30s), 0);
+  EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "drivers/file_descriptor.hpp"
+#include "drivers/socketcan_bus.hpp"
+
+namespace lodestar {
+
+/// A serial CAN adapter in software: the kernel's own slcan driver at one end of a pseudo terminal, this at
+/// the other, which passes frames on to and from the interface of the base. Its controller can get into
+/// trouble; what the kernel makes of that is real.
+class SlcanAdapter {
+ public:
+  explicit SlcanAdapter(const std::string& base_end);
+  ~SlcanAdapter();
+  SlcanAdapter(const SlcanAdapter&) = delete;
+  SlcanAdapter& operator=(const SlcanAdapter&) = delete;
+
+  /// Of the interface that the kernel has made.
+  [[nodiscard]] const std::string& interface() const { return interface_; }
+
+  /// The controller has left the bus: no frame passes until back_on_bus().
+  void bus_off();
+  void back_on_bus();
+
+ private:
+  void work();
+  void take_in(const std::string& line);
+  void say(const std::string& line);
+
+  FileDescriptor controller_;  ///< our end
+  FileDescriptor terminal_;    ///< the kernel's end
+  std::string interface_;
+  SocketCanBus base_;
+  std::mutex mutex_;
+  bool is_off_ = false;
+  std::string text_;
+  std::jthread thread_;
+};
+
+}  // namespace lodestar

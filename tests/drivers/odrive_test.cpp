@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include "drivers/base_driver.hpp"
+#include "drivers/in_process_bus.hpp"
+#include "drivers/odrive_table.hpp"
+#include "drivers/simulated_motion.hpp"
+#include "drivers/simulated_odrive.hpp"
+
+namespace lodestar {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+SimulatedBaseOptions perfect_wheels() {
+  SimulatedBaseOptions options;
+  options.true_track_width_m = options.track_width_m;
+  options.left_wheel_scale = 1.0;
+  options.right_wheel_scale = 1.0;
+  options.slip_sigma_per_sqrt_m = 0.0;
+  return options;
+}
+
+/// Two axes at one end of a bus, the driver at the other.
+struct World {
+  explicit World(const SimulatedOdriveOptions& options = {})
+      : motion(perfect_wheels(), {}, 1), base(bus.attach(), motion, options) {}
+
+  void drive(const BodyVelocity& velocity, Duration time, bool commands = true) {
+    for (const Stamp end = now + time; now < end;) {
+      now += milliseconds(1);
+      motion.step(milliseconds(1));
+      bus.advance(now);
+      base.step(now);
+      if (now.time_since_epoch() % milliseconds(20) != Duration::zero()) continue;
+      feedback = driver.poll(now);
+      if (!feedback.travel.empty()) travel = feedback.travel.back();
+      if (commands) driver.command(velocity);
+    }
+  }
+
+  InProcessBus bus;
+  CanBus& navigator_end = bus.attach();
+  SimulatedMotion motion;
+  SimulatedOdrive base;
+  BaseDriver driver{navigator_end, make_odrive_protocol({})};
+  Stamp now;
+  BaseFeedback feedback;
+  WheelTravel travel;
+};
+
+TEST(Odrive, takes_both_axes_into_closed_loop_and_drives) {
+  World world;
+  world.drive({}, milliseconds(400));
+  ASSERT_EQ(world.feedback.state, BaseState::ready);
+  world.drive({0.5, 0.0}, seconds(2));
+  EXPECT_NEAR(world.feedback.measured->forward_mps, 0.5, 0.02);
+  EXPECT_NEAR(world.feedback.measured->turn_radps, 0.0, 0.05);
+  world.drive({0.0, 0.0}, seconds(1));
+  const double rolled_m = (world.travel.left_m + world.travel.right_m) / 2.0;
+  EXPECT_NEAR(rolled_m, world.motion.true_map_from_base().position_m.x(), 0.005);
+  EXPECT_NEAR(rolled_m, 0.9, 0.1);
+  EXPECT_EQ(world.driver.counts().odd_frames, 0U);
+}
+
+TEST(Odrive, turns_counter_clockwise_when_told_so) {
+  World world;
+  world.drive({}, milliseconds(400));
+  world.drive({0.0, 0.8}, seconds(1));
+  EXPECT_GT(world.motion.true_map_from_base().yaw_rad, 0.5);
+  EXPECT_NEAR(world.feedback.measured->turn_radps, 0.8, 0.05);
+}
+
+TEST(Odrive, stays_stopped_after_an_emergency_stop_until_its_errors_are_cleared_and_somebody_resumes) {
+  World world;
+  world.drive({}, milliseconds(400));
+  world.base.press_emergency_stop(true);
+  world.drive({0.3, 0.0}, milliseconds(300));
+  EXPECT_EQ(world.feedback.fault, BaseFault::emergency_stop);
+  EXPECT_FALSE(world.driver.resume(world.now));
+  world.drive({0.3, 0.0}, milliseconds(300));
+  world.base.press_emergency_stop(false);
+  world.drive({0.3, 0.0}, milliseconds(300));
+  EXPECT_EQ(world.feedback.state, BaseState::fault) << "released is not resumed";
+  EXPECT_FALSE(world.driver.resume(world.now)) << "asks the axes to clear their errors";
+  world.drive({}, milliseconds(300));
+  EXPECT_TRUE(world.driver.resume(world.now));
+  world.drive({0.3, 0.0}, seconds(1));
+  EXPECT_GT(world.feedback.measured->forward_mps, 0.25);
+}
+
+TEST(Odrive, half_a_base_is_no_base) {
+  InProcessBus bus;
+  BaseDriver driver(bus.attach(), make_odrive_protocol({}));
+  CanBus& left_axis = bus.attach();
+  for (int i = 0; i < 100; ++i) {
+    const Stamp now(milliseconds(20) * i);
+    EXPECT_TRUE(left_axis.send(encode(odrive::tables::heartbeat, {0.0, 8.0})));
+    EXPECT_TRUE(left_axis.send(encode(odrive::tables::encoder_estimates, {})));
+    bus.advance(now);
+    EXPECT_NE(driver.poll(now).state, BaseState::ready);
+  }
+}
+
+TEST(Odrive, with_a_watchdog_goes_idle_when_nobody_commands) {
+  World world({.watchdog = milliseconds(200)});
+  world.drive({}, milliseconds(400));
+  world.drive({0.5, 0.0}, seconds(1));
+  world.drive({}, seconds(1), false);
+  EXPECT_EQ(world.feedback.fault, BaseFault::fault_bits);
+  EXPECT_EQ(make_odrive_protocol({})->fault_names(world.feedback.system->fault_bits),
+            std::vector<std::string>{"watchdog expired"});
+}
+
+}  // namespace
+}  // namespace lodestar
