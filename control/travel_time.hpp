@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "control/rotate_then_drive.hpp"
+#include "control/drive_options.hpp"
 #include "maps/motion.hpp"
 
 namespace lodestar {
