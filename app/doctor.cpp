@@ -12,7 +12,7 @@
 #include "drivers/can_interface.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/socketcan_bus.hpp"
-#include "localization/paper_detector.hpp"
+#include "localization/marker_detector.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {

@@ -1,11 +1,14 @@
 #include "app/navigation.hpp"
 
+#include <algorithm>
+
 namespace lodestar {
 namespace {
 
-DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options) {
-  options.registered_ids = registered_ids(registry);
-  return options;
+/// How far the wheels say that the robot has turned, up to a factor near 1.
+std::optional<double> turned_by(const std::vector<WheelTravel>& travel, double track_width_m) {
+  if (travel.empty()) return std::nullopt;
+  return (travel.back().right_m - travel.back().left_m) / track_width_m;
 }
 
 }  // namespace
@@ -13,42 +16,56 @@ DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions option
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : world_(world),
       options_(options),
-      detector_(expecting(world.registry, options.detector)),
+      sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix),
       planner_(world.map, options.planner),
-      filter_(options.filter) {}
+      free_way_(world.map, options.planner.radius_m),
+      known_{PoseFilter(options.filter), MarkerTrust(options.trust)},
+      look_around_(options.look_around) {}
 
 NavigationStep Navigation::step(const SensorInput& input) {
   // Travel comes first: a frame was exposed before the newest wheel reading, and the filter corrects the
   // past.
-  PoseFilter filter = filter_;
-  for (const WheelTravel& travel : input.base.travel) filter.add_travel(travel);
-  std::vector<UsedFix> fixes = see(input.frames, filter);
+  Whereabouts known = known_;
+  for (const WheelTravel& travel : input.base.travel) known.filter.add_travel(travel);
+  std::vector<UsedFix> fixes;
+  for (const Frame& frame : input.frames)
+    if (std::optional<UsedFix> used = sight_.see(frame, known)) fixes.push_back(std::move(*used));
 
-  const std::optional<PoseEstimate> estimate = filter.estimate();
-  const std::optional<StopReason> stop = reason_to_stop(input.now, estimate, options_.safety);
+  const std::optional<PoseEstimate> estimate = known.filter.estimate();
+  const double turned_rad = turned_by(input.base.travel, options_.drive.track_width_m).value_or(turned_rad_);
+  std::optional<StopReason> stop = reason_to_stop(input.now, estimate, options_.safety);
   const Duration elapsed = last_step_ ? input.now - *last_step_ : Duration::zero();
   std::optional<RotateThenDrive> drive = drive_;
+  LookAround look_around = look_around_;
   BodyVelocity command;
-  if (drive) command = stop ? drive->slow_down(elapsed) : drive->update(*estimate, elapsed);
+  if (drive) {
+    const bool may_look = !drive->paused() && !drive->arrived();
+    const std::optional<double> look =
+        look_around.update(input.now, may_look ? stop : std::nullopt, turned_rad);
+    if (look) {
+      command = drive->turn_around(*look, elapsed);
+    } else if (stop) {
+      command = drive->slow_down(elapsed);
+    } else {
+      const SpeedLimit limit = speed_limit(*estimate);
+      command = drive->update(*estimate, elapsed, limit);
+      const bool blocked = limit.forward_mps < options_.drive.min_forward_mps;
+      if (blocked && drive->phase() == DrivePhase::driving) stop = StopReason::way_blocked;
+    }
+    if (drive->phase() == DrivePhase::cancelled) drive.reset();
+  }
 
-  filter_ = std::move(filter);
+  known_ = std::move(known);
   estimate_ = estimate;
   drive_ = std::move(drive);
+  look_around_ = look_around;
+  turned_rad_ = turned_rad;
   last_step_ = input.now;
-  return {.fixes = std::move(fixes), .estimate = estimate, .stop = stop, .command = command};
-}
-
-std::vector<UsedFix> Navigation::see(const std::vector<Frame>& frames, PoseFilter& filter) {
-  std::vector<UsedFix> fixes;
-  for (const Frame& frame : frames) {
-    const std::vector<DetectedMarker> markers = detector_.detect(frame.gray);
-    const std::optional<PoseFix> fix =
-        fix_pose(frame.stamp, markers, world_.registry, world_.camera, options_.fix);
-    if (!fix) continue;
-    const PlanarFix planar = compensate_mount(*fix, world_.base_from_camera);
-    fixes.push_back({.fix = *fix, .planar = planar, .outcome = filter.add_fix(planar)});
-  }
-  return fixes;
+  return {.fixes = std::move(fixes),
+          .estimate = estimate,
+          .stop = stop,
+          .command = command,
+          .distrusted = known_.trust.distrusted()};
 }
 
 std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
@@ -58,9 +75,49 @@ std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
   PlanResult result = planner_.plan(pose.position_m, goal.position_m,
                                     {.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad});
   if (const auto* plan = std::get_if<Plan>(&result)) {
-    drive_.emplace(plan->path, goal.heading_rad, options_.drive);
+    drive_.emplace(plan->path, goal.heading_rad, drive_options(plan->path));
   }
   return result;
+}
+
+/// The less sure of its pose the slower, and never so fast that the robot could not stop before it meets what
+/// lies straight ahead.
+SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate) const {
+  const DriveOptions& drive = options_.drive;
+  const double deceleration = drive.braking_share * drive.max_acceleration_mps2;
+  const double reach_m =
+      drive.max_forward_mps * (drive.response_s + 0.5 * drive.max_forward_mps / deceleration);
+  const double free_m = free_way_.ahead_m(estimate.map_from_base, reach_m);
+  const double share = share_of_speed(estimate.covariance, options_.safety, options_.caution);
+  return {.forward_mps = std::min(share * drive.max_forward_mps,
+                                  speed_to_stop_within(free_m, deceleration, drive.response_s)),
+          .turn_radps = share * drive.max_turn_radps};
+}
+
+/// Corners are cut only where there is room for it.
+DriveOptions Navigation::drive_options(const Path& path) const {
+  DriveOptions options = options_.drive;
+  for (std::size_t i = 2; i < path.waypoints_m.size(); ++i) {
+    const Vec2& waypoint = path.waypoints_m[i - 1];
+    const auto corner = corner_at(path.waypoints_m[i - 2], waypoint, path.waypoints_m[i], options_.drive);
+    if (!corner) continue;
+    const Vec2 begin = waypoint + corner->cut_m * (path.waypoints_m[i - 2] - waypoint).normalized();
+    const Vec2 end = waypoint + corner->cut_m * (path.waypoints_m[i] - waypoint).normalized();
+    if (!planner_.is_clear(begin, end)) options.blend_corridor_m = 0.0;
+  }
+  return options;
+}
+
+void Navigation::pause() {
+  if (drive_) drive_->pause();
+}
+
+void Navigation::resume() {
+  if (drive_) drive_->resume();
+}
+
+void Navigation::cancel() {
+  if (drive_) drive_->cancel();
 }
 
 }  // namespace lodestar

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "app/goal.hpp"
+#include "app/sight.hpp"
+#include "control/free_way.hpp"
+#include "control/look_around.hpp"
 #include "control/rotate_then_drive.hpp"
 #include "control/safety_stop.hpp"
+#include "control/speed_limit.hpp"
 #include "drivers/base_driver.hpp"
-#include "localization/marker_detector.hpp"
-#include "localization/pose_filter.hpp"
-#include "localization/pose_fix.hpp"
 #include "maps/frame.hpp"
 #include "planning/grid_planner.hpp"
 
@@ -28,9 +29,12 @@ struct NavigationOptions {
   DetectorOptions detector;
   PoseFixOptions fix;
   PoseFilterOptions filter;
+  MarkerTrustOptions trust;
   GridPlannerOptions planner;
   DriveOptions drive;
   SafetyStopOptions safety;
+  CautionOptions caution;
+  LookAroundOptions look_around;
 };
 
 /// All that has arrived since the last step. Time arrives with the data.
@@ -40,19 +44,13 @@ struct SensorInput {
   BaseFeedback base;
 };
 
-/// One camera frame that gave a pose, and what the filter made of it.
-struct UsedFix {
-  PoseFix fix;
-  PlanarFix planar;
-  FixOutcome outcome = FixOutcome::collecting;
-};
-
 /// What one step of the navigator found out and wants.
 struct NavigationStep {
   std::vector<UsedFix> fixes;
   std::optional<PoseEstimate> estimate;
   std::optional<StopReason> stop;  ///< why the robot may not move, if so
   BodyVelocity command;
+  std::vector<DistrustedMarker> distrusted;  ///< so far
 };
 
 /// The road from frames and wheel travel to a velocity.
@@ -70,16 +68,28 @@ class Navigation {
   /// Follows nothing any more: the next command is zero.
   void halt() { drive_.reset(); }
 
+  /// Brings the robot to rest within its limits; then resume() goes on to the same goal.
+  void pause();
+  void resume();
+  [[nodiscard]] bool paused() const { return drive_ && drive_->paused(); }
+
+  /// Brings the robot to rest within its limits and follows nothing any more.
+  void cancel();
+
   [[nodiscard]] bool arrived() const { return drive_ && drive_->arrived(); }
 
  private:
-  std::vector<UsedFix> see(const std::vector<Frame>& frames, PoseFilter& filter);
+  [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate) const;
+  [[nodiscard]] DriveOptions drive_options(const Path& path) const;
 
   KnownWorld world_;
   NavigationOptions options_;
-  MarkerDetector detector_;
+  Sight sight_;
   GridPlanner planner_;
-  PoseFilter filter_;
+  FreeWay free_way_;
+  Whereabouts known_;
+  LookAround look_around_;
+  double turned_rad_ = 0.0;  ///< by the wheels, since start-up
   std::optional<PoseEstimate> estimate_;
   std::optional<RotateThenDrive> drive_;
   std::optional<Stamp> last_step_;

@@ -3,10 +3,7 @@
 #include "control/travel_time.hpp"
 
 namespace lodestar {
-namespace {
-
-/// Flat floor and calibrated mount: the camera's tilt and height are nearly known before looking.
-PosePrior prior_of(const Robot& robot) {
+PosePrior pose_prior(const Robot& robot) {
   PosePrior prior;
   prior.tilt = rotation_from({robot.camera_mount.roll_rad, robot.camera_mount.pitch_rad, 0.0});
   prior.tilt_sigma_rad = robot.mount_tilt_sigma_rad;
@@ -14,8 +11,6 @@ PosePrior prior_of(const Robot& robot) {
   prior.height_sigma_m = robot.mount_height_sigma_m;
   return prior;
 }
-
-}  // namespace
 
 KnownWorld known_world(const Site& site, const std::string& camera) {
   return {.map = site.map.map,
@@ -26,7 +21,7 @@ KnownWorld known_world(const Site& site, const std::string& camera) {
 
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
-  options.fix.prior = prior_of(robot);
+  options.fix.prior = pose_prior(robot);
   options.filter.track_width_m = robot.track_width_m;
   options.planner.radius_m = robot.radius_m;
   options.planner.preferred_clearance_m = robot.preferred_clearance_m;

@@ -5,6 +5,8 @@
 
 #include "app/parallel.hpp"
 
+#include "app/run_statistics.hpp"
+
 namespace lodestar {
 
 RunSummary summarize(const RunRecord& record) {
@@ -23,6 +25,7 @@ RunSummary summarize(const RunRecord& record) {
   summary.path_p95_m = percentile(record.path_distances_m, 0.95).value_or(0.0);
   summary.contacts = record.contacts;
   summary.drive_s = record.truth.empty() ? 0.0 : seconds(record.truth.back().stamp);
+  summary.nees = mean_nees(estimate_errors(record)).value_or(0.0);
   summary.wall_s = record.wall_time_s;
   return summary;
 }

@@ -18,6 +18,7 @@ struct RunSummary {
   double path_p95_m = 0.0;         ///< 95th percentile of the true track's distance from the planned curve
   int contacts = 0;
   double drive_s = 0.0;  ///< simulated
+  double nees = 0.0;     ///< mean normalized estimation error squared: 3 for an honest filter
   double wall_s = 0.0;
   std::string failure;  ///< the first, in words
 };

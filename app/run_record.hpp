@@ -8,6 +8,7 @@
 #include "app/goal.hpp"
 #include "drivers/can_bus.hpp"
 #include "drivers/scoring.hpp"
+#include "localization/marker_trust.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
@@ -52,6 +53,7 @@ struct RunRecord {
   std::vector<GoalRecord> goals;
   std::vector<StepRecord> steps;
   std::vector<FixRecord> fixes;
+  std::vector<DistrustedMarker> distrusted;  ///< at the end
   std::vector<StampedCanFrame> can_frames;
   std::vector<TruePose> truth;
   std::vector<double> path_distances_m;  ///< of the true track from the planned curve

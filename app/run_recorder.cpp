@@ -13,6 +13,7 @@ void record_step(RunRecord& record, const SensorInput& input, const NavigationSt
                             .confidence = used.fix.confidence,
                             .accepted = accepted});
   }
+  record.distrusted = step.distrusted;
   if (!step.estimate) return;
   record.steps.push_back({.estimate = *step.estimate,
                           .commanded = step.command,

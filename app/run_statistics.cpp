@@ -1,5 +1,6 @@
 #include "app/run_statistics.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,13 @@ Pose2 between(const TruePose& before, const TruePose& after, Stamp stamp) {
 double larger_sigma(const Eigen::Matrix2d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
+}
+
+double nees_of(const PoseEstimate& estimate, const Pose2& truth) {
+  Vec3 error;
+  error << truth.position_m - estimate.map_from_base.position_m,
+      wrap_angle(truth.yaw_rad - estimate.map_from_base.yaw_rad);
+  return error.dot(estimate.covariance.ldlt().solve(error));
 }
 
 Json optional_json(const std::optional<double>& value) {
@@ -53,6 +61,18 @@ Json goal_json(const GoalRecord& record) {
           {"travel_time_s", seconds(record.travel_time)},
           {"position_error_m", optional_json(position_error)},
           {"heading_error_deg", optional_json(heading_error_deg)}};
+}
+
+Json distrusted_json(const std::vector<DistrustedMarker>& distrusted) {
+  Json markers = Json::array();
+  for (const DistrustedMarker& marker : distrusted) {
+    markers.push_back({{"id", marker.id},
+                       {"offset_x_m", marker.offset_m.x()},
+                       {"offset_y_m", marker.offset_m.y()},
+                       {"turn_deg", degrees(marker.turn_rad)},
+                       {"fixes", marker.fixes}});
+  }
+  return markers;
 }
 
 double driven_m(const RunRecord& record) {
@@ -98,15 +118,24 @@ std::vector<EstimateError> estimate_errors(const RunRecord& record) {
                       .position_m = (estimate.map_from_base.position_m - truth.position_m).norm(),
                       .heading_rad = wrap_angle(estimate.map_from_base.yaw_rad - truth.yaw_rad),
                       .position_sigma_m = larger_sigma(estimate.covariance.topLeftCorner<2, 2>()),
-                      .heading_sigma_rad = std::sqrt(estimate.covariance(2, 2))});
+                      .heading_sigma_rad = std::sqrt(estimate.covariance(2, 2)),
+                      .nees = nees_of(estimate, truth)});
   }
   return errors;
+}
+
+std::optional<double> mean_nees(const std::vector<EstimateError>& errors) {
+  if (errors.empty()) return std::nullopt;
+  double sum = 0.0;
+  for (const EstimateError& error : errors) sum += error.nees;
+  return sum / static_cast<double>(errors.size());
 }
 
 nlohmann::ordered_json summary_of(const RunRecord& record) {
   std::vector<double> position_m;
   std::vector<double> heading_deg;
-  for (const EstimateError& error : estimate_errors(record)) {
+  const std::vector<EstimateError> errors = estimate_errors(record);
+  for (const EstimateError& error : errors) {
     position_m.push_back(error.position_m);
     heading_deg.push_back(degrees(std::abs(error.heading_rad)));
   }
@@ -133,7 +162,9 @@ nlohmann::ordered_json summary_of(const RunRecord& record) {
           {"fixes", record.fixes.size()},
           {"fixes_accepted", accepted},
           {"fixes_refused", record.fixes.size() - accepted},
-          {"mean_confidence", mean_confidence(record)}};
+          {"mean_confidence", mean_confidence(record)},
+          {"nees", optional_json(mean_nees(errors))},
+          {"distrusted_markers", distrusted_json(record.distrusted)}};
 }
 
 }  // namespace lodestar

@@ -37,10 +37,14 @@ std::string_view to_string(DrivePhase phase) {
       return "rotating";
     case DrivePhase::driving:
       return "driving";
+    case DrivePhase::passing_corner:
+      return "passing a corner";
     case DrivePhase::final_rotation:
       return "turning to the final heading";
     case DrivePhase::arrived:
       return "arrived";
+    case DrivePhase::cancelled:
+      return "cancelled";
   }
   return "";
 }
@@ -56,28 +60,42 @@ RotateThenDrive::RotateThenDrive(Path path, std::optional<double> final_heading_
   target_ = path_.waypoints_m.size() > 1 ? 1 : 0;
 }
 
-BodyVelocity RotateThenDrive::update(const PoseEstimate& estimate, Duration elapsed) {
+BodyVelocity RotateThenDrive::update(const PoseEstimate& estimate, Duration elapsed,
+                                     const SpeedLimit& limit) {
+  if (paused_ || cancelled_) return slow_down(elapsed);
   const Pose2& pose = estimate.map_from_base;
   next_phase(pose);
   BodyVelocity wanted;
   if (phase_ == DrivePhase::rotating) {
-    if (turn_heading_rad_) wanted = turn_to(*turn_heading_rad_, options_.turn_done_rad, pose);
+    if (turn_heading_rad_) wanted = turn_to(*turn_heading_rad_, options_.turn_done_rad, pose, limit);
   } else if (phase_ == DrivePhase::driving) {
-    wanted = drive_leg(pose);
+    wanted = drive_leg(pose, limit);
+  } else if (phase_ == DrivePhase::passing_corner) {
+    wanted = pass_corner(pose, limit);
   } else if (phase_ == DrivePhase::final_rotation) {
-    wanted = turn_to(*final_heading_rad_, options_.arrival_heading_rad, pose);
+    wanted = turn_to(*final_heading_rad_, options_.arrival_heading_rad, pose, limit);
   }
   return command(wanted, elapsed);
 }
 
 BodyVelocity RotateThenDrive::slow_down(Duration elapsed) {
-  if (phase_ == DrivePhase::driving) begin_turn();  // whatever comes next begins with a look ahead
-  return command({}, elapsed);
+  return turn_around(0.0, elapsed);
+}
+
+BodyVelocity RotateThenDrive::turn_around(double turn_radps, Duration elapsed) {
+  if (phase_ == DrivePhase::passing_corner) next_leg();  // the waypoint itself is not returned to
+  // Whatever comes next begins with a look ahead.
+  if (phase_ != DrivePhase::arrived && phase_ != DrivePhase::final_rotation) begin_turn();
+  const bool rolling = last_.forward_mps != 0.0;
+  const BodyVelocity result = command({0.0, rolling ? 0.0 : turn_radps}, elapsed);
+  if (cancelled_ && phase_ != DrivePhase::arrived && at_rest()) phase_ = DrivePhase::cancelled;
+  return result;
 }
 
 void RotateThenDrive::next_phase(const Pose2& pose) {
   if (phase_ == DrivePhase::rotating) next_phase_rotating(pose);
   if (phase_ == DrivePhase::driving) next_phase_driving(pose);
+  if (phase_ == DrivePhase::passing_corner) next_phase_passing(pose);
   if (phase_ == DrivePhase::final_rotation) next_phase_final(pose);
 }
 
@@ -91,10 +109,16 @@ void RotateThenDrive::next_phase_rotating(const Pose2& pose) {
   }
   if (!turn_heading_rad_) turn_heading_rad_ = direction_of(pose.position_m, target_m());
   const double error = wrap_angle(*turn_heading_rad_ - pose.yaw_rad);
-  if (std::abs(error) <= options_.turn_done_rad) phase_ = DrivePhase::driving;
+  if (std::abs(error) > options_.turn_done_rad) return;
+  phase_ = DrivePhase::driving;
+  corner_ = corner_ahead();
 }
 
 void RotateThenDrive::next_phase_driving(const Pose2& pose) {
+  if (corner_ && remaining_m(pose) - pending_m_ <= corner_->cut_m) {
+    phase_ = DrivePhase::passing_corner;
+    return;
+  }
   if (remaining_m(pose) <= 0.25 * epsilon_m() && at_rest()) {
     end_leg(pose);
     return;
@@ -102,6 +126,25 @@ void RotateThenDrive::next_phase_driving(const Pose2& pose) {
   // Close to the target its direction means nothing any more; the leg's own counts.
   const double error = wrap_angle(leg_heading_rad() - pose.yaw_rad);
   if (std::abs(error) > options_.turn_again_rad) begin_turn();
+}
+
+/// The next leg begins when all that was commanded will have brought the robot to the arc's end.
+void RotateThenDrive::next_phase_passing(const Pose2& pose) {
+  const double turned_rad = on_corner(*corner_, pose.position_m).turned_rad + pending_m_ / corner_->radius_m;
+  if (turned_rad < std::abs(corner_->turn_rad)) return;
+  next_leg();
+  phase_ = DrivePhase::driving;
+  corner_ = corner_ahead();
+}
+
+void RotateThenDrive::next_leg() {
+  leg_start_m_ = target_m();
+  ++target_;
+}
+
+std::optional<Corner> RotateThenDrive::corner_ahead() const {
+  if (on_last_leg()) return std::nullopt;
+  return corner_at(leg_start_m_, target_m(), path_.waypoints_m[target_ + 1], options_);
 }
 
 void RotateThenDrive::begin_turn() {
@@ -134,32 +177,58 @@ void RotateThenDrive::next_phase_final(const Pose2& pose) {
 
 /// Turning on the spot, once the robot stands. The error is the one that will be left when all that was
 /// commanded has come into effect, so that lag does not become overshoot.
-BodyVelocity RotateThenDrive::turn_to(double heading_rad, double done_rad, const Pose2& pose) const {
+BodyVelocity RotateThenDrive::turn_to(double heading_rad, double done_rad, const Pose2& pose,
+                                      const SpeedLimit& limit) const {
   if (std::abs(last_.forward_mps) > 0.5 * options_.min_forward_mps) return {};
   const double error = wrap_angle(heading_rad - pose.yaw_rad);
   const double left = wrap_angle(error - pending_rad_);
   if (std::abs(left) <= 0.5 * done_rad) return {};
-  const double speed =
-      approach_speed(std::abs(left), options_.braking_share * options_.max_turn_acceleration_radps2,
-                     options_.min_turn_radps, options_.max_turn_radps);
+  const double speed = approach_speed(
+      std::abs(left), options_.braking_share * options_.max_turn_acceleration_radps2, options_.min_turn_radps,
+      std::clamp(limit.turn_radps, options_.min_turn_radps, options_.max_turn_radps));
   return {0.0, std::copysign(speed, left)};
 }
 
-/// Straight along the leg: the heading wanted leads back to it, the speed leaves room to brake.
-BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose) const {
-  const double left_m = remaining_m(pose) - pending_m_;
+/// Straight along the leg: the heading wanted leads back to it, the speed leaves room to brake, to rest or to
+/// the speed of the corner at the leg's end.
+BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose, const SpeedLimit& limit) const {
+  const double left_m = remaining_m(pose) - pending_m_ - (corner_ ? corner_->cut_m : 0.0);
+  const double end_mps = corner_ ? corner_->speed_mps : 0.0;
+  if (!corner_ && left_m <= 0.25 * epsilon_m()) return {};
   const double leg_heading = leg_heading_rad();
   const Vec2 ahead(std::cos(leg_heading), std::sin(leg_heading));
   const Vec2 from_target = pose.position_m - target_m();
   const double beside_m = ahead.x() * from_target.y() - ahead.y() * from_target.x();
   const double wanted_heading = leg_heading - std::atan(options_.lateral_gain_per_m * beside_m);
+  const double turn = steered(wanted_heading, pose);
+  if (limit.forward_mps < options_.min_forward_mps) return {0.0, turn};
   const double error = wrap_angle(wanted_heading - pose.yaw_rad - pending_rad_);
-  if (left_m <= 0.25 * epsilon_m()) return {};
-  const double speed = approach_speed(left_m, options_.braking_share * options_.max_acceleration_mps2,
-                                      options_.min_forward_mps, options_.max_forward_mps);
-  const double turn =
-      std::clamp(options_.heading_gain_per_s * error, -options_.max_turn_radps, options_.max_turn_radps);
+  const double deceleration = options_.braking_share * options_.max_acceleration_mps2;
+  const double speed =
+      approach_speed(left_m + 0.5 * end_mps * end_mps / deceleration, deceleration, options_.min_forward_mps,
+                     std::min(options_.max_forward_mps, limit.forward_mps));
   return {speed * std::max(std::cos(error), 0.0), turn};
+}
+
+/// Along the arc, at the place where the robot will be when the command takes effect.
+BodyVelocity RotateThenDrive::pass_corner(const Pose2& pose, const SpeedLimit& limit) const {
+  const double side = std::copysign(1.0, corner_->turn_rad);
+  const OnCorner on = on_corner(*corner_, pose.position_m);
+  const double turned_rad =
+      std::clamp(on.turned_rad + pending_m_ / corner_->radius_m, 0.0, std::abs(corner_->turn_rad));
+  const double wanted_heading =
+      corner_->heading_rad + side * turned_rad - std::atan(options_.lateral_gain_per_m * on.beside_m);
+  const double speed =
+      limit.forward_mps < options_.min_forward_mps ? 0.0 : std::min(corner_->speed_mps, limit.forward_mps);
+  const double along_radps = side * speed / corner_->radius_m;
+  return {speed, std::clamp(along_radps + steered(wanted_heading, pose), -options_.max_turn_radps,
+                            options_.max_turn_radps)};
+}
+
+/// The turning speed that corrects the heading while driving.
+double RotateThenDrive::steered(double wanted_heading_rad, const Pose2& pose) const {
+  const double error = wrap_angle(wanted_heading_rad - pose.yaw_rad - pending_rad_);
+  return std::clamp(options_.heading_gain_per_s * error, -options_.max_turn_radps, options_.max_turn_radps);
 }
 
 BodyVelocity RotateThenDrive::command(const BodyVelocity& wanted, Duration elapsed) {

@@ -29,6 +29,8 @@ std::string_view to_string(StopReason reason) {
       return "the pose is too uncertain";
     case StopReason::base_silent:
       return "the base is silent";
+    case StopReason::way_blocked:
+      return "the way is blocked";
   }
   return "";
 }

@@ -15,10 +15,11 @@ struct SafetyStopOptions {
   double max_heading_sigma_rad = radians(5.0);
 };
 
-enum class StopReason { no_pose, pose_stale, pose_uncertain, base_silent };
+enum class StopReason { no_pose, pose_stale, pose_uncertain, base_silent, way_blocked };
 std::string_view to_string(StopReason reason);
 
-/// Why the robot must not move now; nothing when it may. The robot never drives on a guess.
+/// Why the robot must not move now, for what it knows of itself; nothing when it may. The robot never drives
+/// on a guess.
 std::optional<StopReason> reason_to_stop(Stamp now, const std::optional<PoseEstimate>& estimate,
                                          const SafetyStopOptions& options);
 

@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include "control/rotate_then_drive.hpp"
+#include "control/drive_options.hpp"
+#include "maps/motion.hpp"
 #include "maps/travel_time.hpp"
 
 namespace lodestar {

@@ -10,6 +10,13 @@ void BeliefHistory::add_travel(const WheelTravel& travel, const PoseFilterOption
   while (beliefs_.size() > 1 && beliefs_[1].travel.stamp <= since) beliefs_.pop_front();
 }
 
+std::optional<Belief> BeliefHistory::at(const WheelTravel& travel, const PoseFilterOptions& options) const {
+  const auto later = std::ranges::upper_bound(beliefs_, travel.stamp, {},
+                                              [](const Belief& belief) { return belief.travel.stamp; });
+  if (later == beliefs_.begin()) return std::nullopt;
+  return moved(*std::prev(later), travel, options);
+}
+
 bool BeliefHistory::add_fix(const PlanarFix& fix, const WheelTravel& travel,
                             const PoseFilterOptions& options) {
   const auto later = std::ranges::upper_bound(beliefs_, travel.stamp, {},

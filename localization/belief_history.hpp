@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include "localization/belief.hpp"
 
@@ -18,6 +19,9 @@ class BeliefHistory {
   /// Corrects the belief at the time of `travel` and all that follow. False, and nothing changed, for a fix
   /// that the belief of that time contradicts or that is older than all beliefs.
   bool add_fix(const PlanarFix& fix, const WheelTravel& travel, const PoseFilterOptions& options);
+
+  /// The belief at the time of `travel`; nothing when that is before all beliefs.
+  [[nodiscard]] std::optional<Belief> at(const WheelTravel& travel, const PoseFilterOptions& options) const;
 
   [[nodiscard]] Stamp oldest() const { return beliefs_.front().travel.stamp; }
   [[nodiscard]] const Belief& newest() const { return beliefs_.back(); }

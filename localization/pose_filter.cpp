@@ -14,15 +14,16 @@ WheelTravel interpolated(const WheelTravel& before, const WheelTravel& after, St
 
 }  // namespace
 
-void PoseFilter::add_travel(const WheelTravel& travel) {
-  if (!readings_.empty() && travel.stamp <= readings_.back().stamp) return;
+void PoseFilter::add_travel(const WheelTravel& reading) {
+  if (!readings_.empty() && reading.stamp <= readings_.back().stamp) return;
+  const WheelTravel travel = standstill_.settled(reading);
   readings_.push_back(travel);
   while (readings_.size() > 2 && readings_[1].stamp <= travel.stamp - options_.history) readings_.pop_front();
   if (believed_) believed_->add_travel(travel, options_);
   if (rival_) rival_->history.add_travel(travel, options_);
 }
 
-FixOutcome PoseFilter::add_fix(const PlanarFix& fix) {
+FixOutcome PoseFilter::add_fix(const PlanarFix& fix, std::span<const int> ids) {
   const std::optional<PlacedFix> at = placed(fix);
   if (!at || (believed_ && at->travel.stamp < believed_->oldest())) return FixOutcome::refused_late;
   if (believed_ && believed_->add_fix(at->fix, at->travel, options_)) {
@@ -33,18 +34,46 @@ FixOutcome PoseFilter::add_fix(const PlanarFix& fix) {
 
   // What the estimate contradicts may be an outlier, or the truth after the robot has been carried away. Only
   // fixes that agree among themselves, given the wheels' travel between them, can tell.
-  if (rival_ && rival_->history.add_fix(at->fix, at->travel, options_)) {
-    ++rival_->fixes;
-  } else {
-    rival_ = rival_from(*at);
-  }
+  add_to_rival(*at, ids);
   const bool relocating = believed_.has_value();
-  if (rival_->fixes < (relocating ? options_.fixes_to_relocate : options_.fixes_to_start))
-    return relocating ? FixOutcome::refused_gate : FixOutcome::collecting;
+  if (!rival_prevails()) return relocating ? FixOutcome::refused_gate : FixOutcome::collecting;
   believed_ = std::move(rival_->history);
   rival_.reset();
   last_fix_ = fix.stamp;
   return relocating ? FixOutcome::relocated : FixOutcome::started;
+}
+
+void PoseFilter::add_to_rival(const PlacedFix& placed, std::span<const int> ids) {
+  if (rival_ && rival_->history.add_fix(placed.fix, placed.travel, options_)) {
+    ++rival_->fixes;
+  } else {
+    rival_ = rival_from(placed);
+  }
+  rival_->ids.insert(ids.begin(), ids.end());
+}
+
+bool PoseFilter::rival_prevails() const {
+  if (!believed_) return rival_->fixes >= options_.fixes_to_start;
+  const double apart_m =
+      (rival_->history.newest().map_from_base().position_m - believed_->newest().map_from_base().position_m)
+          .norm();
+  const bool by_one_marker = rival_->ids.size() == 1;
+  return rival_->fixes >= options_.fixes_to_relocate &&
+         (!by_one_marker || apart_m >= options_.relocation_by_one_marker_m);
+}
+
+std::optional<FixExpectation> PoseFilter::expectation(const PlanarFix& fix) const {
+  const std::optional<PlacedFix> at = placed(fix);
+  if (!at || !believed_) return std::nullopt;
+  const std::optional<Belief> belief = believed_->at(at->travel, options_);
+  if (!belief) return std::nullopt;
+  const Vec2 moved_m = fix.map_from_base.position_m - at->fix.map_from_base.position_m;
+  const double moved_rad = fix.map_from_base.yaw_rad - at->fix.map_from_base.yaw_rad;
+  const Pose2 expected = belief->map_from_base();
+  const double distance = squared_distance(*belief, at->fix, options_);
+  return FixExpectation{{expected.position_m + moved_m, wrap_angle(expected.yaw_rad + moved_rad)},
+                        distance,
+                        distance <= options_.gate_chi2};
 }
 
 /// Nothing for a fix that is out of the readings' reach.

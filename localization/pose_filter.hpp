@@ -2,10 +2,13 @@
 
 #include <deque>
 #include <optional>
+#include <set>
+#include <span>
 
 #include "localization/belief_history.hpp"
 #include "localization/mount.hpp"
 #include "localization/pose_filter_options.hpp"
+#include "localization/standstill.hpp"
 #include "maps/motion.hpp"
 
 namespace lodestar {
@@ -19,19 +22,36 @@ enum class FixOutcome {
   relocated,     ///< enough refused fixes agree among themselves: the estimate has moved to them
 };
 
+/// A fix beside the pose that the estimate had at its time.
+struct FixExpectation {
+  Pose2 map_from_base;
+  double squared_distance = 0.0;  ///< of the fix, Mahalanobis with 3 degrees of freedom
+  bool agrees = false;            ///< near enough for the filter to accept it
+};
+
 /// Fuses wheel travel and camera fixes by covariance: an extended Kalman filter over the pose, what the
 /// wheels' readings must be scaled by, and the error that neighbouring fixes share. A fix is applied at its
 /// capture time and the travel since then is replayed over it. A value type: copying it copies the belief.
 class PoseFilter {
  public:
-  explicit PoseFilter(const PoseFilterOptions& options = {}) : options_(options) {}
+  explicit PoseFilter(const PoseFilterOptions& options = {})
+      : options_(options), standstill_(options.standing_after, options.wheel_step_m) {}
 
   /// Moves the belief by the wheels' travel since the last call. Stamps ascend; a reading that is not newer
   /// than the last one is ignored.
   void add_travel(const WheelTravel& travel);
 
-  /// Corrects the belief at the fix's capture time.
-  FixOutcome add_fix(const PlanarFix& fix);
+  /// Corrects the belief at the fix's capture time. `ids` are the markers that the fix rests on: where one
+  /// marker alone contradicts the estimate by little it may itself have moved, and the estimate stays until a
+  /// second marker says the same.
+  FixOutcome add_fix(const PlanarFix& fix, std::span<const int> ids = {});
+
+  /// What the estimate expected of a fix. Nothing before the start, and for a fix that would be late.
+  [[nodiscard]] std::optional<FixExpectation> expectation(const PlanarFix& fix) const;
+
+  /// Neither wheel has turned for a while: nothing drifts, and what an encoder on the edge of a step says is
+  /// no travel.
+  [[nodiscard]] bool standing() const { return standstill_.standing(); }
 
   /// The belief at the newest wheel travel; nothing before the filter has started.
   [[nodiscard]] std::optional<PoseEstimate> estimate() const;
@@ -53,14 +73,18 @@ class PoseFilter {
   struct Rival {
     BeliefHistory history;
     int fixes = 1;
+    std::set<int> ids;  ///< of the markers that the fixes rest on
   };
 
   [[nodiscard]] std::optional<PlacedFix> placed(const PlanarFix& fix) const;
   [[nodiscard]] PlacedFix brought_back(const PlanarFix& fix) const;
+  void add_to_rival(const PlacedFix& placed, std::span<const int> ids);
+  [[nodiscard]] bool rival_prevails() const;
   [[nodiscard]] Rival rival_from(const PlacedFix& placed) const;
   [[nodiscard]] WheelScales scales() const;
 
   PoseFilterOptions options_;
+  Standstill standstill_;
   std::deque<WheelTravel> readings_;  ///< by ascending stamp, over the history
   std::optional<BeliefHistory> believed_;
   std::optional<Rival> rival_;

@@ -21,7 +21,11 @@ struct PoseFilterOptions {
   double gate_chi2 = 16.27;   ///< a fix farther away (Mahalanobis, 3 dof, 99.9 %) is refused
   int fixes_to_start = 2;     ///< consecutive consistent fixes that a start takes
   int fixes_to_relocate = 5;  ///< consecutive refused fixes that agree among themselves and move the estimate
-  Duration history = std::chrono::seconds(1);  ///< fixes older than this are refused
+  /// Nearer than this, the fixes that move the estimate must rest on two markers or more: one that hangs
+  /// elsewhere than surveyed contradicts steadily too.
+  double relocation_by_one_marker_m = 0.7;
+  Duration standing_after = std::chrono::milliseconds(300);  ///< without travel
+  Duration history = std::chrono::seconds(1);                ///< fixes older than this are refused
   /// And those newer than the wheels' last word by more than this.
   Duration max_ahead = std::chrono::milliseconds(100);
 };

@@ -3,47 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
+#include <map>
 #include <memory>
-#include <octomap/OcTree.h>
 
 #include "maps/input_error.hpp"
+#include "maps/octree_file.hpp"
 
 namespace lodestar {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void refuse(const fs::path& file, const std::string& found) {
-  throw InputError(file, 0, found, "an OctoMap .bt or .ot file");
-}
-
-/// The library prints to the standard streams and returns nothing on most errors; a few it throws.
-std::unique_ptr<octomap::OcTree> read_tree(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::is_directory(file)) refuse(file, "no file that can be read");
-  std::string first_line;
-  std::getline(stream, first_line);
-  stream.seekg(0);
-  std::unique_ptr<octomap::OcTree> tree;
-  try {
-    if (first_line.starts_with("# Octomap OcTree binary file")) {
-      tree = std::make_unique<octomap::OcTree>(0.1);
-      if (!tree->readBinary(stream)) tree.reset();
-    } else if (first_line.starts_with("# Octomap OcTree file")) {
-      std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(stream));
-      if (dynamic_cast<octomap::OcTree*>(any.get()) != nullptr) {
-        tree.reset(dynamic_cast<octomap::OcTree*>(any.release()));
-      }
-    } else {
-      refuse(file, "another first line");
-    }
-  } catch (const std::bad_alloc&) {
-    tree.reset();
-  }
-  if (!tree || tree->size() == 0) refuse(file, "a broken or empty tree");
-  return tree;
-}
 
 /// Columns and rows of voxels that a leaf covers, in voxel indices from the tree's lowest corner.
 struct LeafExtent {
@@ -96,7 +65,7 @@ class Slicer {
 }  // namespace
 
 OctomapInfo octomap_info(const fs::path& file) {
-  const std::unique_ptr<octomap::OcTree> tree = read_tree(file);
+  const std::unique_ptr<octomap::OcTree> tree = read_octree(file);
   OctomapInfo info;
   info.resolution_m = tree->getResolution();
   for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {
@@ -107,12 +76,53 @@ OctomapInfo octomap_info(const fs::path& file) {
   return info;
 }
 
+namespace {
+
+/// Is the voxel above this column of the leaf known to be free?
+bool is_free_above(const octomap::OcTree& tree, double x_m, double y_m, double top_m) {
+  const octomap::OcTreeNode* above = tree.search(x_m, y_m, top_m + 0.5 * tree.getResolution());
+  return above != nullptr && !tree.isNodeOccupied(*above);
+}
+
+/// How many voxels of each layer are occupied with free air upon them, by the layer's top in voxels.
+std::map<int, int> surfaces_of(const octomap::OcTree& tree) {
+  std::map<int, int> surfaces;
+  const double voxel_m = tree.getResolution();
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    if (!tree.isNodeOccupied(*leaf)) continue;
+    const double half_m = 0.5 * leaf.getSize();
+    const double top_m = leaf.getZ() + half_m;
+    const int columns = static_cast<int>(std::lround(leaf.getSize() / voxel_m));
+    for (int i = 0; i < columns * columns; ++i) {
+      const double x_m = leaf.getX() - half_m + (i % columns + 0.5) * voxel_m;
+      const double y_m = leaf.getY() - half_m + (i / columns + 0.5) * voxel_m;
+      if (is_free_above(tree, x_m, y_m, top_m)) ++surfaces[static_cast<int>(std::lround(top_m / voxel_m))];
+    }
+  }
+  return surfaces;
+}
+
+}  // namespace
+
+std::optional<double> octomap_floor_m(const fs::path& file) {
+  const std::unique_ptr<octomap::OcTree> tree = read_octree(file);
+  const std::map<int, int> surfaces = surfaces_of(*tree);
+  if (surfaces.empty()) return std::nullopt;
+  const auto area = [](const auto& layer) { return layer.second; };
+  auto floor = std::ranges::max_element(surfaces, {}, area);
+  const int largest = floor->second;
+  for (auto next = std::next(floor); next != surfaces.end(); floor = next++) {
+    if (next->first != floor->first + 1 || 5 * next->second < largest) break;
+  }
+  return floor->first * tree->getResolution();
+}
+
 OccupancyMap octomap_slice(const fs::path& file, double z_min_m, double z_max_m) {
   if (!(z_min_m < z_max_m)) {
     throw InputError(fmt::format(
         "found a slab from {} m to {} m, wanted its lower height below its upper one", z_min_m, z_max_m));
   }
-  const std::unique_ptr<octomap::OcTree> tree = read_tree(file);
+  const std::unique_ptr<octomap::OcTree> tree = read_octree(file);
   OccupancyMap map;
   Slicer slicer(*tree, map);
   const double touch_m = 1e-6 * tree->getResolution();  // faces at the slab's very limits do not count

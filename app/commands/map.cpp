@@ -3,8 +3,14 @@
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "app/commands/command.hpp"
+#include "app/figure.hpp"
+#include "app/navigation_setup.hpp"
+#include "app/visibility.hpp"
+#include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/octomap_file.hpp"
 
@@ -15,8 +21,23 @@ struct MapArguments {
   std::string file;
   std::string output;
   bool json = false;
-  double z_min_m = 0.0;
-  double z_max_m = 0.0;
+  std::optional<double> z_min_m;
+  std::optional<double> z_max_m;
+  std::optional<double> clearance_m;
+  std::optional<double> robot_height_m;
+};
+
+struct VisibilityArguments {
+  std::string map;
+  std::string markers;
+  std::string camera;
+  std::string mount;
+  std::string octomap;
+  std::string output;
+  double camera_height_m = 1.1;
+  std::optional<double> radius_m;
+  int headings = 8;
+  bool json = false;
 };
 
 bool is_octomap(const std::filesystem::path& file) {
@@ -25,10 +46,12 @@ bool is_octomap(const std::filesystem::path& file) {
 
 nlohmann::ordered_json octomap_summary(const std::filesystem::path& file) {
   const OctomapInfo info = octomap_info(file);
+  const std::optional<double> floor_m = octomap_floor_m(file);
   return {{"kind", "octomap"},
           {"resolution_m", info.resolution_m},
           {"leaves_occupied", info.leaves_occupied},
           {"leaves_free", info.leaves_free},
+          {"floor_m", floor_m ? nlohmann::ordered_json(*floor_m) : nlohmann::ordered_json(nullptr)},
           {"low_m", {info.low_m.x(), info.low_m.y(), info.low_m.z()}},
           {"high_m", {info.high_m.x(), info.high_m.y(), info.high_m.z()}}};
 }
@@ -67,8 +90,101 @@ ExitCode info(const MapArguments& arguments) {
   return done;
 }
 
+/// The slab's heights as given, or above the floor that the OctoMap shows.
+std::pair<double, double> slab_m(const MapArguments& arguments) {
+  const std::optional<double> floor_m = octomap_floor_m(arguments.file);
+  if (arguments.z_min_m) {
+    if (floor_m && *arguments.z_min_m < *floor_m) {
+      fmt::print(
+          stderr,
+          "lodestar: warning: {}: the slab begins at {:g} m, below the floor at {:g} m, which becomes an "
+          "obstacle; --clearance leaves it out\n",
+          arguments.file, *arguments.z_min_m, *floor_m);
+    }
+    return {*arguments.z_min_m, *arguments.z_max_m};
+  }
+  if (!floor_m) {
+    throw InputError(arguments.file, 0, "no floor with free air above it",
+                     "one, or --z-min and --z-max for its heights");
+  }
+  fmt::print(stderr, "floor at {:g} m\n", *floor_m);
+  return {*floor_m + *arguments.clearance_m, *floor_m + *arguments.robot_height_m};
+}
+
 ExitCode slice(const MapArguments& arguments) {
-  save_map(octomap_slice(arguments.file, arguments.z_min_m, arguments.z_max_m), arguments.output);
+  const auto [z_min_m, z_max_m] = slab_m(arguments);
+  save_map(octomap_slice(arguments.file, z_min_m, z_max_m), arguments.output);
+  return done;
+}
+
+VisibilityOptions visibility_options(const VisibilityArguments& arguments) {
+  VisibilityOptions options;
+  options.headings = arguments.headings;
+  PosePrior& prior = options.fix.prior;
+  if (arguments.mount.empty()) {
+    options.base_from_camera.translation().z() = arguments.camera_height_m;
+    prior.tilt_sigma_rad = 0.0;
+  } else {
+    const Robot robot = load_robot(arguments.mount);
+    options.base_from_camera = robot.base_from_camera;
+    options.robot_radius_m = robot.radius_m;
+    prior = pose_prior(robot);
+  }
+  prior.height_m = options.base_from_camera.translation().z();
+  options.robot_radius_m = arguments.radius_m.value_or(options.robot_radius_m);
+  return options;
+}
+
+nlohmann::ordered_json as_json(const VisibilitySummary& summary) {
+  const auto scaled = [](const std::optional<double>& value, double scale) {
+    return value ? nlohmann::ordered_json(scale * *value) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"cells", summary.cells},
+          {"share_one", summary.share_one},
+          {"share_two", summary.share_two},
+          {"share_some_heading", summary.share_some_heading},
+          {"largest_gap_m", summary.largest_gap_m},
+          {"gap_x_m", summary.gap_at_m.x()},
+          {"gap_y_m", summary.gap_at_m.y()},
+          {"cells_cut_off", summary.cells_cut_off},
+          {"position_sigma_p50_m", scaled(summary.position_sigma_p50_m, 1.0)},
+          {"position_sigma_p95_m", scaled(summary.position_sigma_p95_m, 1.0)},
+          {"heading_sigma_p95_deg", scaled(summary.heading_sigma_p95_rad, degrees(1.0))}};
+}
+
+void print_summary(const VisibilitySummary& summary) {
+  fmt::print(
+      "{} free cells; of these see, at every heading, a marker {:.1f} %, two {:.1f} %; at some heading a "
+      "marker "
+      "{:.1f} %\n",
+      summary.cells, 100.0 * summary.share_one, 100.0 * summary.share_two,
+      100.0 * summary.share_some_heading);
+  fmt::print("longest way to a cell that sees one: {:.2f} m, from ({:.2f}, {:.2f})\n", summary.largest_gap_m,
+             summary.gap_at_m.x(), summary.gap_at_m.y());
+  if (summary.cells_cut_off > 0) fmt::print("{} cells have no way to such a cell\n", summary.cells_cut_off);
+  if (!summary.position_sigma_p50_m) return;
+  fmt::print(
+      "standard deviation of one fix: position {:.1f} mm (95 %: {:.1f} mm), heading {:.2f} deg (95 %)\n",
+      1000.0 * *summary.position_sigma_p50_m, 1000.0 * *summary.position_sigma_p95_m,
+      degrees(*summary.heading_sigma_p95_rad));
+}
+
+ExitCode visibility(const VisibilityArguments& arguments) {
+  const LoadedMap loaded = load_map(arguments.map);
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
+  const MarkerRegistry registry = load_registry(arguments.markers);
+  const CameraModel camera = load_camera(arguments.camera);
+  std::optional<SightLines> sight_lines;
+  if (!arguments.octomap.empty()) sight_lines.emplace(arguments.octomap);
+  const Visibility result = visibility_of(loaded.map, registry, camera, sight_lines ? &*sight_lines : nullptr,
+                                          visibility_options(arguments));
+  const VisibilitySummary summary = summarize(result);
+  if (!arguments.output.empty()) write_png(arguments.output, draw_visibility(result, registry));
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(summary).dump(2));
+  } else {
+    print_summary(summary);
+  }
   return done;
 }
 
@@ -91,11 +207,25 @@ std::vector<Command> map_commands(CLI::App& lodestar) {
   CLI::App* slice_command =
       map->add_subcommand("slice", "Make a floor map of the voxels between two heights");
   slice_command->add_option("file", arguments->file, "OctoMap .bt or .ot")->required();
-  slice_command
-      ->add_option("--z-min", arguments->z_min_m, "Lower height in metres: the robot's floor clearance")
-      ->required();
-  slice_command->add_option("--z-max", arguments->z_max_m, "Upper height in metres: the robot's height")
-      ->required();
+  CLI::Option* z_min = slice_command->add_option("--z-min", arguments->z_min_m,
+                                                 "Lower height in metres, as the OctoMap has it");
+  CLI::Option* z_max =
+      slice_command->add_option("--z-max", arguments->z_max_m, "Upper height in metres")->needs(z_min);
+  z_min->needs(z_max);
+  CLI::Option* clearance =
+      slice_command
+          ->add_option("--clearance", arguments->clearance_m,
+                       "Instead: metres above the floor, which is found, that the robot passes over")
+          ->excludes(z_min);
+  CLI::Option* height =
+      slice_command
+          ->add_option("--robot-height", arguments->robot_height_m, "Its height in metres above the floor")
+          ->needs(clearance);
+  clearance->needs(height);
+  slice_command->callback([z_min, clearance] {
+    if (z_min->empty() && clearance->empty())
+      throw CLI::RequiredError("--z-min and --z-max, or --clearance and --robot-height");
+  });
   slice_command
       ->add_option("-o,--output", arguments->output,
                    "map_server YAML file to write; its image goes beside it")
@@ -106,7 +236,35 @@ std::vector<Command> map_commands(CLI::App& lodestar) {
   convert_command->add_option("file", arguments->file, "map_server YAML")->required();
   convert_command->add_option("-o,--output", arguments->output, "map_server YAML file to write")->required();
 
-  return {{info_command, [arguments] { return info(*arguments); }},
+  const auto seen = std::make_shared<VisibilityArguments>();
+  CLI::App* visibility_command = map->add_subcommand(
+      "visibility",
+      "How many markers the robot sees from each free cell, and how sure of its pose it is there");
+  visibility_command->add_option("--map", seen->map, "map_server YAML")->required();
+  visibility_command->add_option("--markers", seen->markers, "Marker registry")->required();
+  visibility_command->add_option("--camera", seen->camera, "Camera file")->required();
+  CLI::Option* mount = visibility_command->add_option(
+      "--mount", seen->mount,
+      "robot.yaml: where the camera sits and how well its tilt is known; upright when left out");
+  visibility_command
+      ->add_option("--camera-height", seen->camera_height_m, "Metres above the floor, without --mount")
+      ->check(CLI::PositiveNumber)
+      ->excludes(mount)
+      ->capture_default_str();
+  visibility_command->add_option("--octomap", seen->octomap,
+                                 "OctoMap .bt or .ot: what it shows hides markers");
+  visibility_command
+      ->add_option("--radius", seen->radius_m,
+                   "Robot's radius in metres: leaves out cells where it has no room")
+      ->check(CLI::NonNegativeNumber);
+  visibility_command->add_option("--headings", seen->headings, "Tried in each cell")
+      ->check(CLI::Range(1, 360))
+      ->capture_default_str();
+  visibility_command->add_option("-o,--output", seen->output, "PNG file for a picture of the map");
+  visibility_command->add_flag("--json", seen->json, "As JSON");
+
+  return {{visibility_command, [seen] { return visibility(*seen); }},
+          {info_command, [arguments] { return info(*arguments); }},
           {slice_command, [arguments] { return slice(*arguments); }},
           {convert_command, [arguments] { return convert(*arguments); }}};
 }

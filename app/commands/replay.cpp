@@ -75,6 +75,7 @@ nlohmann::ordered_json as_json(const RunSummary& run) {
           {"path_p95_m", run.path_p95_m},
           {"contacts", run.contacts},
           {"drive_s", run.drive_s},
+          {"nees", run.nees},
           {"failure", run.failure}};
 }
 
@@ -88,7 +89,7 @@ void print_row(const RunSummary& run) {
              1000.0 * run.path_p95_m, run.contacts, run.drive_s, run.failure);
 }
 
-/// The worst of all runs.
+/// The worst of all runs, sums of times, and the mean NEES.
 RunSummary worst_of(const std::vector<RunSummary>& runs) {
   RunSummary worst;
   for (const RunSummary& run : runs) {
@@ -99,6 +100,7 @@ RunSummary worst_of(const std::vector<RunSummary>& runs) {
     worst.path_p95_m = std::max(worst.path_p95_m, run.path_p95_m);
     worst.contacts += run.contacts;
     worst.drive_s += run.drive_s;
+    worst.nees += run.nees / static_cast<double>(runs.size());
     worst.wall_s += run.wall_s;
   }
   return worst;
@@ -110,9 +112,9 @@ void print_table(const std::vector<RunSummary>& runs) {
   const RunSummary worst = worst_of(runs);
   fmt::print(
       "all {} runs: {} of {} goals reached, {} contacts; worst: {:.1f} mm and {:.2f} deg from a goal, "
-      "95 % of the track within {:.1f} mm of the path\n",
+      "95 % of the track within {:.1f} mm of the path; mean NEES {:.2f} of 3\n",
       runs.size(), worst.arrivals, worst.goals, worst.contacts, 1000.0 * worst.worst_position_m,
-      degrees(worst.worst_heading_rad), 1000.0 * worst.path_p95_m);
+      degrees(worst.worst_heading_rad), 1000.0 * worst.path_p95_m, worst.nees);
   fmt::print(stderr, "{:.0f} x real time on one core\n", worst.drive_s / worst.wall_s);
 }
 

@@ -1,6 +1,7 @@
 #include "localization/pose_filter.hpp"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <gtest/gtest.h>
@@ -216,6 +217,66 @@ TEST(PoseFilter, grows_less_sure_without_fixes_but_not_while_it_stands) {
     filter.add_travel(world.reported);
   }
   EXPECT_DOUBLE_EQ(filter.estimate()->covariance.trace(), after);
+}
+
+TEST(PoseFilter, a_flickering_encoder_does_not_make_it_drift) {
+  World world;
+  world.noise_m_per_sqrt_m = 0.003;
+  PoseFilterOptions options = without_floor();
+  options.wheel_step_m = world.wheel_step_m = 0.001;
+  PoseFilter filter(options);
+  drive(world, filter, 0.0, 2.0, true);
+  EXPECT_FALSE(filter.standing());
+  const WheelTravel rest = world.reading();
+  for (int i = 1; i <= 30; ++i) filter.add_travel({at(2.0 + 0.02 * i), rest.left_m, rest.right_m});
+  ASSERT_TRUE(filter.standing());
+  const PoseEstimate before = *filter.estimate();
+  for (int i = 31; i <= 3000; ++i)
+    filter.add_travel(
+        {at(2.0 + 0.02 * i), rest.left_m + 0.001 * (i % 2), rest.right_m - 0.001 * (i % 3 / 2)});
+  EXPECT_EQ(filter.estimate()->map_from_base.position_m, before.map_from_base.position_m);
+  EXPECT_EQ(filter.estimate()->map_from_base.yaw_rad, before.map_from_base.yaw_rad);
+  EXPECT_EQ(filter.estimate()->covariance, before.covariance);
+}
+
+TEST(PoseFilter, moves_a_little_only_when_two_markers_say_so) {
+  World world;
+  PoseFilter filter(without_floor());
+  drive(world, filter, 0.0, 2.0, true);
+  const Pose2 before = filter.estimate()->map_from_base;
+  const auto displaced_fix = [&] {
+    PlanarFix fix = world.fix(0.002, 0.002);
+    fix.map_from_base.position_m.x() += 0.3;
+    return fix;
+  };
+  for (int i = 0; i < 50; ++i)
+    EXPECT_EQ(filter.add_fix(displaced_fix(), std::array{7}), FixOutcome::refused_gate);
+  EXPECT_EQ(filter.estimate()->map_from_base.position_m, before.position_m) << "that marker may have moved";
+  EXPECT_EQ(filter.add_fix(displaced_fix(), std::array{8}), FixOutcome::relocated);
+  EXPECT_NEAR(filter.estimate()->map_from_base.position_m.x(), before.position_m.x() + 0.3, 0.01);
+}
+
+TEST(PoseFilter, moves_far_when_one_marker_says_so_often_enough) {
+  World world;
+  PoseFilter filter(without_floor());
+  drive(world, filter, 0.0, 2.0, true);
+  world.truth.position_m.x() += 3.0;
+  for (int i = 1; i < 5; ++i)
+    EXPECT_EQ(filter.add_fix(world.fix(0.002, 0.002), std::array{7}), FixOutcome::refused_gate);
+  EXPECT_EQ(filter.add_fix(world.fix(0.002, 0.002), std::array{7}), FixOutcome::relocated);
+}
+
+TEST(PoseFilter, tells_what_it_expects_of_a_fix) {
+  World world;
+  PoseFilter filter(without_floor());
+  EXPECT_FALSE(filter.expectation(world.fix(0.002, 0.002))) << "before the start";
+  drive(world, filter, 0.0, 2.0, true);
+  PlanarFix fix = world.fix(1e-4, 1e-4);
+  EXPECT_TRUE(filter.expectation(fix)->agrees);
+  fix.map_from_base.position_m.y() += 0.1;
+  const FixExpectation expected = *filter.expectation(fix);
+  EXPECT_FALSE(expected.agrees);
+  EXPECT_NEAR(fix.map_from_base.position_m.y() - expected.map_from_base.position_m.y(), 0.1, 0.005);
 }
 
 TEST(PoseFilter, tracks_a_circle_exactly_without_noise) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
@@ -49,6 +50,31 @@ TEST(OctomapSlice, sees_the_table_and_not_the_floor) {
     const OccupancyMap with_floor = octomap_slice(file, 0.0, 0.5);
     EXPECT_EQ(with_floor.at({0, 0}), OccupancyMap::occupied);
   }
+}
+
+TEST(OctomapFloor, is_found_below_tables_and_above_noise) {
+  const TemporaryFolder folder;
+  octomap::OcTree tree(0.1);
+  build_room(tree);
+  const std::string file = (folder / "room.bt").string();
+  ASSERT_TRUE(tree.writeBinary(file));
+  ASSERT_TRUE(octomap_floor_m(file));
+  EXPECT_NEAR(*octomap_floor_m(file), 0.1, 1e-6);
+  for (int i = 0; i < 40; ++i)  // a third of the floor was measured one voxel too high
+    tree.setNodeValue(0.05 + 0.1 * (i % 16), 0.05 + 0.1 * (i / 16), 0.15, 3.0F);
+  tree.updateInnerOccupancy();
+  ASSERT_TRUE(tree.writeBinary(file));
+  EXPECT_NEAR(*octomap_floor_m(file), 0.2, 1e-6);
+  const OccupancyMap map = octomap_slice(file, *octomap_floor_m(file), 1.0);
+  EXPECT_EQ(std::ranges::count(map.cells, OccupancyMap::occupied), 4 * 4) << "the table alone";
+}
+
+TEST(OctomapFloor, is_none_where_nothing_has_air_upon_it) {
+  const TemporaryFolder folder;
+  octomap::OcTree tree(0.1);
+  tree.updateNode(0.05, 0.05, 0.05, true);
+  ASSERT_TRUE(tree.writeBinary((folder / "one.bt").string()));
+  EXPECT_FALSE(octomap_floor_m((folder / "one.bt").string()));
 }
 
 }  // namespace

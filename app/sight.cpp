@@ -1,0 +1,92 @@
+#include "app/sight.hpp"
+
+#include <algorithm>
+
+namespace lodestar {
+namespace {
+
+DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options) {
+  options.registered_ids = registered_ids(registry);
+  return options;
+}
+
+bool agrees(const UsedFix& used, const Whereabouts& known) {
+  const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
+  return expected && expected->agrees;
+}
+
+/// The filter's word on the fix, and what follows from it for the markers.
+void take_in(UsedFix& used, Whereabouts& known) {
+  used.outcome = known.filter.add_fix(used.planar, used.fix.ids);
+  if (used.outcome == FixOutcome::accepted) known.trust.support(used.fix.ids);
+  if (used.outcome == FixOutcome::started || used.outcome == FixOutcome::relocated)
+    known.trust.estimate_moved();
+}
+
+}  // namespace
+
+Sight::Sight(const MarkerRegistry& registry, const CameraModel& camera,
+             const Eigen::Isometry3d& base_from_camera, const DetectorOptions& detector,
+             const PoseFixOptions& fix)
+    : registry_(registry),
+      camera_(camera),
+      base_from_camera_(base_from_camera),
+      fix_options_(fix),
+      detector_(expecting(registry, detector)) {}
+
+std::optional<UsedFix> Sight::see(const Frame& frame, Whereabouts& known) {
+  std::vector<DetectedMarker> markers = detector_.detect(frame.gray);
+  std::erase_if(markers, [&](const DetectedMarker& marker) { return !known.trust.trusts(marker.id); });
+
+  std::optional<UsedFix> used = fix_by(frame, markers);
+  if (used) {
+    const std::vector<int>& agreeing = used->fix.ids;
+    std::erase_if(markers, [&](const DetectedMarker& marker) {
+      return agreeing.size() > 1 && std::ranges::find(agreeing, marker.id) != agreeing.end();
+    });
+  }
+  std::vector<UsedFix> doubted = used && markers.size() == 1 && used->fix.ids.size() == 1
+                                     ? std::vector<UsedFix>{*used}
+                                     : fixes_by_each(frame, markers);
+  for (const UsedFix& single : doubted) judge(single, known);
+
+  // Of two that contradict each other the estimate may believe one.
+  if (!used) {
+    std::erase_if(doubted, [&](const UsedFix& single) { return !agrees(single, known); });
+    if (doubted.size() == 1) used = doubted.front();
+  }
+  if (used) take_in(*used, known);
+  return used;
+}
+
+std::optional<UsedFix> Sight::fix_by(const Frame& frame, const std::vector<DetectedMarker>& markers) const {
+  const std::optional<PoseFix> fix = fix_pose(frame.stamp, markers, registry_, camera_, fix_options_);
+  if (!fix) return std::nullopt;
+  return UsedFix{.fix = *fix, .planar = compensate_mount(*fix, base_from_camera_)};
+}
+
+/// An ID that is seen twice has none.
+std::vector<UsedFix> Sight::fixes_by_each(const Frame& frame,
+                                          const std::vector<DetectedMarker>& markers) const {
+  std::vector<UsedFix> fixes;
+  for (const DetectedMarker& marker : markers) {
+    if (std::ranges::count(markers, marker.id, &DetectedMarker::id) > 1) continue;
+    if (std::optional<UsedFix> fix = fix_by(frame, {marker})) fixes.push_back(std::move(*fix));
+  }
+  return fixes;
+}
+
+/// Charges the marker if its fix contradicts the estimate.
+void Sight::judge(const UsedFix& single, Whereabouts& known) const {
+  const int id = single.fix.ids.front();
+  const RegisteredMarker* registered = registry_.find(id);
+  const std::optional<FixExpectation> expected = known.filter.expectation(single.planar);
+  if (registered == nullptr || !expected) return;
+  known.trust.charge({.id = id,
+                      .marker_in_map = map_from_marker(registry_, *registered).translation().head<2>(),
+                      .map_from_base_by_marker = single.planar.map_from_base,
+                      .map_from_base_expected = expected->map_from_base,
+                      .squared_distance = expected->squared_distance});
+}
+
+}  // namespace lodestar

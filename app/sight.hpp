@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "localization/marker_detector.hpp"
+#include "localization/marker_trust.hpp"
+#include "localization/pose_filter.hpp"
+#include "localization/pose_fix.hpp"
+#include "maps/frame.hpp"
+
+namespace lodestar {
+
+/// One camera frame that gave a pose, and what the filter made of it.
+struct UsedFix {
+  PoseFix fix;
+  PlanarFix planar;
+  FixOutcome outcome = FixOutcome::collecting;
+};
+
+/// What the robot holds true about where it is and which markers tell the truth.
+struct Whereabouts {
+  PoseFilter filter;
+  MarkerTrust trust;
+};
+
+/// From a camera frame to a better belief: reads the markers, takes the pose from those that are trusted, and
+/// calls a marker to account that contradicts the others or the estimate.
+class Sight {
+ public:
+  Sight(const MarkerRegistry& registry, const CameraModel& camera, const Eigen::Isometry3d& base_from_camera,
+        const DetectorOptions& detector, const PoseFixOptions& fix);
+
+  /// Nothing when no pose came of the frame; the belief may know more of its markers even so.
+  std::optional<UsedFix> see(const Frame& frame, Whereabouts& known);
+
+ private:
+  [[nodiscard]] std::optional<UsedFix> fix_by(const Frame& frame,
+                                              const std::vector<DetectedMarker>& markers) const;
+  [[nodiscard]] std::vector<UsedFix> fixes_by_each(const Frame& frame,
+                                                   const std::vector<DetectedMarker>& markers) const;
+  void judge(const UsedFix& single, Whereabouts& known) const;
+
+  MarkerRegistry registry_;
+  CameraModel camera_;
+  Eigen::Isometry3d base_from_camera_;
+  PoseFixOptions fix_options_;
+  MarkerDetector detector_;
+};
+
+}  // namespace lodestar

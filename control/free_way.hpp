@@ -1,0 +1,28 @@
+#pragma once
+
+#include "maps/distance_field.hpp"
+#include "maps/geometry.hpp"
+#include "maps/occupancy_map.hpp"
+
+namespace lodestar {
+
+/// How far the robot's disc can go straight ahead before it meets something that is not drivable.
+class FreeWay {
+ public:
+  /// `tolerance_m`: the disc is taken to be smaller by so much, for paths that pass at exactly its radius.
+  FreeWay(const OccupancyMap& map, double radius_m, double tolerance_m = 0.03);
+
+  /// At most `up_to_m`. A disc that overlaps something already, as after a pose that was a little off, has a
+  /// way out of it but none deeper into it.
+  [[nodiscard]] double ahead_m(const Pose2& map_from_base, double up_to_m) const;
+
+ private:
+  [[nodiscard]] double room_m(const Vec2& point_in_map) const;
+  [[nodiscard]] double exact_distance_m(const Vec2& point_in_map) const;
+
+  OccupancyMap map_;
+  DistanceField distances_;
+  double radius_m_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,29 @@
+#include "control/look_around.hpp"
+
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+/// Would a marker in view mend it?
+bool is_lost(const std::optional<StopReason>& stop) {
+  return stop == StopReason::no_pose || stop == StopReason::pose_stale || stop == StopReason::pose_uncertain;
+}
+
+}  // namespace
+
+std::optional<double> LookAround::update(Stamp now, const std::optional<StopReason>& stop,
+                                         double turned_rad) {
+  if (!options_.allowed || !is_lost(stop)) {
+    stopped_since_.reset();
+    begun_at_rad_.reset();
+    return std::nullopt;
+  }
+  if (!stopped_since_) stopped_since_ = now;
+  if (now - *stopped_since_ < options_.wait) return std::nullopt;
+  if (!begun_at_rad_) begun_at_rad_ = turned_rad;
+  if (std::abs(turned_rad - *begun_at_rad_) >= options_.most_turn_rad) return std::nullopt;
+  return options_.turn_radps;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "control/safety_stop.hpp"
+
+namespace lodestar {
+
+/// What holds for now on top of the robot's own limits.
+struct SpeedLimit {
+  double forward_mps = std::numeric_limits<double>::infinity();
+  double turn_radps = std::numeric_limits<double>::infinity();
+};
+
+/// The speed from which the robot comes to rest within the distance: v^2 / (2 a) + latency v = distance.
+double speed_to_stop_within(double distance_m, double deceleration_mps2, double latency_s);
+
+struct CautionOptions {
+  double careful_from = 0.4;  ///< share of the uncertainty's limit up to which the robot goes at full speed
+  double slowest = 0.15;      ///< share of the full speed that is left just below the limit
+};
+
+/// The share of its full speed that a robot may go at, less the less sure it is: from 1, falling continuously
+/// with the larger of position's and heading's share of the limits at which it must stop.
+double share_of_speed(const Eigen::Matrix3d& covariance, const SafetyStopOptions& limits,
+                      const CautionOptions& options = {});
+
+}  // namespace lodestar

@@ -1,0 +1,165 @@
+#include "app/navigation.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <gtest/gtest.h>
+
+#include "app/mission.hpp"
+#include "app/navigation_setup.hpp"
+#include "drivers/base_driver.hpp"
+#include "drivers/simulation.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr Duration period = std::chrono::milliseconds(20);
+
+Site lab() {
+  return load_site(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab");
+}
+
+/// The lab as it is, with the robot in it that knows the lab as surveyed.
+struct Lab {
+  Site site = lab();
+  KnownWorld known = known_world(site, "wide");
+  MarkerRegistry hung = site.registry;  ///< how the markers really hang
+  std::uint64_t seed = 1;
+  std::function<bool(Stamp)> sees = [](Stamp) { return true; };  ///< or the lens is covered
+
+  [[nodiscard]] Simulation simulation() const {
+    SimulationOptions options;
+    options.start = site.start;
+    options.base_from_camera = site.robot.base_from_camera;
+    options.robot_radius_m = site.robot.radius_m;
+    options.base.track_width_m = site.robot.track_width_m;
+    options.seed = seed;
+    return {known.map, hung, known.camera, options};
+  }
+};
+
+SensorInput sense(const Lab& lab, Simulation& simulation, BaseDriver& base) {
+  simulation.advance(period);
+  SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
+  while (std::optional<Frame> frame = simulation.camera().poll())
+    if (lab.sees(frame->stamp)) input.frames.push_back(std::move(*frame));
+  return input;
+}
+
+struct Drive {
+  bool arrived = false;
+  std::string failure;
+  std::vector<DistrustedMarker> distrusted;
+  double goal_error_m = 0.0;
+  int contacts = 0;
+  bool looked_around = false;
+  double most_forward_mps = 0.0;  ///< while looking around
+};
+
+/// To one goal.
+Drive drive(const Lab& lab, const Goal& goal) {
+  Simulation simulation = lab.simulation();
+  BaseDriver base(simulation.can());
+  Mission mission(lab.known, navigation_options(lab.site.robot), {goal});
+  Drive result;
+  while (!mission.finished()) {
+    const SensorInput input = sense(lab, simulation, base);
+    const MissionStep step = mission.step(input);
+    base.command(step.navigation.command);
+    result.distrusted = step.navigation.distrusted;
+    if (step.navigation.stop && step.navigation.command.turn_radps == LookAroundOptions{}.turn_radps) {
+      result.looked_around = true;
+      result.most_forward_mps = std::max(result.most_forward_mps, step.navigation.command.forward_mps);
+    }
+    result.arrived = result.arrived || step.event == MissionEvent::goal_arrived;
+  }
+  result.failure = mission.failure();
+  result.goal_error_m =
+      (simulation.scorer().track().back().map_from_base.position_m - goal.position_m).norm();
+  result.contacts = simulation.scorer().contacts();
+  return result;
+}
+
+/// The marker nearest to the middle of the way.
+RegisteredMarker& marker_on_the_way(MarkerRegistry& registry) {
+  return *std::ranges::min_element(registry.markers, {}, [](const RegisteredMarker& marker) {
+    return (marker.position_m.head<2>() - Vec2(5.4, 3.7)).norm();
+  });
+}
+
+TEST(Navigation, arrives_and_trusts_all_markers_where_they_hang_as_surveyed) {
+  const Lab lab;
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.distrusted.empty());
+  EXPECT_FALSE(result.looked_around);
+}
+
+TEST(Navigation, names_a_moved_marker_and_arrives_without_it) {
+  for (const Vec2& moved : {Vec2(0.06, -0.03), Vec2(-0.15, 0.1), Vec2(0.3, 0.3)}) {
+    Lab lab;
+    RegisteredMarker& marker = marker_on_the_way(lab.hung);
+    marker.position_m.head<2>() += moved;
+    const Drive result = drive(lab, lab.site.goals.front());
+    EXPECT_TRUE(result.arrived) << result.failure;
+    EXPECT_EQ(result.contacts, 0);
+    EXPECT_LT(result.goal_error_m, 0.02);
+    ASSERT_EQ(result.distrusted.size(), 1U) << moved.transpose();
+    EXPECT_EQ(result.distrusted.front().id, marker.id);
+    EXPECT_LT((result.distrusted.front().offset_m - moved).norm(), 0.02) << moved.transpose();
+  }
+}
+
+TEST(Navigation, stops_when_blind_looks_around_and_drives_on_when_it_sees_again) {
+  Lab lab;
+  lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0 || seconds(stamp) > 22.0; };
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.looked_around);
+  EXPECT_EQ(result.most_forward_mps, 0.0);
+  EXPECT_EQ(result.contacts, 0);
+  EXPECT_LT(result.goal_error_m, 0.02);
+}
+
+TEST(Navigation, gives_up_in_place_when_it_stays_blind) {
+  Lab lab;
+  lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0; };
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_FALSE(result.arrived);
+  EXPECT_FALSE(result.failure.empty());
+  EXPECT_TRUE(result.looked_around);
+  EXPECT_EQ(result.contacts, 0);
+}
+
+TEST(Navigation, pauses_goes_on_and_can_be_cancelled) {
+  const Lab lab;
+  Simulation simulation = lab.simulation();
+  BaseDriver base(simulation.can());
+  Navigation navigation(lab.known, navigation_options(lab.site.robot));
+  const auto run = [&](int steps) {
+    BodyVelocity command;
+    for (int i = 0; i < steps; ++i) {
+      command = navigation.step(sense(lab, simulation, base)).command;
+      base.command(command);
+    }
+    return command;
+  };
+  run(100);
+  ASSERT_TRUE(navigation.go_to(lab.site.goals.front()));
+  for (int i = 0; i < 20 && run(25).forward_mps < 0.5; ++i) continue;
+  EXPECT_GT(run(1).forward_mps, 0.4);
+  navigation.pause();
+  EXPECT_TRUE(navigation.paused());
+  EXPECT_EQ(run(150).forward_mps, 0.0);
+  navigation.resume();
+  EXPECT_GT(run(100).forward_mps, 0.1);
+  navigation.cancel();
+  EXPECT_GT(run(1).forward_mps, 0.1) << "gently";
+  EXPECT_EQ(run(200).forward_mps, 0.0);
+  EXPECT_FALSE(navigation.arrived());
+  navigation.resume();
+  EXPECT_EQ(run(50).forward_mps, 0.0) << "there is nothing to go on with";
+}
+
+}  // namespace
+}  // namespace lodestar
