@@ -111,7 +111,7 @@ struct Heard {
 Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& protocol) {
   SocketCanBus bus(connection.interface, {.identifiers = protocol.identifiers()});
   const std::unique_ptr<Camera> camera = open_camera(site, connection, 1);
-  const PaperDetectorOptions detector = navigation_options(site.robot).detector;
+  const DetectorOptions detector = navigation_options(site.robot).detector;
   Heard heard;
   for (const Stamp end = monotonic_now() + listening; monotonic_now() < end;) {
     while (const auto received = bus.poll()) {

@@ -4,7 +4,6 @@
 #include <atomic>
 
 #include "app/parallel.hpp"
-
 #include "app/run_statistics.hpp"
 
 namespace lodestar {
