@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "control/travel_time.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -17,7 +19,10 @@ bool at_rest(const BaseFeedback& base) {
 
 Mission::Mission(const KnownWorld& world, const NavigationOptions& navigation, std::vector<Goal> goals,
                  const MissionOptions& options)
-    : navigation_(world, navigation), goals_(std::move(goals)), options_(options) {}
+    : navigation_(world, navigation),
+      goals_(std::move(goals)),
+      options_(options),
+      drive_options_(navigation.drive) {}
 
 MissionStep Mission::step(const SensorInput& input) {
   NavigationStep step = navigation_.step(input);
@@ -58,6 +63,9 @@ MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep&
     return fail(input.now, std::string(to_string(*failure)));
   }
   path_ = std::get<Plan>(*result).path;
+  const double ideal_s = ideal_travel_time_s(path_, step.estimate->map_from_base.yaw_rad,
+                                             goals_[current_].heading_rad, drive_options_);
+  drive_ends_ = input.now + from_seconds(options_.max_time_factor * ideal_s) + options_.max_time_more;
   state_ = State::driving;
   since_.reset();
   return MissionEvent::path_planned;
@@ -70,6 +78,7 @@ MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep
     since_.reset();
     return MissionEvent::none;
   }
+  if (input.now > drive_ends_) return fail(input.now, "no progress: the robot is stuck");
   if (!step.stop) {
     since_.reset();
     return MissionEvent::none;

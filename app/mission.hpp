@@ -12,6 +12,10 @@ struct MissionOptions {
   Duration max_stop = std::chrono::seconds(20);            ///< a safety stop that lasts longer fails the goal
   Duration settle = std::chrono::milliseconds(400);        ///< at rest for so long before arrival is claimed
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
+  /// A drive that takes longer than so many times the ideal, and so much more, fails: the robot is stuck.
+  double max_time_factor = 4.0;
+  Duration max_time_more = std::chrono::seconds(60);
+  Duration settle = std::chrono::milliseconds(400);  ///< at rest for so long before arrival is claimed
 };
 
 enum class MissionEvent { none, path_planned, goal_arrived, goal_failed };
@@ -52,6 +56,8 @@ class Mission {
   MissionOptions options_;
   State state_ = State::starting;
   std::size_t current_ = 0;
+  DriveOptions drive_options_;
+  Stamp drive_ends_;            ///< at the latest
   std::optional<Stamp> since_;  ///< of the present state, or of the present stop while driving
   Path path_;
   std::string failure_;

@@ -10,9 +10,17 @@ DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions option
   return options;
 }
 
-bool agrees(const UsedFix& used, const Whereabouts& known) {
-  const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
-  return expected && expected->agrees;
+/// Of markers that contradict each other the estimate believes the one that it expected most, if any.
+std::optional<UsedFix> most_expected(const std::vector<UsedFix>& fixes, const Whereabouts& known) {
+  std::optional<UsedFix> best;
+  double least_distance = 0.0;
+  for (const UsedFix& used : fixes) {
+    const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
+    if (!expected || !expected->agrees || (best && expected->squared_distance >= least_distance)) continue;
+    best = used;
+    least_distance = expected->squared_distance;
+  }
+  return best;
 }
 
 /// The filter's word on the fix, and what follows from it for the markers.
@@ -50,11 +58,7 @@ std::optional<UsedFix> Sight::see(const Frame& frame, Whereabouts& known) {
                                      : fixes_by_each(frame, markers);
   for (const UsedFix& single : doubted) judge(single, known);
 
-  // Of two that contradict each other the estimate may believe one.
-  if (!used) {
-    std::erase_if(doubted, [&](const UsedFix& single) { return !agrees(single, known); });
-    if (doubted.size() == 1) used = doubted.front();
-  }
+  if (!used) used = most_expected(doubted, known);
   if (used) take_in(*used, known);
   return used;
 }

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "app/run_statistics.hpp"
-#include "drivers/scoring.hpp"
 #include "localization/map_estimate.hpp"
 #include "localization/mount.hpp"
 #include "maps/distance_field.hpp"
 #include "maps/marker.hpp"
+#include "maps/percentile.hpp"
 
 namespace lodestar {
 namespace {

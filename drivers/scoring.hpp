@@ -5,6 +5,7 @@
 
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
+#include "maps/percentile.hpp"
 
 namespace lodestar {
 
@@ -18,10 +19,6 @@ struct ArrivalScore {
   double position_error_m = 0.0;
   std::optional<double> heading_error_rad;  ///< absolute; nothing when no heading was wanted
 };
-
-/// The smallest of the values that at least this fraction (0..1) of them does not exceed: the nearest rank.
-/// Nothing of no values.
-std::optional<double> percentile(std::vector<double> values, double fraction);
 
 /// The judge of a simulated drive, the only one outside the simulated drivers who sees the truth. It never
 /// answers while a decision could depend on it: the program asks after the drive, or hands in claims.

@@ -71,11 +71,12 @@ double residual_px(const Eigen::Isometry3d& map_from_camera, std::span<const Sur
   return std::sqrt(sum / static_cast<double>(dots.size()));
 }
 
-/// Does every marker lie about where the pose would show it?
+/// Does every marker lie about where a pose that the prior allows would show it?
 bool fits(const MapEstimate& estimate, std::span<const KnownMarker> markers, const CameraModel& camera,
-          double max_residual_px) {
+          const PoseFixOptions& options) {
+  if (prior_cost(estimate.map_from_camera, options.prior) > options.max_prior_chi2) return false;
   return std::ranges::all_of(markers, [&](const KnownMarker& marker) {
-    return residual_px(estimate.map_from_camera, marker.dots, camera) <= max_residual_px;
+    return residual_px(estimate.map_from_camera, marker.dots, camera) <= options.max_residual_px;
   });
 }
 
@@ -123,7 +124,7 @@ std::optional<MapEstimate> best_estimate(std::span<const KnownMarker> markers,
     const std::optional<MapEstimate> estimate = maximize_posterior(guess, dots, camera, options);
     if (!estimate || (best && best->cost <= estimate->cost)) return false;
     best = estimate;
-    return fits(*best, markers, camera, options.max_residual_px);
+    return fits(*best, markers, camera, options);
   };
   const auto level =
       options.prior.tilt_sigma_rad ? level_guess(markers.front().dots, camera, options.prior) : std::nullopt;
@@ -176,7 +177,7 @@ std::optional<PoseFix> fix_pose(Stamp stamp, const std::vector<DetectedMarker>& 
   while (!known.empty()) {
     const std::vector<SurveyedDot> dots = all_dots(known);
     const std::optional<MapEstimate> estimate = best_estimate(known, dots, camera, options);
-    if (estimate && fits(*estimate, known, camera, options.max_residual_px))
+    if (estimate && fits(*estimate, known, camera, options))
       return fix_from(stamp, *estimate, known, dots, camera);
     if (known.size() <= 2) return std::nullopt;
     known = without_the_odd_one(known, camera, options);
