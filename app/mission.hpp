@@ -15,7 +15,6 @@ struct MissionOptions {
   /// A drive that takes longer than so many times the ideal, and so much more, fails: the robot is stuck.
   double max_time_factor = 4.0;
   Duration max_time_more = std::chrono::seconds(60);
-  Duration settle = std::chrono::milliseconds(400);  ///< at rest for so long before arrival is claimed
 };
 
 enum class MissionEvent { none, path_planned, goal_arrived, goal_failed };
