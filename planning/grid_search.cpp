@@ -86,8 +86,12 @@ class Search {
 
   [[nodiscard]] GridPath path_to(Cell cell) const {
     GridPath path{.cells = {cell}, .cost = best_[map_.index(cell)], .expanded = expanded_};
-    for (int by = came_by_[map_.index(cell)]; by >= 0; by = came_by_[map_.index(cell)]) {
-      const Cell step = steps[static_cast<std::size_t>(by)];
+    const auto came_by = [&](Cell at) -> std::optional<std::size_t> {
+      const std::int8_t by = came_by_[map_.index(at)];
+      return by < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(by));
+    };
+    for (auto by = came_by(cell); by; by = came_by(cell)) {
+      const Cell step = steps[*by];
       cell = {cell.column - step.column, cell.row - step.row};
       path.cells.push_back(cell);
     }
