@@ -8,7 +8,7 @@
 namespace lodestar {
 
 struct MissionOptions {
-  Duration max_wait_for_start = std::chrono::seconds(15);  ///< for a first pose and a base that obeys
+  Duration max_wait_for_start = std::chrono::seconds(25);  ///< for a first pose and a base that obeys
   Duration max_stop = std::chrono::seconds(20);            ///< a safety stop that lasts longer fails the goal
   /// A drive that takes longer than so many times the ideal, and so much more, fails: the robot is stuck.
   double max_time_factor = 4.0;
