@@ -49,6 +49,7 @@ MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep&
   if (input.base.state == BaseState::fault && options_.hold_on_base_fault) return hold(input);
   const bool may_start = !step.stop && input.base.state == BaseState::ready && at_rest(input.base);
   if (!may_start) {
+    navigation_.look_for_markers(input.base.state == BaseState::ready);
     if (input.now - *since_ < options_.max_wait_for_start) return MissionEvent::none;
     if (input.base.state != BaseState::ready) {
       return fail(input.now, fmt::format("the base is not ready: {}",
@@ -57,6 +58,7 @@ MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep&
     return fail(input.now,
                 fmt::format("cannot start: {}", step.stop ? to_string(*step.stop) : "not at rest"));
   }
+  navigation_.look_for_markers(false);
   const std::optional<PlanResult> result = navigation_.go_to(goals_[current_]);
   if (!result) return fail(input.now, "the pose is not known");
   if (const auto* failure = std::get_if<PlanFailure>(&*result)) {

@@ -8,7 +8,7 @@
 namespace lodestar {
 
 struct MissionOptions {
-  Duration max_wait_for_start = std::chrono::seconds(15);  ///< for a first pose and a base that obeys
+  Duration max_wait_for_start = std::chrono::seconds(25);  ///< for a first pose and a base that obeys
   Duration max_stop = std::chrono::seconds(20);            ///< a safety stop that lasts longer fails the goal
   Duration settle = std::chrono::milliseconds(400);        ///< at rest for so long before arrival is claimed
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails

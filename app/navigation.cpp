@@ -20,7 +20,8 @@ Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options
       planner_(world.map, options.planner),
       free_way_(world.map, options.planner.radius_m),
       known_{PoseFilter(options.filter), MarkerTrust(options.trust)},
-      look_around_(options.look_around) {}
+      look_around_(options.look_around),
+      on_the_spot_({}, std::nullopt, options.drive) {}
 
 NavigationStep Navigation::step(const SensorInput& input) {
   // Travel comes first: a frame was exposed before the newest wheel reading, and the filter corrects the
@@ -37,6 +38,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
   const Duration elapsed = last_step_ ? input.now - *last_step_ : Duration::zero();
   std::optional<RotateThenDrive> drive = drive_;
   LookAround look_around = look_around_;
+  RotateThenDrive on_the_spot = on_the_spot_;
   BodyVelocity command;
   if (drive) {
     const bool may_look = !drive->paused() && !drive->arrived();
@@ -53,12 +55,15 @@ NavigationStep Navigation::step(const SensorInput& input) {
       if (blocked && drive->phase() == DrivePhase::driving) stop = StopReason::way_blocked;
     }
     if (drive->phase() == DrivePhase::cancelled) drive.reset();
+  } else if (looks_for_markers_) {
+    command = on_the_spot.turn_around(look_around.update(input.now, stop, turned_rad).value_or(0.0), elapsed);
   }
 
   known_ = std::move(known);
   estimate_ = estimate;
   drive_ = std::move(drive);
   look_around_ = look_around;
+  on_the_spot_ = std::move(on_the_spot);
   turned_rad_ = turned_rad;
   last_step_ = input.now;
   return {.fixes = std::move(fixes),
@@ -106,6 +111,11 @@ DriveOptions Navigation::drive_options(const Path& path) const {
     if (!planner_.is_clear(begin, end)) options.blend_corridor_m = 0.0;
   }
   return options;
+}
+
+void Navigation::halt() {
+  drive_.reset();
+  looks_for_markers_ = false;
 }
 
 void Navigation::pause() {

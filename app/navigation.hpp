@@ -66,7 +66,11 @@ class Navigation {
   std::optional<PlanResult> go_to(const Goal& goal);
 
   /// Follows nothing any more: the next command is zero.
-  void halt() { drive_.reset(); }
+  void halt();
+
+  /// While it follows nothing: may it turn on the spot to look for a marker when it does not know where it
+  /// is?
+  void look_for_markers(bool wanted) { looks_for_markers_ = wanted; }
 
   /// Brings the robot to rest within its limits; then resume() goes on to the same goal.
   void pause();
@@ -89,6 +93,8 @@ class Navigation {
   FreeWay free_way_;
   Whereabouts known_;
   LookAround look_around_;
+  RotateThenDrive on_the_spot_;  ///< what moves the robot while it follows nothing
+  bool looks_for_markers_ = false;
   double turned_rad_ = 0.0;  ///< by the wheels, since start-up
   std::optional<PoseEstimate> estimate_;
   std::optional<RotateThenDrive> drive_;

@@ -32,6 +32,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.drive.max_wheel_mps = robot.max_wheel_mps;
   options.drive.track_width_m = robot.track_width_m;
   options.drive.arrival_distance_m = robot.arrival_distance_m;
+  options.drive.blend_corridor_m = robot.pass_corners_within_m;
   options.drive.arrival_heading_rad = robot.arrival_heading_rad;
   options.planner.limits = motion_limits(options.drive);
   return options;

@@ -108,6 +108,8 @@ Robot load_robot(const std::filesystem::path& file) {
   read_limits(yaml.mapping("limits"), robot);
   read_arrival(yaml.mapping("arrival"), robot);
   robot.preferred_clearance_m = yaml.number("preferred_clearance_m", 0.0, 5.0);
+  if (yaml.has("pass_corners_within_m"))
+    robot.pass_corners_within_m = yaml.number("pass_corners_within_m", 0.0, 1.0);
   yaml.finish();
   return robot;
 }

@@ -24,6 +24,7 @@ struct Robot {
   double mount_tilt_sigma_rad = 0.0;  ///< how well roll and pitch of the camera hold while driving
   double mount_height_sigma_m = 0.0;
   double preferred_clearance_m = 0.0;
+  double pass_corners_within_m = 0.0;  ///< gentle corners are passed without stopping, so near to the path
   double max_forward_mps = 0.0;
   double max_turn_radps = 0.0;
   double max_acceleration_mps2 = 0.0;

@@ -39,7 +39,7 @@ class PoseFilter {
 
   /// Moves the belief by the wheels' travel since the last call. Stamps ascend; a reading that is not newer
   /// than the last one is ignored.
-  void add_travel(const WheelTravel& travel);
+  void add_travel(const WheelTravel& reading);
 
   /// Corrects the belief at the fix's capture time. `ids` are the markers that the fix rests on: where one
   /// marker alone contradicts the estimate by little it may itself have moved, and the estimate stays until a

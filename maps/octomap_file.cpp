@@ -94,8 +94,10 @@ std::map<int, int> surfaces_of(const octomap::OcTree& tree) {
     const double top_m = leaf.getZ() + half_m;
     const int columns = static_cast<int>(std::lround(leaf.getSize() / voxel_m));
     for (int i = 0; i < columns * columns; ++i) {
-      const double x_m = leaf.getX() - half_m + (i % columns + 0.5) * voxel_m;
-      const double y_m = leaf.getY() - half_m + (i / columns + 0.5) * voxel_m;
+      const int column = i % columns;
+      const int row = i / columns;
+      const double x_m = leaf.getX() - half_m + (column + 0.5) * voxel_m;
+      const double y_m = leaf.getY() - half_m + (row + 0.5) * voxel_m;
       if (is_free_above(tree, x_m, y_m, top_m)) ++surfaces[static_cast<int>(std::lround(top_m / voxel_m))];
     }
   }

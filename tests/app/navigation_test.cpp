@@ -121,6 +121,15 @@ TEST(Navigation, stops_when_blind_looks_around_and_drives_on_when_it_sees_again)
   EXPECT_LT(result.goal_error_m, 0.02);
 }
 
+TEST(Navigation, turns_to_find_its_first_marker) {
+  Lab lab;
+  lab.sees = [](Stamp stamp) { return seconds(stamp) > 5.0; };
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.looked_around);
+  EXPECT_LT(result.goal_error_m, 0.02);
+}
+
 TEST(Navigation, gives_up_in_place_when_it_stays_blind) {
   Lab lab;
   lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0; };
