@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/image_files.hpp"
+#include "app/frame_inputs.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -91,23 +91,23 @@ nlohmann::ordered_json number_or_null(double value) {
 
 CameraSet read_camera_set(const std::vector<std::string>& images, const CalibrationBoard& board) {
   CameraSet set;
-  ImageFiles files(images);
+  FrameInputs frames(images, {});
   std::string first;
-  while (const std::optional<ImageFile> image = files.next(std::nullopt)) {
+  while (const std::optional<SourceFrame> image = frames.next()) {
     if (first.empty()) {
-      first = image->file;
+      first = image->name;
       set.width_px = image->gray.cols;
       set.height_px = image->gray.rows;
     }
     if (image->gray.cols != set.width_px || image->gray.rows != set.height_px) {
-      throw InputError(image->file, 0, fmt::format("{} x {} pixels", image->gray.cols, image->gray.rows),
+      throw InputError(image->name, 0, fmt::format("{} x {} pixels", image->gray.cols, image->gray.rows),
                        fmt::format("{} x {} as in {}", set.width_px, set.height_px, first));
     }
     if (std::optional<BoardView> view = find_board(image->gray, board)) {
-      set.files.push_back(image->file);
+      set.files.push_back(image->name);
       set.views.push_back(std::move(*view));
     } else {
-      set.files_without_board.push_back(image->file);
+      set.files_without_board.push_back(image->name);
     }
   }
   return set;

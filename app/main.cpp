@@ -12,7 +12,7 @@ using namespace lodestar;
 std::vector<Command> all_commands(CLI::App& app) {
   std::vector<Command> all;
   for (const auto make : {replay_commands, localize_commands, detect_commands, plan_commands, map_commands,
-                          markers_commands, calibrate_commands, bench_commands}) {
+                          markers_commands, calibrate_commands, bench_commands, serve_commands}) {
     for (Command& command : make(app)) all.push_back(std::move(command));
   }
   return all;
