@@ -108,10 +108,12 @@ std::optional<MarkerFormat> guess_marker_format(const std::filesystem::path& fil
   if (extension == ".txt") return MarkerFormat::fiducial_slam;
   if (extension == ".geojson") return MarkerFormat::geojson;
   if (extension == ".json") {
-    return text.find("FeatureCollection") == text.npos ? MarkerFormat::apriltag : MarkerFormat::geojson;
+    return text.find("FeatureCollection") == std::string_view::npos ? MarkerFormat::apriltag
+                                                                    : MarkerFormat::geojson;
   }
   if (extension == ".yaml" || extension == ".yml") {
-    return text.find("Landmarks:") == text.npos ? MarkerFormat::lodestar : MarkerFormat::stargazer;
+    return text.find("Landmarks:") == std::string_view::npos ? MarkerFormat::lodestar
+                                                             : MarkerFormat::stargazer;
   }
   return std::nullopt;
 }

@@ -12,6 +12,7 @@ namespace {
 
 struct ServeArguments {
   std::string site;
+  std::string runs = "runs";
   AccessRules access{.bind = "127.0.0.1", .port = 8440};
 };
 
@@ -22,7 +23,7 @@ ExitCode serve(const ServeArguments& arguments) {
     throw InputError(
         fmt::format("--token: found {} characters, wanted {} or more", token.size(), shortest_token));
   }
-  Console console(arguments.site);
+  Console console(arguments.site, arguments.runs);
   HttpServer server({.access = arguments.access},
                     [&](const HttpRequest& request) { return console.answer(request); });
   const Interruption interruption;
@@ -40,6 +41,8 @@ std::vector<Command> serve_commands(CLI::App& lodestar) {
   CLI::App* command = lodestar.add_subcommand(
       "serve", "The console in a browser: edit markers on the map, see what they cover, print them");
   command->add_option("site", arguments->site, "Site folder")->required();
+  command->add_option("--runs", arguments->runs, "Folder with run folders, as replay -o leaves them")
+      ->capture_default_str();
   command->add_option("--port", arguments->access.port, "0 takes any free one")->capture_default_str();
   command
       ->add_option("--bind", arguments->access.bind,

@@ -19,6 +19,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr const char* history_path = "/api/markers/history";
+constexpr const char* runs_path = "/api/runs";
 
 HttpResponse document(const ordered_json& content) {
   HttpResponse response{.body = content.dump()};
@@ -51,6 +52,26 @@ ordered_json coverage_json(const Site& site) {
           {"camera_height_m", camera.z()},
           {"reach_per_m", narrowest_view(site.cameras.at(site.default_camera))},
           {"margin_m", half_marker_m + camera.head<2>().norm()}};
+}
+
+/// Text with its %XX replaced; empty where one is broken or stands for a zero.
+std::string decoded(const std::string& text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      plain += text[i];
+      continue;
+    }
+    unsigned code = 0;
+    const char* const digits = text.data() + i + 1;
+    if (i + 2 >= text.size() || std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2 ||
+        code == 0) {
+      return "";
+    }
+    plain += static_cast<char>(code);
+    i += 2;
+  }
+  return plain;
 }
 
 bool matches(const std::string& tags, const std::string& etag) {
@@ -99,10 +120,11 @@ HttpResponse printed(const json& request) {
 
 }  // namespace
 
-Console::Console(const std::filesystem::path& site_folder)
+Console::Console(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder)
     : site_(load_site(site_folder)),
       registry_file_(site_.registry_file),
-      history_(registry_file_.parent_path() / ".history") {}
+      history_(registry_file_.parent_path() / ".history"),
+      runs_(runs_folder) {}
 
 HttpResponse Console::answer(const HttpRequest& request) {
   const std::string& target = request.target;
@@ -116,6 +138,7 @@ HttpResponse Console::answer(const HttpRequest& request) {
   if (target == "/api/map/cells") response = cells();
   if (target == "/api/markers") response = markers();
   if (target.starts_with(history_path)) response = history(target);
+  if (target == runs_path || target.starts_with(std::string(runs_path) + "/")) response = runs(target);
   if (!response) return refusal(404, "found no such document");
   if (!response->etag.empty() && matches(request.if_none_match, response->etag)) {
     return {.status = 304, .etag = response->etag};
@@ -190,6 +213,17 @@ HttpResponse Console::history(const std::string& target) const {
   const std::optional<std::string> text = history_.text(number);
   if (!text) return refusal(404, "found no such state");
   return document(registry_json(parse_markers(*text, MarkerFormat::lodestar, "history")));
+}
+
+HttpResponse Console::runs(const std::string& target) const {
+  const std::string rest = target.substr(std::string(runs_path).size());
+  if (rest.empty()) return document(runs_.names());
+  try {
+    const std::optional<ordered_json> run = runs_.run(decoded(rest.substr(1)));
+    return run ? document(*run) : refusal(404, "found no such run");
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  }
 }
 
 HttpResponse Console::post(const HttpRequest& request) const {

@@ -4,6 +4,7 @@
 
 #include "app/console/document_history.hpp"
 #include "app/console/http.hpp"
+#include "app/console/run_archive.hpp"
 #include "app/site.hpp"
 
 namespace lodestar {
@@ -21,8 +22,8 @@ namespace lodestar {
 /// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
 class Console {
  public:
-  /// Throws InputError for a site that cannot be used.
-  explicit Console(const std::filesystem::path& site_folder);
+  /// Throws InputError for a site that cannot be used. `runs_folder` need not exist.
+  Console(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder);
 
   HttpResponse answer(const HttpRequest& request);
 
@@ -33,11 +34,13 @@ class Console {
   [[nodiscard]] HttpResponse markers() const;
   HttpResponse save_markers(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse history(const std::string& target) const;
+  [[nodiscard]] HttpResponse runs(const std::string& target) const;
   [[nodiscard]] HttpResponse post(const HttpRequest& request) const;
 
   Site site_;
   std::filesystem::path registry_file_;
   DocumentHistory history_;
+  RunArchive runs_;
 };
 
 }  // namespace lodestar

@@ -70,3 +70,9 @@ export const printSheets = async (ids: number[], paper: string): Promise<Blob> =
   (await request('POST', '/api/markers/print', { ids, paper })).blob();
 export const getHistory = (): Promise<number[]> => json(request('GET', '/api/markers/history'));
 export const getFormer = (number: number): Promise<Registry> => json(request('GET', `/api/markers/history/${number}`));
+
+/** Seconds, x and y in metres, yaw in degrees. */
+export type Row = [number, number, number, number];
+export interface Run { name: string; summary: Record<string, unknown>; estimate: Row[]; truth: Row[] }
+export const getRuns = (): Promise<string[]> => json(request('GET', '/api/runs'));
+export const getRun = (name: string): Promise<Run> => json(request('GET', `/api/runs/${encodeURIComponent(name)}`));

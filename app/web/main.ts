@@ -12,6 +12,7 @@ import { safestId, sideM, centerOf } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import { Panel } from './panel.js';
 import { Pointer, turned } from './pointer.js';
+import { Replay } from './replay.js';
 import { Stage } from './stage.js';
 import { View } from './view.js';
 
@@ -43,6 +44,7 @@ class Console {
   readonly coverage: Coverage;
   readonly stage: Stage;
   readonly pointer: Pointer;
+  readonly replay: Replay;
   private readonly panel: Panel;
   private readonly commands: Command[];
   private base: Registry;
@@ -54,6 +56,7 @@ class Console {
     this.coverage = new Coverage(floor, site);
     this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage);
     this.pointer = new Pointer(this.stage);
+    this.replay = new Replay(this.stage, site.robot.radius_m, (error) => attempt(() => Promise.reject(error)));
     this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.suggest() });
     [this.base, this.etag] = [tagged.registry, tagged.etag];
     this.commands = this.makeCommands();
@@ -235,6 +238,7 @@ class Console {
       { name: 'export', button: 'Export', title: 'write markers in another format', run: () => attempt(() => exportTo(editor, this.site.formats)) },
       { name: 'print', button: 'Print', key: 'Ctrl+P', title: 'sheets to make the chosen markers from', run: () => attempt(() => printChosen(editor)) },
       { name: 'history', button: 'History', title: 'bring back an earlier state', run: () => attempt(() => openHistory(editor)) },
+      { name: 'replay', button: 'Replay', title: 'open a run and scrub through it', run: () => attempt(() => this.replay.open()) },
       { name: 'reload', button: 'Reload', title: 'read the markers again; unsaved changes are lost', run: () => this.reload() },
       { name: 'save', button: 'Save', key: 'Ctrl+S', title: 'save', run: () => this.save(), possible: () => editor.dirty },
       { name: 'theme', button: 'Light/dark', title: 'light or dark', run: () => this.theme() },

@@ -109,8 +109,7 @@ export class Pointer {
     const snapping = this.snap.on && !e.altKey;
     switch (gesture.kind) {
       case 'pan':
-        view.panBy(now.x - this.last.x, now.y - this.last.y);
-        this.stage.redraw();
+        this.stage.pan(now.x - this.last.x, now.y - this.last.y);
         break;
       case 'marquee':
         this.stage.marquee = { a: this.down, b: now };

@@ -8,6 +8,7 @@ import type { View } from './view.js';
 const fineFromPx = 26;   // side of a marker from which its dots are drawn
 const labelFromPx = 14;
 const handleDistancePx = 46;
+const manyMarkers = 1500;  // from here on a pan moves the drawn layers, and draws them anew at its end
 
 interface Colours { free: number[]; wall: number[]; unknown: number[]; marker: string; dot: string; chosen: string; ink: string }
 const light: Colours = { free: [255, 255, 255], wall: [52, 60, 72], unknown: [205, 210, 217], marker: '#1c2430', dot: '#ffffff', chosen: '#0b5fce', ink: '#1c2430' };
@@ -17,6 +18,9 @@ export class Stage {
   showCoverage = true;
   marquee: { a: Point; b: Point } | null = null;
   pins: { at: Point; label: string }[] = [];
+  /** What others draw on the overlay. */
+  painters: ((c: CanvasRenderingContext2D) => void)[] = [];
+  private shift: Point = { x: 0, y: 0 };
   private readonly floorLayer: CanvasRenderingContext2D;
   private readonly ceilingLayer: CanvasRenderingContext2D;
   private readonly overlayLayer: CanvasRenderingContext2D;
@@ -49,12 +53,28 @@ export class Stage {
     this.redraw();
   }
 
+  /** Moves the view under the pointer. */
+  pan(dx: number, dy: number): void {
+    this.view.panBy(dx, dy);
+    if (this.editor.markers.size < manyMarkers) return this.redraw();
+    this.shiftLayers({ x: this.shift.x + dx, y: this.shift.y + dy });
+  }
+
+  private shiftLayers(by: Point): void {
+    if (by.x === this.shift.x && by.y === this.shift.y) return;
+    this.shift = by;
+    for (const layer of [this.floorLayer, this.ceilingLayer, this.overlayLayer]) {
+      layer.canvas.style.transform = `translate(${by.x}px, ${by.y}px)`;
+    }
+  }
+
   /** Draws everything with the next frame. */
   redraw(): void {
     if (this.wanted) return;
     this.wanted = true;
     requestAnimationFrame(() => {
       this.wanted = false;
+      this.shiftLayers({ x: 0, y: 0 });
       this.drawFloor();
       this.drawCeiling();
       this.drawOverlay();
@@ -176,6 +196,8 @@ export class Stage {
       c.arc(handle.x, handle.y, 7, 0, 2 * Math.PI);
       c.fill();
     }
+    for (const paint of this.painters) paint(c);
+    c.strokeStyle = c.fillStyle = colours.chosen;
     this.drawPins(c);
     if (this.marquee) {
       const { a, b } = this.marquee;

@@ -36,7 +36,7 @@ class ConsoleTest : public ::testing::Test {
   std::string file() { return read_document(site_ / "markers.yaml"); }
 
   Console& console() {
-    if (!console_) console_.emplace(site_);
+    if (!console_) console_.emplace(site_, folder_ / "runs");
     return *console_;
   }
 
@@ -155,6 +155,26 @@ TEST_F(ConsoleTest, knows_documents_by_their_names_and_nothing_else) {
   }
   EXPECT_EQ(console().answer({.method = "DELETE", .target = "/api/markers"}).status, 405);
   EXPECT_EQ(console().answer({.method = "PUT", .target = "/api/site"}).status, 405);
+}
+
+TEST_F(ConsoleTest, shows_run_folders_and_nothing_beside_them) {
+  EXPECT_EQ(get("/api/runs").body, "[]");
+  const fs::path run = folder_ / "runs" / "seed 7";
+  fs::create_directories(run);
+  std::ofstream(run / "summary.json") << "{\"seed\": 7}";
+  std::ofstream(run / "estimate.tum") << "0.5 1 2 0 0 0 0 1\n1 1.5 2 0 0 0 0.707106781 0.707106781\n";
+  fs::create_directory_symlink(run, folder_ / "runs" / "link");
+  fs::create_directories(folder_ / "runs" / "empty");
+
+  EXPECT_EQ(json::parse(get("/api/runs").body), json({"seed 7"}));
+  const json read = json::parse(get("/api/runs/seed%207").body);
+  EXPECT_EQ(read["summary"]["seed"], 7);
+  EXPECT_EQ(read["estimate"], json::parse("[[0.5, 1.0, 2.0, 0.0], [1.0, 1.5, 2.0, 90.0]]"));
+  for (const char* name : {"link", "empty", "..", "../site", "seed%207/..", "", ".", "seed%207%00", "%"}) {
+    EXPECT_EQ(get(std::string("/api/runs/") + name).status, 404) << name;
+  }
+  std::ofstream(run / "estimate.tum") << "0.5 1 two\n";
+  EXPECT_EQ(get("/api/runs/seed%207").status, 422);
 }
 
 TEST_F(ConsoleTest, gives_each_document_a_tag_and_304_for_it) {

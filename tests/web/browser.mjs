@@ -22,7 +22,7 @@ export async function serve(...options) {
   const folder = mkdtempSync(join(tmpdir(), 'lodestar-web-'));
   const site = join(folder, 'site');
   cpSync(join(source, 'sites/lab'), site, { recursive: true });
-  const server = spawn(binary, ['serve', site, '--port', '0', ...options], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const server = spawn(binary, ['serve', site, '--port', '0', '--runs', join(folder, 'runs'), ...options], { stdio: ['ignore', 'pipe', 'inherit'] });
   const url = await new Promise((found, failed) => {
     server.stdout.on('data', (bytes) => found(String(bytes).trim()));
     server.on('exit', (code) => failed(new Error(`lodestar serve ended with ${code}`)));
@@ -31,7 +31,7 @@ export async function serve(...options) {
     server.kill('SIGTERM');
     rmSync(folder, { recursive: true, force: true });
   };
-  return { url, site, stop, markersFile: () => readFileSync(join(site, 'markers.yaml'), 'utf8') };
+  return { url, site, runs: join(folder, 'runs'), stop, markersFile: () => readFileSync(join(site, 'markers.yaml'), 'utf8') };
 }
 
 /** A page that has loaded, in a window of this size. */

@@ -1,5 +1,7 @@
 // The console as a person uses it: a real browser, a real server, and the file that is saved.
 import assert from 'node:assert/strict';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { axeSource, launch, open, serve } from './browser.mjs';
 
@@ -8,6 +10,12 @@ let server;
 before(async () => {
   browser = await launch();
   server = await serve();
+  const run = join(server.runs, 'seed 1');
+  mkdirSync(run, { recursive: true });
+  writeFileSync(join(run, 'summary.json'), '{}');
+  const row = (t, x, y, deg) => `${t} ${x} ${y} 0 0 0 ${Math.sin(deg * Math.PI / 360)} ${Math.cos(deg * Math.PI / 360)}\n`;
+  writeFileSync(join(run, 'estimate.tum'), row(0, 1, 5.6, 0) + row(1, 2, 5.6, 170) + row(2, 3, 5.6, -170) + row(3, 4, 5.6, -170));
+  writeFileSync(join(run, 'truth.tum'), row(0, 1, 5.61, 0) + row(3, 4, 5.61, 0));
 });
 after(async () => {
   await browser?.close();
@@ -262,6 +270,19 @@ describe('seeing', () => {
     assert.deepEqual(colours, { o: '255,138,61', x: '88,183,255', y: '255,255,255', empty: '28,36,48' });
   });
 
+  story('a run is scrubbed: the pose shown at a time is that of its trajectory', async (page) => {
+    await page.locator('#tool-replay').click();
+    await page.locator('#replay').waitFor();
+    await page.waitForFunction(() => window.lodestar.console.replay.run !== null, undefined, { polling: 50 });
+    await page.getByLabel('Time').fill('1.5');
+    await page.locator('#replay-words', { hasText: '1.5 of 3.0 s: 2.500, 5.600 m, 180.0°; off by 10.0 mm' }).waitFor();
+    await page.getByLabel('Speed').selectOption('50');
+    await page.getByRole('button', { name: 'Play', exact: true }).click();
+    await page.locator('#replay-words', { hasText: '3.0 of 3.0 s: 4.000' }).waitFor();
+    await page.getByRole('button', { name: 'Close' }).click();
+    assert.equal(await page.locator('#replay').isVisible(), false);
+  });
+
   story('ten thousand markers can still be panned', async (page) => {
     const median = await page.evaluate(async () => {
       const { console: c } = window.lodestar;
@@ -272,16 +293,15 @@ describe('seeing', () => {
       c.editor.load({ alignment: { x_m: 0, y_m: 0, yaw_deg: 0 }, markers });
       const times = [];
       for (let i = 0; i < 15; ++i) {
-        c.view.panBy(3, 1);
         const start = performance.now();
-        c.stage.redraw();
+        c.stage.pan(3, 1);
         await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
         times.push(performance.now() - start);
       }
       return times.sort((a, b) => a - b)[7];
     });
     console.log(`pan, 10,000 markers: median ${median.toFixed(0)} ms a frame`);
-    assert.ok(median < 1000);
+    assert.ok(median < 500);  // a frame is 16 ms; here only a machine that is busy with more is waited for
   });
 });
 
