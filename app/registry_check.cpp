@@ -52,12 +52,15 @@ void note(DistanceReport& report, int distance, const RegisteredMarker& a, const
 }
 
 void find_overlaps(const MarkerRegistry& registry, std::vector<RegistryIssue>& issues) {
+  std::vector<Pose2> squares;
+  for (const RegisteredMarker& marker : registry.markers) squares.push_back(center_of(registry, marker));
   for (std::size_t i = 0; i < registry.markers.size(); ++i) {
     for (std::size_t j = i + 1; j < registry.markers.size(); ++j) {
       const RegisteredMarker& a = registry.markers[i];
       const RegisteredMarker& b = registry.markers[j];
-      const Pose2 square_a = center_of(registry, a);
-      const Pose2 square_b = center_of(registry, b);
+      const Pose2& square_a = squares[i];
+      const Pose2& square_b = squares[j];
+      if ((square_a.position_m - square_b.position_m).cwiseAbs().maxCoeff() > 4.0 * half_side_m) continue;
       if (parted_by_axes_of(square_a, square_b) || parted_by_axes_of(square_b, square_a)) continue;
       issues.push_back({IssueKind::overlapping,
                         true,

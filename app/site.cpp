@@ -121,7 +121,8 @@ Site load_site(const std::filesystem::path& folder) {
   site.folder = folder;
   site.name = yaml.text("name");
   site.map = load_map(folder / yaml.text("map"));
-  site.registry = load_registry(folder / yaml.text("markers"));
+  site.registry_file = folder / yaml.text("markers");
+  site.registry = load_registry(site.registry_file);
   StrictYaml cameras = yaml.mapping("cameras");
   for (const std::string profile : {"wide", "paper"}) {
     if (cameras.has(profile)) site.cameras.emplace(profile, load_camera(folder / cameras.text(profile)));

@@ -52,6 +52,7 @@ struct Site {
   std::filesystem::path folder;
   LoadedMap map;
   MarkerRegistry registry;
+  std::filesystem::path registry_file;
   std::map<std::string, CameraModel> cameras;
   std::string default_camera;
   std::filesystem::path robot_file;

@@ -6,6 +6,7 @@
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
 #include "maps/marker_registry.hpp"
+#include "maps/registry_text.hpp"
 #include "maps/strict_yaml.hpp"
 
 namespace lodestar {
@@ -37,10 +38,8 @@ double tidy_degrees(double angle_rad) {
   return std::round(degrees(angle_rad) * per_degree) / per_degree;
 }
 
-}  // namespace
-
-MarkerRegistry load_registry(const std::filesystem::path& file) {
-  StrictYaml yaml = StrictYaml::load(file);
+MarkerRegistry read_registry(StrictYaml yaml) {
+  const std::filesystem::path& file = yaml.file();
   const std::string format = yaml.text("format");
   if (format != format_name) yaml.refuse("format", "'" + format + "'", fmt::format("'{}'", format_name));
   (void)yaml.integer("version", 1, 1);
@@ -61,7 +60,17 @@ MarkerRegistry load_registry(const std::filesystem::path& file) {
   return registry;
 }
 
-void save_registry(const MarkerRegistry& registry, const std::filesystem::path& file) {
+}  // namespace
+
+MarkerRegistry load_registry(const std::filesystem::path& file) {
+  return read_registry(StrictYaml::load(file));
+}
+
+MarkerRegistry parse_registry(const std::string& text, const std::filesystem::path& file) {
+  return read_registry(StrictYaml::parse(text, file));
+}
+
+std::string registry_text(const MarkerRegistry& registry) {
   const Pose2& alignment = registry.map_from_registry;
   std::string text =
       fmt::format("format: {}\nversion: 1\nalignment: {{x_m: {}, y_m: {}, yaw_deg: {}}}\nmarkers:{}\n",
@@ -72,7 +81,11 @@ void save_registry(const MarkerRegistry& registry, const std::filesystem::path& 
                         marker.position_m.x(), marker.position_m.y(), marker.position_m.z(),
                         tidy_degrees(marker.yaw_rad));
   }
-  write_file_atomically(file, text);
+  return text;
+}
+
+void save_registry(const MarkerRegistry& registry, const std::filesystem::path& file) {
+  write_file_atomically(file, registry_text(registry));
 }
 
 }  // namespace lodestar

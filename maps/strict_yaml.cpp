@@ -76,7 +76,10 @@ StrictYaml::StrictYaml(std::filesystem::path file, const YAML::Node& node, std::
 }
 
 StrictYaml StrictYaml::load(const std::filesystem::path& file) {
-  const std::string text = read_whole(file);
+  return parse(read_whole(file), file);
+}
+
+StrictYaml StrictYaml::parse(const std::string& text, const std::filesystem::path& file) {
   try {
     const YAML::Node document = YAML::Load(text);
     const std::optional<int> second = line_of_second_document(text);

@@ -16,6 +16,8 @@ class StrictYaml {
  public:
   /// The top mapping of a file.
   static StrictYaml load(const std::filesystem::path& file);
+  /// The top mapping of a text; `file` is only named in complaints.
+  static StrictYaml parse(const std::string& text, const std::filesystem::path& file);
 
   [[nodiscard]] bool has(const std::string& key) const;
   [[nodiscard]] double number(const std::string& key);                           ///< finite

@@ -21,6 +21,8 @@ std::vector<Command> detect_commands(CLI::App& lodestar);
 std::vector<Command> plan_commands(CLI::App& lodestar);
 std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
+std::vector<Command> marker_file_commands(CLI::App& markers);  ///< convert, print: words of `markers`
+std::vector<Command> serve_commands(CLI::App& lodestar);
 std::vector<Command> calibrate_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
 Command bench_localize_command(CLI::App& bench);

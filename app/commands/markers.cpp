@@ -215,8 +215,8 @@ CLI::App* add_generate(CLI::App& markers, GenerateArguments& arguments) {
 
 std::vector<Command> markers_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<MarkersArguments>();
-  CLI::App* markers =
-      lodestar.add_subcommand("markers", "Look at a marker registry, or choose IDs for a new one");
+  CLI::App* markers = lodestar.add_subcommand(
+      "markers", "Look at a marker registry, choose IDs for a new one, print markers");
   markers->require_subcommand(1);
 
   CLI::App* list_command =
@@ -241,9 +241,11 @@ std::vector<Command> markers_commands(CLI::App& lodestar) {
   const auto generated = std::make_shared<GenerateArguments>();
   CLI::App* generate_command = add_generate(*markers, *generated);
 
-  return {{list_command, [arguments] { return list(*arguments); }},
-          {generate_command, [generated] { return generate(*generated); }},
-          {check_command, [arguments] { return check(*arguments); }}};
+  std::vector<Command> commands{{list_command, [arguments] { return list(*arguments); }},
+                                {generate_command, [generated] { return generate(*generated); }},
+                                {check_command, [arguments] { return check(*arguments); }}};
+  for (Command& command : marker_file_commands(*markers)) commands.push_back(std::move(command));
+  return commands;
 }
 
 }  // namespace lodestar

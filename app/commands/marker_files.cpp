@@ -1,0 +1,109 @@
+#include <fmt/core.h>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "app/commands/command.hpp"
+#include "app/marker_formats.hpp"
+#include "app/marker_sheet.hpp"
+#include "maps/atomic_file.hpp"
+#include "maps/input_error.hpp"
+#include "maps/marker.hpp"
+
+// The words of `lodestar markers` that write files for others: convert and print.
+namespace lodestar {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ConvertArguments {
+  std::string input;
+  std::string output;
+  std::string from;
+  std::string to;
+};
+
+struct PrintArguments {
+  std::vector<int> ids;
+  std::string output;
+  std::string paper = "A4";
+};
+
+std::string read_whole(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || fs::is_directory(file)) throw InputError(file, 0, "no file that can be read", "markers");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+MarkerFormat format_of(const char* option, const std::string& name, const fs::path& file,
+                       const std::string& text) {
+  const std::optional<MarkerFormat> format =
+      name.empty() ? guess_marker_format(file, text) : marker_format_named(name);
+  if (!format) {
+    throw InputError(file, 0, "a name that does not tell the format", std::string(option) + " FORMAT");
+  }
+  return *format;
+}
+
+ExitCode convert(const ConvertArguments& arguments) {
+  const std::string text = read_whole(arguments.input);
+  const MarkerFormat from = format_of("--from", arguments.from, arguments.input, text);
+  const MarkerFormat to = arguments.output.empty() && arguments.to.empty()
+                              ? MarkerFormat::lodestar
+                              : format_of("--to", arguments.to, arguments.output, "");
+  const MarkerRegistry registry = parse_markers(text, from, arguments.input);
+  const std::string converted = markers_text(registry, to);
+  if (arguments.output.empty()) {
+    fmt::print("{}", converted);
+  } else {
+    write_file_atomically(arguments.output, converted);
+    fmt::print(stderr, "{} markers in {}\n", registry.markers.size(), arguments.output);
+  }
+  return done;
+}
+
+ExitCode print_sheets(const PrintArguments& arguments) {
+  const fs::path output = arguments.output;
+  const bool pdf = output.extension() == ".pdf";
+  if (!pdf && output.extension() != ".svg") {
+    throw InputError("-o: found '" + arguments.output + "', wanted a name that ends in .pdf or .svg");
+  }
+  std::vector<SheetPage> pages;
+  for (const int id : arguments.ids) pages.push_back(draw_marker_sheet(id, *paper_named(arguments.paper)));
+  write_file_atomically(output, pdf ? pdf_text(pages) : svg_text(pages));
+  fmt::print(stderr, "{} sheets in {}: print at 100 % and measure the ruler\n", pages.size(),
+             arguments.output);
+  return done;
+}
+
+}  // namespace
+
+std::vector<Command> marker_file_commands(CLI::App& markers) {
+  const auto converted = std::make_shared<ConvertArguments>();
+  CLI::App* convert_command = markers.add_subcommand(
+      "convert", "Markers between our registry and other programs' formats; poses as they are on the map");
+  convert_command->add_option("input", converted->input, "What to read")->required();
+  convert_command->add_option("-o,--output", converted->output, "Where to write; else to standard output");
+  for (const auto& [name, format] : {std::pair{"--from", &converted->from}, {"--to", &converted->to}}) {
+    convert_command->add_option(name, *format, "The format, where the file's name does not tell")
+        ->check(CLI::IsMember(marker_format_names()));
+  }
+
+  const auto printed = std::make_shared<PrintArguments>();
+  CLI::App* print_command =
+      markers.add_subcommand("print", "Sheets in true scale: dots, cut marks, ruler, arrow, drill crosses");
+  print_command->add_option("ids", printed->ids, "IDs, each on a sheet of its own")
+      ->required()
+      ->check(CLI::Range(0, marker_id_count - 1));
+  print_command->add_option("-o,--output", printed->output, "sheet.pdf or sheet.svg")->required();
+  print_command->add_option("--paper", printed->paper, "A4 or A3")
+      ->check(CLI::IsMember({"A4", "A3"}))
+      ->capture_default_str();
+
+  return {{convert_command, [converted] { return convert(*converted); }},
+          {print_command, [printed] { return print_sheets(*printed); }}};
+}
+
+}  // namespace lodestar

@@ -1,0 +1,246 @@
+#include "app/console/console.hpp"
+
+#include <charconv>
+#include <fmt/format.h>
+
+#include "app/console/page.hpp"
+#include "app/console/registry_edit.hpp"
+#include "app/console/registry_json.hpp"
+#include "app/marker_formats.hpp"
+#include "app/marker_sheet.hpp"
+#include "maps/atomic_file.hpp"
+#include "maps/input_error.hpp"
+#include "maps/marker.hpp"
+
+namespace lodestar {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr const char* history_path = "/api/markers/history";
+constexpr const char* runs_path = "/api/runs";
+
+HttpResponse document(const ordered_json& content) {
+  HttpResponse response{.body = content.dump()};
+  response.etag = etag_of(response.body);
+  return response;
+}
+
+ordered_json pose_json(const Pose2& pose) {
+  return {{"x_m", pose.position_m.x()}, {"y_m", pose.position_m.y()}, {"yaw_deg", degrees(pose.yaw_rad)}};
+}
+
+/// How far from its axis the camera sees on all sides, per metre of height: what it covers however the robot
+/// has turned.
+double narrowest_view(const CameraModel& camera) {
+  double narrowest = 1e9;
+  const double right = camera.width_px - 1.0;
+  const double bottom = camera.height_px - 1.0;
+  for (const Vec2& side : {Vec2(0.0, camera.cy_px), Vec2(right, camera.cy_px), Vec2(camera.cx_px, 0.0),
+                           Vec2(camera.cx_px, bottom)}) {
+    if (const std::optional<Vec2> ray = camera.normalized(side)) narrowest = std::min(narrowest, ray->norm());
+  }
+  return narrowest;
+}
+
+ordered_json coverage_json(const Site& site) {
+  const Vec3 camera = site.robot.base_from_camera.translation();
+  const double half_marker_m =
+      0.5 * (marker_grid_size - 1) * marker_pitch_m * std::sqrt(2.0) + marker_dot_radius_m;
+  return {{"camera", site.default_camera},
+          {"camera_height_m", camera.z()},
+          {"reach_per_m", narrowest_view(site.cameras.at(site.default_camera))},
+          {"margin_m", half_marker_m + camera.head<2>().norm()}};
+}
+
+/// Text with its %XX replaced; empty where one is broken or stands for a zero.
+std::string decoded(const std::string& text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      plain += text[i];
+      continue;
+    }
+    unsigned code = 0;
+    const char* const digits = text.data() + i + 1;
+    if (i + 2 >= text.size() || std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2 ||
+        code == 0) {
+      return "";
+    }
+    plain += static_cast<char>(code);
+    i += 2;
+  }
+  return plain;
+}
+
+bool matches(const std::string& tags, const std::string& etag) {
+  return tags == "*" || tags.find(etag) != std::string::npos;
+}
+
+std::optional<HttpResponse> page_file(const std::string& target) {
+  for (const PageFile& file : page_files()) {
+    if (file.target != target) continue;
+    HttpResponse response{.content_type = std::string(file.content_type), .body = std::string(file.text)};
+    response.etag = etag_of(response.body);
+    return response;
+  }
+  return std::nullopt;
+}
+
+HttpResponse exported(const json& request) {
+  const auto format = marker_format_named(request.at("format").get<std::string>());
+  if (!format) return refusal(422, "found an unknown format, wanted one of ours");
+  const MarkerRegistry registry = registry_from_json(request.at("registry").dump());
+  return {.body = json{{"text", markers_text(registry, *format)}}.dump()};
+}
+
+HttpResponse imported(const json& request) {
+  const auto name = request.at("name").get<std::string>();
+  const auto text = request.at("text").get<std::string>();
+  const auto format = guess_marker_format(name, text);
+  if (!format) return refusal(422, "found a file name that does not tell the format");
+  return {.body = registry_json(parse_markers(text, *format, name)).dump()};
+}
+
+HttpResponse printed(const json& request) {
+  constexpr std::size_t most_sheets = 200;
+  const auto ids = request.at("ids").get<std::vector<int>>();
+  const auto paper = paper_named(request.value("paper", "A4"));
+  if (!paper || ids.empty() || ids.size() > most_sheets) {
+    return refusal(422, fmt::format("wanted A4 or A3 and 1 to {} IDs", most_sheets));
+  }
+  std::vector<SheetPage> pages;
+  for (const int id : ids) {
+    if (id < 0 || id >= marker_id_count) return refusal(422, fmt::format("found ID {}", id));
+    pages.push_back(draw_marker_sheet(id, *paper));
+  }
+  return {.content_type = "application/pdf", .body = pdf_text(pages)};
+}
+
+}  // namespace
+
+Console::Console(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder)
+    : site_(load_site(site_folder)),
+      registry_file_(site_.registry_file),
+      history_(registry_file_.parent_path() / ".history"),
+      runs_(runs_folder) {}
+
+HttpResponse Console::answer(const HttpRequest& request) {
+  const std::string& target = request.target;
+  if (request.method == "PUT" && target == "/api/markers") return save_markers(request);
+  if (request.method == "POST") return post(request);
+  if (request.method != "GET" && request.method != "HEAD") return refusal(405, "found another method");
+
+  std::optional<HttpResponse> response = page_file(target);
+  if (target == "/api/site") response = site();
+  if (target == "/api/map") response = map();
+  if (target == "/api/map/cells") response = cells();
+  if (target == "/api/markers") response = markers();
+  if (target.starts_with(history_path)) response = history(target);
+  if (target == runs_path || target.starts_with(std::string(runs_path) + "/")) response = runs(target);
+  if (!response) return refusal(404, "found no such document");
+  if (!response->etag.empty() && matches(request.if_none_match, response->etag)) {
+    return {.status = 304, .etag = response->etag};
+  }
+  return *response;
+}
+
+HttpResponse Console::site() const {
+  ordered_json goals = ordered_json::array();
+  for (const Goal& goal : site_.goals) {
+    goals.push_back({{"x_m", goal.position_m.x()}, {"y_m", goal.position_m.y()}});
+  }
+  return document({{"name", site_.name},
+                   {"robot", {{"name", site_.robot.name}, {"radius_m", site_.robot.radius_m}}},
+                   {"start", pose_json(site_.start)},
+                   {"goals", goals},
+                   {"coverage", coverage_json(site_)},
+                   {"formats", marker_format_names()}});
+}
+
+HttpResponse Console::map() const {
+  const OccupancyMap& map = site_.map.map;
+  return document({{"columns", map.columns},
+                   {"rows", map.rows},
+                   {"resolution_m", map.resolution_m},
+                   {"origin", pose_json(map.map_from_grid)}});
+}
+
+HttpResponse Console::cells() const {
+  const std::vector<std::int8_t>& cells = site_.map.map.cells;
+  HttpResponse response{.content_type = "application/octet-stream", .body = {cells.begin(), cells.end()}};
+  response.etag = etag_of(response.body);
+  return response;
+}
+
+HttpResponse Console::markers() const {
+  return {.body = registry_json(load_registry(registry_file_)).dump(),
+          .etag = etag_of(read_document(registry_file_))};
+}
+
+HttpResponse Console::save_markers(const HttpRequest& request) const {
+  if (request.if_match.empty()) return refusal(428, "found no If-Match, wanted the tag that was read");
+  const std::string before = read_document(registry_file_);
+  if (!matches(request.if_match, etag_of(before))) {
+    HttpResponse conflict = refusal(412, "somebody else saved the markers since they were read");
+    conflict.etag = etag_of(before);
+    return conflict;
+  }
+  try {
+    const MarkerRegistry after = registry_from_json(request.body);
+    if (const std::optional<int> id = repeated_id(after)) {
+      return refusal(422, fmt::format("found marker {} twice, wanted each ID once", *id));
+    }
+    const std::string text = edited_registry_text(before, load_registry(registry_file_), after);
+    if (text != before) {
+      history_.keep(before);
+      write_file_atomically(registry_file_, text);
+    }
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  }
+  return markers();
+}
+
+HttpResponse Console::history(const std::string& target) const {
+  const std::string rest = target.substr(std::string(history_path).size());
+  if (rest.empty()) return document(history_.numbers());
+  int number = 0;
+  const char* const end = rest.data() + rest.size();
+  const auto [stop, error] = std::from_chars(rest.data() + 1, end, number);
+  if (rest.front() != '/' || error != std::errc() || stop != end) return refusal(404, "found no such state");
+  const std::optional<std::string> text = history_.text(number);
+  if (!text) return refusal(404, "found no such state");
+  return document(registry_json(parse_markers(*text, MarkerFormat::lodestar, "history")));
+}
+
+HttpResponse Console::runs(const std::string& target) const {
+  const std::string rest = target.substr(std::string(runs_path).size());
+  if (rest.empty()) return document(runs_.names());
+  try {
+    const std::optional<ordered_json> run = runs_.run(decoded(rest.substr(1)));
+    return run ? document(*run) : refusal(404, "found no such run");
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  }
+}
+
+HttpResponse Console::post(const HttpRequest& request) const {
+  try {
+    if (request.target == "/api/markers/check") {
+      return {.body = issues_json(registry_from_json(request.body), site_.map.map).dump()};
+    }
+    const json body = json::parse(request.body);
+    if (request.target == "/api/markers/export") return exported(body);
+    if (request.target == "/api/markers/import") return imported(body);
+    if (request.target == "/api/markers/print") return printed(body);
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  } catch (const json::exception& error) {
+    return refusal(422, error.what());
+  }
+  return refusal(404, "found no such document");
+}
+
+}  // namespace lodestar

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+
+#include "app/console/document_history.hpp"
+#include "app/console/http.hpp"
+#include "app/console/run_archive.hpp"
+#include "app/site.hpp"
+
+namespace lodestar {
+
+/// The console's documents over HTTP, by fixed names and never by a path of the client's:
+///
+///   GET  /, /app.js, ...          the page
+///   GET  /api/site                name, robot, start, goals, what the camera covers
+///   GET  /api/map                 size, resolution, place;  /api/map/cells  one byte a cell, bottom row
+///   first GET  /api/markers             the registry; PUT saves it, with If-Match: 412 when someone else
+///   saved GET  /api/markers/history     numbers of former states;  /api/markers/history/N  one of them POST
+///   /api/markers/check       what is wrong with a draft POST /api/markers/export      {format, registry} ->
+///   {text};  /import  {name, text} -> a registry POST /api/markers/print       {ids, paper} -> a PDF
+///
+/// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
+class Console {
+ public:
+  /// Throws InputError for a site that cannot be used. `runs_folder` need not exist.
+  Console(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder);
+
+  HttpResponse answer(const HttpRequest& request);
+
+ private:
+  [[nodiscard]] HttpResponse site() const;
+  [[nodiscard]] HttpResponse map() const;
+  [[nodiscard]] HttpResponse cells() const;
+  [[nodiscard]] HttpResponse markers() const;
+  HttpResponse save_markers(const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse history(const std::string& target) const;
+  [[nodiscard]] HttpResponse runs(const std::string& target) const;
+  [[nodiscard]] HttpResponse post(const HttpRequest& request) const;
+
+  Site site_;
+  std::filesystem::path registry_file_;
+  DocumentHistory history_;
+  RunArchive runs_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,68 @@
+#include "app/console/document_history.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+#include "maps/atomic_file.hpp"
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+
+namespace fs = std::filesystem;
+
+std::string etag_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3U;
+  }
+  return fmt::format("\"{:016x}\"", hash);
+}
+
+std::string read_document(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file, 0, "no file that can be read", "one");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::vector<int> DocumentHistory::numbers() const {
+  std::vector<int> numbers;
+  std::error_code none_yet;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, none_yet)) {
+    const std::string name = entry.path().stem().string();
+    int number = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (error == std::errc() && end == name.data() + name.size() && entry.path() == file_of(number)) {
+      numbers.push_back(number);
+    }
+  }
+  std::ranges::sort(numbers, std::greater());
+  return numbers;
+}
+
+std::optional<std::string> DocumentHistory::text(int number) const {
+  const std::vector<int> all = numbers();
+  if (std::ranges::find(all, number) == all.end()) return std::nullopt;
+  return read_document(file_of(number));
+}
+
+void DocumentHistory::keep(const std::string& text) const {
+  std::error_code exists;
+  fs::create_directories(folder_, exists);
+  std::vector<int> all = numbers();
+  const int next = all.empty() ? 1 : all.front() + 1;
+  write_file_atomically(file_of(next), text);
+  for (std::size_t i = most_kept - 1; i < all.size(); ++i) fs::remove(file_of(all[i]));
+}
+
+fs::path DocumentHistory::file_of(int number) const {
+  return folder_ / fmt::format("{:06}.yaml", number);
+}
+
+}  // namespace lodestar

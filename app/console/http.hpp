@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+// A request and its answer, as far as the console cares.
+namespace lodestar {
+
+struct HttpRequest {
+  std::string method;  ///< GET, PUT, ...
+  std::string target;  ///< as sent: path and query
+  std::string host;
+  std::string origin;  ///< empty when the client sent none
+  std::string content_type;
+  std::string console_header;  ///< X-Lodestar: pages of other origins cannot send it unasked
+  std::string authorization;
+  std::string cookie;
+  std::string if_match;
+  std::string if_none_match;
+  std::string body;
+};
+
+struct HttpResponse {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::string body;
+  std::string etag;        ///< with its quotation marks; empty for none
+  std::string set_cookie;  ///< empty for none
+};
+
+/// An answer that says what is wrong: {"error": words}.
+HttpResponse refusal(int status, const std::string& words);
+
+}  // namespace lodestar

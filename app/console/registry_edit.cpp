@@ -1,0 +1,88 @@
+#include "app/console/registry_edit.hpp"
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "maps/registry_text.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr double same_m = 1e-9;
+constexpr double same_rad = 1e-9;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+bool same(const RegisteredMarker& a, const RegisteredMarker& b) {
+  return (a.position_m - b.position_m).cwiseAbs().maxCoeff() < same_m &&
+         std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)) < same_rad;
+}
+
+bool same(const Pose2& a, const Pose2& b) {
+  return (a.position_m - b.position_m).norm() < same_m &&
+         std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)) < same_rad;
+}
+
+/// The line that save_registry would write: 0 alignment, from 1 on the markers.
+std::vector<std::string> fresh_lines(const MarkerRegistry& registry) {
+  std::vector<std::string> lines = lines_of(registry_text(registry));
+  constexpr std::ptrdiff_t head = 2;  // format and version
+  lines.erase(lines.begin(), lines.begin() + head);
+  lines.erase(lines.begin() + 1);  // the word "markers:"
+  return lines;
+}
+
+/// Does each marker stand on a line of its own, whole?
+bool is_one_a_line(const std::vector<std::string>& lines, const MarkerRegistry& registry) {
+  int last = 0;
+  for (const RegisteredMarker& marker : registry.markers) {
+    if (marker.line <= last || marker.line > static_cast<int>(lines.size())) return false;
+    const std::string& line = lines[static_cast<std::size_t>(marker.line) - 1];
+    if (!line.starts_with("  - {") || line.find('}') == std::string::npos) return false;
+    last = marker.line;
+  }
+  return !registry.markers.empty();
+}
+
+}  // namespace
+
+std::string edited_registry_text(const std::string& text, const MarkerRegistry& before,
+                                 const MarkerRegistry& after) {
+  const std::vector<std::string> old_lines = lines_of(text);
+  const bool alignment_stays = same(before.map_from_registry, after.map_from_registry);
+  if (!alignment_stays || after.markers.empty() || !is_one_a_line(old_lines, before)) {
+    return registry_text(after);
+  }
+  const std::vector<std::string> fresh = fresh_lines(after);
+  std::map<int, std::size_t> place_in_after;
+  for (std::size_t i = 0; i < after.markers.size(); ++i) place_in_after.emplace(after.markers[i].id, i);
+  std::map<int, const RegisteredMarker*> marker_on_line;
+  for (const RegisteredMarker& marker : before.markers) marker_on_line.emplace(marker.line, &marker);
+
+  const int last_marker_line = before.markers.back().line;
+  std::string edited;
+  for (int number = 1; number <= static_cast<int>(old_lines.size()); ++number) {
+    const std::string& line = old_lines[static_cast<std::size_t>(number) - 1];
+    const auto old = marker_on_line.find(number);
+    if (old == marker_on_line.end()) {
+      edited += line + "\n";
+    } else if (const auto now = place_in_after.find(old->second->id); now != place_in_after.end()) {
+      edited += same(*old->second, after.markers[now->second]) ? line : fresh[now->second + 1];
+      edited += "\n";
+      place_in_after.erase(now);
+    }
+    if (number != last_marker_line) continue;
+    for (const auto& [id, place] : place_in_after) {
+      if (before.find(id) == nullptr) edited += fresh[place + 1] + "\n";
+    }
+  }
+  return edited;
+}
+
+}  // namespace lodestar

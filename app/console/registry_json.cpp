@@ -1,0 +1,163 @@
+#include "app/console/registry_json.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+#include "maps/input_error.hpp"
+#include "maps/marker.hpp"
+
+namespace lodestar {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// A JSON object all of whose keys must be numbers that somebody asks for.
+class Numbers {
+ public:
+  Numbers(const json& object, std::string where) : object_(object), where_(std::move(where)) {
+    if (!object.is_object()) refuse("something else", "an object");
+  }
+
+  double at(const char* key) {
+    constexpr double most = 1e5;
+    asked_.insert(key);
+    if (!object_.contains(key) || !object_[key].is_number())
+      refuse("none", fmt::format("a number '{}'", key));
+    const double value = object_[key].get<double>();
+    if (!(std::abs(value) <= most)) refuse(fmt::format("{} {}", key, value), "one within 100000");
+    return value;
+  }
+
+  int id() {
+    const double value = at("id");
+    if (value < 0 || value >= marker_id_count || value != std::floor(value)) {
+      refuse(fmt::format("ID {}", value), fmt::format("a whole number in 0..{}", marker_id_count - 1));
+    }
+    return static_cast<int>(value);
+  }
+
+  void finish() const {
+    for (const auto& item : object_.items()) {
+      if (!asked_.contains(item.key())) refuse("an unknown key", "known ones only");
+    }
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& found, const std::string& wanted) const {
+    throw InputError(fmt::format("{}: found {}, wanted {}", where_, found, wanted));
+  }
+
+  const json& object_;
+  std::string where_;
+  std::set<std::string> asked_;
+};
+
+double tidy_degrees(double angle_rad) {
+  constexpr double per_degree = 1e9;
+  return std::round(degrees(angle_rad) * per_degree) / per_degree;
+}
+
+const char* name_of(IssueKind kind) {
+  switch (kind) {
+    case IssueKind::overlapping:
+      return "overlapping";
+    case IssueKind::outside_map:
+      return "outside-map";
+    case IssueKind::similar_ids:
+      return "similar-ids";
+    case IssueKind::mirror_images:
+      return "mirror-images";
+  }
+  return "";
+}
+
+/// Where on the map the markers with these IDs are.
+ordered_json places_of(const MarkerRegistry& registry, const std::vector<int>& ids) {
+  ordered_json places = ordered_json::array();
+  for (const RegisteredMarker& marker : registry.markers) {
+    if (std::ranges::find(ids, marker.id) == ids.end()) continue;
+    const Vec3 at = map_from_marker(registry, marker).translation();
+    places.push_back({at.x(), at.y()});
+  }
+  return places;
+}
+
+ordered_json issue_json(const MarkerRegistry& registry, const std::string& kind, bool error,
+                        const std::vector<int>& ids, const std::string& words) {
+  return {{"kind", kind},
+          {"severity", error ? "error" : "warning"},
+          {"ids", ids},
+          {"words", words},
+          {"places_m", places_of(registry, ids)}};
+}
+
+}  // namespace
+
+ordered_json registry_json(const MarkerRegistry& registry) {
+  const Pose2& alignment = registry.map_from_registry;
+  ordered_json markers = ordered_json::array();
+  for (const RegisteredMarker& marker : registry.markers) {
+    markers.push_back({{"id", marker.id},
+                       {"x_m", marker.position_m.x()},
+                       {"y_m", marker.position_m.y()},
+                       {"z_m", marker.position_m.z()},
+                       {"yaw_deg", tidy_degrees(marker.yaw_rad)}});
+  }
+  return {{"alignment",
+           {{"x_m", alignment.position_m.x()},
+            {"y_m", alignment.position_m.y()},
+            {"yaw_deg", tidy_degrees(alignment.yaw_rad)}}},
+          {"markers", markers}};
+}
+
+MarkerRegistry registry_from_json(const std::string& text) {
+  const json root = json::parse(text, nullptr, false);
+  if (!root.is_object() || root.size() != 2 || !root.contains("alignment") || !root.contains("markers") ||
+      !root["markers"].is_array()) {
+    throw InputError("found something else, wanted {\"alignment\": {...}, \"markers\": [...]}");
+  }
+  if (root["markers"].size() > marker_id_count) {
+    throw InputError(
+        fmt::format("found {} markers, wanted no more than there are IDs", root["markers"].size()));
+  }
+  MarkerRegistry registry;
+  Numbers alignment(root["alignment"], "alignment");
+  registry.map_from_registry = {{alignment.at("x_m"), alignment.at("y_m")},
+                                wrap_angle(radians(alignment.at("yaw_deg")))};
+  alignment.finish();
+  for (const json& entry : root["markers"]) {
+    Numbers numbers(entry, fmt::format("marker {} of the list", registry.markers.size() + 1));
+    const int id = numbers.id();
+    const Vec3 position_m(numbers.at("x_m"), numbers.at("y_m"), numbers.at("z_m"));
+    registry.markers.push_back({id, position_m, wrap_angle(radians(numbers.at("yaw_deg")))});
+    numbers.finish();
+  }
+  return registry;
+}
+
+std::optional<int> repeated_id(const MarkerRegistry& registry) {
+  std::set<int> seen;
+  for (const RegisteredMarker& marker : registry.markers) {
+    if (!seen.insert(marker.id).second) return marker.id;
+  }
+  return std::nullopt;
+}
+
+ordered_json issues_json(const MarkerRegistry& draft, const OccupancyMap& map) {
+  ordered_json issues = ordered_json::array();
+  std::set<int> seen;
+  std::set<int> repeated;
+  for (const RegisteredMarker& marker : draft.markers) {
+    if (seen.insert(marker.id).second || !repeated.insert(marker.id).second) continue;
+    issues.push_back(issue_json(draft, "repeated-id", true, {marker.id},
+                                fmt::format("marker {} stands twice; each ID may stand once", marker.id)));
+  }
+  for (const RegistryIssue& issue : check_registry(draft, map)) {
+    issues.push_back(issue_json(draft, name_of(issue.kind), issue.error, issue.ids, issue.words));
+  }
+  return issues;
+}
+
+}  // namespace lodestar

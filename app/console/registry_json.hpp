@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "app/registry_check.hpp"
+
+// The registry as the page sees it: {"alignment": {x_m, y_m, yaw_deg}, "markers": [{id, x_m, y_m, z_m,
+// yaw_deg}]}, in the registry's own frame.
+namespace lodestar {
+
+nlohmann::ordered_json registry_json(const MarkerRegistry& registry);
+
+/// Reads what a page sent. Throws InputError, naming the marker by its place, for an unknown, missing or
+/// ill-typed key, a number beyond 100 km, or an ID outside 0..4095. The same ID twice is let through: a draft
+/// may be wrong.
+MarkerRegistry registry_from_json(const std::string& text);
+
+/// What check_registry finds in a draft, and IDs that stand twice; with the place of each on the map, for a
+/// view to go there.
+nlohmann::ordered_json issues_json(const MarkerRegistry& draft, const OccupancyMap& map);
+
+/// The first ID that stands twice.
+std::optional<int> repeated_id(const MarkerRegistry& registry);
+
+}  // namespace lodestar

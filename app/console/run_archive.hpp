@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lodestar {
+
+/// The run folders below one folder, as `replay -o` leaves them. A run's name is that of its folder; a name
+/// is only ever compared with those that are there, never made a path of.
+class RunArchive {
+ public:
+  explicit RunArchive(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Names of all runs, in order; none when the folder is not there. Links to elsewhere are left out.
+  [[nodiscard]] std::vector<std::string> names() const;
+
+  /// {"name", "summary", "estimate", "truth"}: the summary as it was written, and the trajectories as rows of
+  /// seconds, x, y (metres) and yaw (degrees), in the map. Nothing for a name that is not there. Throws
+  /// InputError for a run that cannot be read.
+  [[nodiscard]] std::optional<nlohmann::ordered_json> run(const std::string& name) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// The rows of a TUM trajectory, at most `most` of them, evenly left out. Throws InputError with the line for
+/// one that is no pose.
+nlohmann::ordered_json trajectory_json(const std::string& tum, const std::filesystem::path& file,
+                                       std::size_t most);
+
+}  // namespace lodestar

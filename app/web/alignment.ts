@@ -1,0 +1,49 @@
+// The registry as a whole onto the map: pairs of a marker and where it truly is, least squares, what is left.
+import { ask, el, plural } from './dom.js';
+import type { Editor } from './editor.js';
+import { fitPairs } from './geometry.js';
+import type { Marker, Point } from './geometry.js';
+import type { Pointer } from './pointer.js';
+import type { Stage } from './stage.js';
+
+interface Pair { marker: Marker; to: Point }
+
+export function alignByPairs(editor: Editor, pointer: Pointer, stage: Stage, say: (words: string) => void): void {
+  const pairs: Pair[] = [];
+  let open: Marker | null = null;
+  const end = () => {
+    pointer.pick = null;
+    stage.pins = [];
+    stage.redraw();
+  };
+  say('Align: click a marker, then the place on the map where its dot O truly is. Escape leaves.');
+  pointer.pick = (at, marker) => {
+    if (!open) {
+      open = marker;
+      say(marker ? `Now the place of marker ${marker.id}'s dot O` : 'That is no marker; click one');
+      return;
+    }
+    pairs.push({ marker: open, to: at });
+    stage.pins.push({ at, label: String(open.id) });
+    stage.redraw();
+    open = null;
+    if (pairs.length < 2) return say('One pair; one more at least: click another marker');
+    void propose(editor, pairs).then((answer) => {
+      if (answer === 'more') return say(`${plural(pairs.length, 'pair')}; click another marker`);
+      end();
+      say(answer === 'go' ? 'Aligned; undo brings the former back' : 'Nothing aligned');
+    });
+  };
+}
+
+async function propose(editor: Editor, pairs: Pair[]): Promise<string> {
+  const found = fitPairs(pairs.map(({ marker, to }) => ({ from: editor.markers.get(marker.key)!, to })));
+  if (!found) return await ask('Align', [el('p', {}, 'These markers stand at one place.')], [['more', 'Another pair'], ['', 'Leave']]);
+  const { pose, residualsM } = found;
+  const rows = pairs.map(({ marker }, i) => el('li', {}, `marker ${marker.id}: ${(1000 * residualsM[i]!).toFixed(0)} mm left`));
+  const answer = await ask('Align the markers to the map', [
+    el('p', {}, `Moved by ${pose.x.toFixed(3)}, ${pose.y.toFixed(3)} m, turned by ${pose.yawDeg.toFixed(2)}°.`),
+    el('ul', {}, ...rows)], [['go', 'Align'], ['more', 'Another pair'], ['', 'Leave']]);
+  if (answer === 'go') editor.align(pose);
+  return answer;
+}

@@ -1,0 +1,78 @@
+// The server's documents. What it refuses becomes a Refusal with its words.
+import type { Registry } from './editor.js';
+
+export class Refusal extends Error {
+  constructor(readonly status: number, words: string) { super(words); }
+}
+
+export interface Site {
+  name: string;
+  robot: { name: string; radius_m: number };
+  start: { x_m: number; y_m: number; yaw_deg: number };
+  goals: { x_m: number; y_m: number }[];
+  coverage: { camera: string; camera_height_m: number; reach_per_m: number; margin_m: number };
+  formats: string[];
+}
+
+export interface MapInfo {
+  columns: number;
+  rows: number;
+  resolution_m: number;
+  origin: { x_m: number; y_m: number; yaw_deg: number };
+}
+
+export interface Issue {
+  kind: string;
+  severity: 'error' | 'warning';
+  ids: number[];
+  words: string;
+  places_m: [number, number][];
+}
+
+async function request(method: string, target: string, body?: unknown, headers: Record<string, string> = {}): Promise<Response> {
+  const init: RequestInit = { method, headers: { ...headers } };
+  if (body !== undefined) {
+    init.body = JSON.stringify(body);
+    init.headers = { ...headers, 'Content-Type': 'application/json', 'X-Lodestar': '1' };
+  }
+  const response = await fetch(target, init).catch(() => { throw new Refusal(0, 'the server does not answer'); });
+  if (!response.ok) {
+    const words = await response.json().then((b: { error?: string }) => b.error).catch(() => undefined);
+    throw new Refusal(response.status, words ?? response.statusText);
+  }
+  return response;
+}
+
+const json = async <T>(response: Promise<Response>): Promise<T> => await (await response).json() as T;
+
+export const openSession = (token: string): Promise<Response> => request('POST', '/api/session', { token });
+export const getSite = (): Promise<Site> => json(request('GET', '/api/site'));
+export const getMap = (): Promise<MapInfo> => json(request('GET', '/api/map'));
+export const getCells = async (): Promise<Int8Array> =>
+  new Int8Array(await (await request('GET', '/api/map/cells')).arrayBuffer());
+
+export interface Tagged { registry: Registry; etag: string }
+
+async function tagged(response: Response): Promise<Tagged> {
+  return { registry: await response.json() as Registry, etag: response.headers.get('ETag') ?? '' };
+}
+
+export const getMarkers = async (): Promise<Tagged> => tagged(await request('GET', '/api/markers'));
+export const putMarkers = async (registry: Registry, etag: string): Promise<Tagged> =>
+  tagged(await request('PUT', '/api/markers', registry, { 'If-Match': etag }));
+export const checkMarkers = (registry: Registry): Promise<Issue[]> =>
+  json(request('POST', '/api/markers/check', registry));
+export const exportMarkers = (format: string, registry: Registry): Promise<{ text: string }> =>
+  json(request('POST', '/api/markers/export', { format, registry }));
+export const importMarkers = (name: string, text: string): Promise<Registry> =>
+  json(request('POST', '/api/markers/import', { name, text }));
+export const printSheets = async (ids: number[], paper: string): Promise<Blob> =>
+  (await request('POST', '/api/markers/print', { ids, paper })).blob();
+export const getHistory = (): Promise<number[]> => json(request('GET', '/api/markers/history'));
+export const getFormer = (number: number): Promise<Registry> => json(request('GET', `/api/markers/history/${number}`));
+
+/** Seconds, x and y in metres, yaw in degrees. */
+export type Row = [number, number, number, number];
+export interface Run { name: string; summary: Record<string, unknown>; estimate: Row[]; truth: Row[] }
+export const getRuns = (): Promise<string[]> => json(request('GET', '/api/runs'));
+export const getRun = (name: string): Promise<Run> => json(request('GET', `/api/runs/${encodeURIComponent(name)}`));

@@ -1,0 +1,304 @@
+// Starts the console's page: reads the documents, and ties map, panel, tools and keys together.
+import * as api from './api.js';
+import { alignByPairs } from './alignment.js';
+import { isTyping, keyOf } from './commands.js';
+import type { Command } from './commands.js';
+import { Coverage, Floor } from './coverage.js';
+import { askAboutConflict, exportTo, importFrom, merged, openHistory, pickFile, printChosen, showHelp } from './dialogs.js';
+import { button, byId, el } from './dom.js';
+import { Editor } from './editor.js';
+import type { Registry } from './editor.js';
+import { safestId, sideM, centerOf } from './geometry.js';
+import type { Marker, Point } from './geometry.js';
+import { Panel } from './panel.js';
+import { Pointer, turned } from './pointer.js';
+import { Replay } from './replay.js';
+import { Stage } from './stage.js';
+import { View } from './view.js';
+
+const checkAfterMs = 350;
+
+function say(words: string, bad = false): void {
+  byId('state').textContent = words;
+  byId('state').classList.toggle('bad', bad);
+}
+
+/** Runs something that may fail, and says how. */
+function attempt(action: () => Promise<string | void>): void {
+  action().then((words) => { if (words) say(words); }, (error: unknown) => {
+    say(error instanceof Error ? error.message : String(error), true);
+  });
+}
+
+/** A link with #t=TOKEN becomes a session; the token leaves the address bar. */
+async function useTokenOfAddress(): Promise<void> {
+  const token = new URLSearchParams(location.hash.slice(1)).get('t');
+  if (!token) return;
+  history.replaceState(null, '', location.pathname);
+  await api.openSession(token);
+}
+
+class Console {
+  readonly editor = new Editor();
+  readonly view = new View();
+  readonly coverage: Coverage;
+  readonly stage: Stage;
+  readonly pointer: Pointer;
+  readonly replay: Replay;
+  private readonly panel: Panel;
+  private readonly commands: Command[];
+  private base: Registry;
+  private etag: string;
+  private checkTimer = 0;
+  private coverageTimer = 0;
+
+  constructor(readonly site: api.Site, readonly floor: Floor, tagged: api.Tagged) {
+    this.coverage = new Coverage(floor, site);
+    this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage);
+    this.pointer = new Pointer(this.stage);
+    this.replay = new Replay(this.stage, site.robot.radius_m, (error) => attempt(() => Promise.reject(error)));
+    this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.suggest() });
+    [this.base, this.etag] = [tagged.registry, tagged.etag];
+    this.commands = this.makeCommands();
+    this.pointer.onHover = (at) => { byId('where').textContent = at ? `${at.x.toFixed(3)}, ${at.y.toFixed(3)} m` : ''; };
+    this.pointer.onDrag = () => this.dragged();
+    this.editor.onChange = () => this.changed();
+    byId('title').textContent = `Lodestar: ${site.name}`;
+    byId('legend').append('From above, as through the ceiling.', ...[['none', 'no marker'], ['one', 'one'], ['more', 'two or more']]
+      .flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words!]));
+    this.makeTools();
+    this.listenToKeys();
+    addEventListener('beforeunload', (e) => { if (this.editor.dirty) e.preventDefault(); });
+    this.editor.load(tagged.registry);
+    this.fit();
+  }
+
+  // -- what follows a change --------------------------------------------------------------------------------
+
+  private changed(): void {
+    this.coverage.update(this.editor.shown());
+    this.stage.paintRaster();
+    this.stage.redraw();
+    this.panel.show();
+    this.refreshTools();
+    document.title = `${this.editor.dirty ? '• ' : ''}${this.site.name} - Lodestar`;
+    clearTimeout(this.coverageTimer);
+    this.coverageTimer = setTimeout(() => this.panel.showCoverage(this.coverage), 60);
+    clearTimeout(this.checkTimer);
+    this.checkTimer = setTimeout(() => this.check(), checkAfterMs);
+  }
+
+  private dragged(): void {
+    this.coverage.update(this.editor.shown());
+    this.stage.paintRaster();
+    this.stage.redraw();
+    this.panel.showSelection();
+  }
+
+  private check(): void {
+    attempt(async () => { this.panel.showIssues(await api.checkMarkers(this.editor.registry())); });
+  }
+
+  // -- documents --------------------------------------------------------------------------------------------
+
+  save(): void {
+    attempt(async () => {
+      const mine = this.editor.registry();
+      try {
+        this.take(await api.putMarkers(mine, this.etag));
+        this.editor.markSaved();
+        return `Saved ${mine.markers.length} markers`;
+      } catch (error) {
+        if (!(error instanceof api.Refusal) || error.status !== 412) throw error;
+        return await this.settle(mine);
+      }
+    });
+  }
+
+  private async settle(mine: Registry): Promise<string> {
+    const theirs = await api.getMarkers();
+    const resolution = await askAboutConflict(this.base, mine, theirs.registry);
+    if (resolution === '') return 'Not saved: somebody else saved first';
+    const base = this.base;
+    this.take(theirs);
+    if (resolution === 'theirs') {
+      this.editor.load(theirs.registry);
+      return 'Took the state that somebody else saved';
+    }
+    if (resolution === 'merge') this.editor.replaceAll(merged(base, mine, theirs.registry));
+    this.take(await api.putMarkers(this.editor.registry(), this.etag));
+    this.editor.markSaved();
+    return resolution === 'merge' ? 'Merged and saved' : 'Saved over the other state; it is in the history';
+  }
+
+  private take(tagged: api.Tagged): void { [this.base, this.etag] = [tagged.registry, tagged.etag]; }
+
+  reload(): void {
+    attempt(async () => {
+      const tagged = await api.getMarkers();
+      this.take(tagged);
+      this.editor.load(tagged.registry);
+      return 'Read again from the site';
+    });
+  }
+
+  // -- edits ------------------------------------------------------------------------------------------------
+
+  private usualHeight(): number {
+    const heights = [...this.editor.markers.values()].map((m) => m.z).sort((a, b) => a - b);
+    return heights[heights.length >> 1] ?? 2.6;
+  }
+
+  /** A marker whose middle hangs over a place. */
+  private addAt(middle: Point): void {
+    const id = safestId([...this.editor.markers.values()].map((m) => m.id));
+    const round = (value: number) => Math.round(value * 100) / 100;
+    const onMap = this.editor.fresh(id, round(middle.x - sideM / 2), round(middle.y + sideM / 2), this.usualHeight(), 0);
+    this.editor.add([this.editor.fromMap(onMap)]);
+  }
+
+  private suggest(): void {
+    const place = this.coverage.suggestion(this.usualHeight());
+    if (!place) return say('Every place on the free floor sees a marker');
+    this.addAt(place);
+    say('Placed a marker where it closes most of the gaps');
+  }
+
+  private duplicate(): void {
+    const ids = [...this.editor.markers.values()].map((m) => m.id);
+    const copies = this.editor.chosen().map((m) => {
+      const id = safestId(ids);
+      ids.push(id);
+      return this.editor.fromMap(this.editor.fresh(id, m.x + 0.3, m.y - 0.3, m.z, m.yawDeg));
+    });
+    if (copies.length > 0) this.editor.add(copies);
+  }
+
+  private nudge(dx: number, dy: number): void {
+    this.editor.change(this.editor.chosen().map((m) => ({ ...m, x: m.x + dx, y: m.y + dy })));
+  }
+
+  private turn(byDeg: number): void {
+    const chosen = this.editor.chosen();
+    if (chosen.length > 0) this.editor.change(turned(chosen, this.editor.pivot(chosen), byDeg));
+  }
+
+  // -- view -------------------------------------------------------------------------------------------------
+
+  fit(): void {
+    this.view.fit(this.floor.corners());
+    this.stage.redraw();
+  }
+
+  goTo(points: Point[]): void {
+    if (points.length === 0) return;
+    this.view.fit(points, 3);
+    this.stage.redraw();
+  }
+
+  private theme(): void {
+    const root = document.documentElement;
+    root.dataset['theme'] = root.dataset['theme'] === 'dark' ? 'light' : 'dark';
+    this.stage.paintRaster();
+    this.stage.redraw();
+  }
+
+  private toggleCoverage(): void {
+    this.stage.showCoverage = !this.stage.showCoverage;
+    this.stage.paintRaster();
+    this.stage.redraw();
+  }
+
+  // -- tools and keys ---------------------------------------------------------------------------------------
+
+  private makeCommands(): Command[] {
+    const { editor } = this;
+    const any = () => editor.selection.size > 0;
+    const snap = this.pointer.snap;
+    const nudges: Command[] = ([['', 0.01, '1 cm'], ['Shift+', 0.1, '10 cm'], ['Alt+', 0.001, '1 mm']] as const).flatMap(([mod, by, words]) =>
+      ([['ArrowLeft', -1, 0], ['ArrowRight', 1, 0], ['ArrowUp', 0, 1], ['ArrowDown', 0, -1]] as const).map(([key, x, y]): Command =>
+        ({ name: `${mod}${key}`, key: `${mod}${key}`, title: `move by ${words}`, run: () => this.nudge(x * by, y * by), possible: any })));
+    return [
+      { name: 'undo', button: 'Undo', key: 'Ctrl+Z', title: 'undo', run: () => editor.undo(), possible: () => editor.canUndo },
+      { name: 'redo', button: 'Redo', key: 'Ctrl+Shift+Z', title: 'redo', run: () => editor.redo(), possible: () => editor.canRedo },
+      { name: 'redo2', key: 'Ctrl+Y', title: 'redo', run: () => editor.redo() },
+      { name: 'add', button: 'Add', key: 'N', title: 'new marker in the middle of the view', run: () => this.addAt(this.view.center) },
+      { name: 'duplicate', button: 'Duplicate', key: 'Ctrl+D', title: 'duplicate, with the safest free IDs', run: () => this.duplicate(), possible: any },
+      { name: 'delete', button: 'Delete', key: 'Delete', title: 'delete', run: () => editor.remove(editor.selection), possible: any },
+      { name: 'all', key: 'Ctrl+A', title: 'choose all', run: () => editor.select(editor.markers.keys()) },
+      { name: 'none', key: 'Escape', title: 'choose nothing; leave a drag', run: () => { this.pointer.pick = null; this.pointer.cancel(); editor.select([]); } },
+      { name: 'ccw', key: '[', title: 'turn by 1° counter-clockwise', run: () => this.turn(1), possible: any },
+      { name: 'cw', key: ']', title: 'turn by 1° clockwise', run: () => this.turn(-1), possible: any },
+      { name: 'quarter', key: 'R', title: 'turn by 90°', run: () => this.turn(90), possible: any },
+      { name: 'snap', button: 'Snap', key: 'G', title: 'snap to 5 cm and 15° while dragging', run: () => { snap.on = !snap.on; }, pressed: () => snap.on },
+      { name: 'coverage', button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => this.toggleCoverage(), pressed: () => this.stage.showCoverage },
+      { name: 'fit', button: 'Fit', key: 'F', title: 'show the whole map', run: () => this.fit() },
+      { name: 'align', button: 'Align', title: 'align all markers to the map by pairs of points', run: () => alignByPairs(this.editor, this.pointer, this.stage, say) },
+      { name: 'import', button: 'Import', title: 'read markers of another format', run: () => pickFile((file) => attempt(() => importFrom(editor, file))) },
+      { name: 'export', button: 'Export', title: 'write markers in another format', run: () => attempt(() => exportTo(editor, this.site.formats)) },
+      { name: 'print', button: 'Print', key: 'Ctrl+P', title: 'sheets to make the chosen markers from', run: () => attempt(() => printChosen(editor)) },
+      { name: 'history', button: 'History', title: 'bring back an earlier state', run: () => attempt(() => openHistory(editor)) },
+      { name: 'replay', button: 'Replay', title: 'open a run and scrub through it', run: () => attempt(() => this.replay.open()) },
+      { name: 'reload', button: 'Reload', title: 'read the markers again; unsaved changes are lost', run: () => this.reload() },
+      { name: 'save', button: 'Save', key: 'Ctrl+S', title: 'save', run: () => this.save(), possible: () => editor.dirty },
+      { name: 'theme', button: 'Light/dark', title: 'light or dark', run: () => this.theme() },
+      { name: 'help', button: 'Help', key: '?', title: 'this sheet', run: () => attempt(() => showHelp(this.commands)) },
+      ...nudges,
+    ];
+  }
+
+  private makeTools(): void {
+    for (const command of this.commands.filter((c) => c.button)) {
+      const words = command.title + (command.key ? ` (${command.key})` : '');
+      byId('tools').append(button(command.button!, words, () => this.run(command), { id: `tool-${command.name}` }));
+    }
+  }
+
+  private refreshTools(): void {
+    for (const command of this.commands.filter((c) => c.button)) {
+      const tool = byId(`tool-${command.name}`) as HTMLButtonElement;
+      tool.disabled = command.possible?.() === false;
+      if (command.pressed) tool.setAttribute('aria-pressed', String(command.pressed()));
+    }
+    byId('tool-save').classList.toggle('main', this.editor.dirty);
+  }
+
+  private run(command: Command): void {
+    if (command.possible?.() === false) return;
+    command.run();
+    this.refreshTools();
+  }
+
+  private listenToKeys(): void {
+    addEventListener('keydown', (e) => {
+      if ((byId('dialog') as HTMLDialogElement).open) return;
+      const key = keyOf(e);
+      if (isTyping(e.target) && !['Ctrl+S', 'Ctrl+P'].includes(key)) return;
+      const command = this.commands.find((c) => c.key === key);
+      if (!command) return;
+      e.preventDefault();
+      this.run(command);
+    });
+  }
+}
+
+/** For tests, and for the browser's own console. */
+export interface Handle {
+  console: Console;
+  screenOf(id: number): Point;
+  marker(id: number): Marker | undefined;
+}
+
+async function start(): Promise<void> {
+  if (matchMedia('(prefers-color-scheme: dark)').matches) document.documentElement.dataset['theme'] = 'dark';
+  await useTokenOfAddress();
+  const [site, info, cells, tagged] = await Promise.all([api.getSite(), api.getMap(), api.getCells(), api.getMarkers()]);
+  const made = new Console(site, new Floor(info, cells), tagged);
+  const marker = (id: number) => [...made.editor.shown()].find((m) => m.id === id);
+  const handle: Handle = { console: made, marker, screenOf: (id) => made.view.toScreen(centerOf(marker(id)!)) };
+  (window as unknown as { lodestar: Handle }).lodestar = handle;
+  say('Ready');
+}
+
+start().catch((error: unknown) => say(error instanceof api.Refusal && error.status === 401
+  ? 'This console needs its token: open the address with #t=TOKEN' : String(error), true));

@@ -1,0 +1,165 @@
+// The panel beside the map: the selection in numbers, coverage, issues, and all markers as a table.
+import type { Issue } from './api.js';
+import type { Coverage, Gap } from './coverage.js';
+import { button, byId, el, plural } from './dom.js';
+import type { Editor } from './editor.js';
+import { idCount, wrapDeg } from './geometry.js';
+import type { Marker, Point } from './geometry.js';
+import { drawFace } from './stage.js';
+
+const mostRows = 250;
+const mostIssues = 60;
+
+export interface PanelActions {
+  goTo(points: Point[]): void;
+  suggest(): void;
+}
+
+type FieldName = 'id' | 'x' | 'y' | 'z' | 'yawDeg';
+const fields: [FieldName, string, string][] = [
+  ['id', 'ID', '1'], ['x', 'x (m)', '0.01'], ['y', 'y (m)', '0.01'], ['z', 'z (m)', '0.01'], ['yawDeg', 'yaw (°)', '1']];
+
+export class Panel {
+  issues: Issue[] = [];
+  private gaps: Gap[] = [];
+  private shownSelection = '';
+
+  constructor(private readonly editor: Editor, private readonly actions: PanelActions) {
+    byId('filter').addEventListener('input', () => this.showList());
+  }
+
+  show(): void {
+    this.showSelection();
+    this.showList();
+  }
+
+  // -- selection ------------------------------------------------------------------------------------------
+
+  showSelection(): void {
+    const chosen = this.editor.chosen().map((m) => this.editor.preview.get(m.key) ?? m);
+    const keys = chosen.map((m) => m.key).join();
+    const box = byId('selection');
+    if (keys === this.shownSelection && chosen.length === 1) return this.refreshFields(chosen[0]!);
+    this.shownSelection = keys;
+    if (chosen.length === 0) {
+      box.replaceChildren(el('p', {}, 'Nothing. Click a marker; Shift+drag a box; press ? for all keys.'));
+    } else if (chosen.length === 1) {
+      box.replaceChildren(this.fieldsOf(chosen[0]!), facesOf(chosen[0]!.id));
+    } else {
+      box.replaceChildren(el('p', {}, plural(chosen.length, 'marker')), this.relativeFields());
+    }
+  }
+
+  private fieldsOf(marker: Marker): HTMLElement {
+    const grid = el('div', { class: 'fields' });
+    for (const [name, label, step] of fields) {
+      const input = el('input', { id: `field-${name}`, type: 'number', step, value: String(marker[name]) });
+      input.addEventListener('change', () => this.enter(marker.key, name, input));
+      grid.append(el('label', { for: `field-${name}` }, label), input);
+    }
+    return grid;
+  }
+
+  private refreshFields(marker: Marker): void {
+    for (const [name] of fields) {
+      const input = byId(`field-${name}`) as HTMLInputElement;
+      input.value = String(marker[name]);
+      input.removeAttribute('aria-invalid');
+    }
+    const faces = document.querySelector('.faces');
+    if (faces?.getAttribute('data-id') !== String(marker.id)) faces?.replaceWith(facesOf(marker.id));
+  }
+
+  private enter(key: number, name: FieldName, input: HTMLInputElement): void {
+    const marker = this.editor.chosen().find((m) => m.key === key);
+    const value = input.valueAsNumber;
+    const wrong = !marker || !Number.isFinite(value) || Math.abs(value) > 1e5 ||
+      (name === 'id' && (!Number.isInteger(value) || value < 0 || value >= idCount));
+    input.toggleAttribute('aria-invalid', wrong);
+    if (wrong) return;
+    this.editor.change([{ ...marker, [name]: name === 'yawDeg' ? wrapDeg(value) : value }]);
+  }
+
+  /** By how much to move all that is chosen. */
+  private relativeFields(): HTMLElement {
+    const inputs = (['x', 'y', 'z'] as const).map((name) => {
+      const input = el('input', { id: `by-${name}`, type: 'number', step: '0.01', value: '0' });
+      return { name, input };
+    });
+    const grid = el('div', { class: 'fields' });
+    for (const { name, input } of inputs) grid.append(el('label', { for: input.id }, `Δ${name} (m)`), input);
+    const move = button('Move', 'Move all chosen markers by this much', () => {
+      const by = Object.fromEntries(inputs.map(({ name, input }) => [name, input.valueAsNumber || 0])) as Record<'x' | 'y' | 'z', number>;
+      this.editor.change(this.editor.chosen().map((m) => ({ ...m, x: m.x + by.x, y: m.y + by.y, z: m.z + by.z })));
+    });
+    return el('div', {}, grid, el('div', { class: 'row' }, move));
+  }
+
+  // -- coverage -------------------------------------------------------------------------------------------
+
+  showCoverage(coverage: Coverage): void {
+    this.gaps = coverage.gaps();
+    const { one, two } = coverage.shares();
+    const percent = (share: number) => `${(100 * share).toFixed(1)} %`;
+    byId('coverage').replaceChildren(
+      el('p', { id: 'coverage-words' }, `${percent(one)} of the free floor sees a marker, ${percent(two)} two or more, ` +
+        'however the robot has turned.'),
+      this.gaps.length === 0 ? el('p', { class: 'fine' }, 'No gaps.')
+        : el('p', { class: 'warning' }, `${plural(this.gaps.length, 'gap')} without any marker; the wheels carry the robot across short ones.`),
+      listOf(this.gaps.slice(0, 5).map((gap) => button(`${gap.areaM2.toFixed(1)} m² near ${gap.at.x.toFixed(1)}, ${gap.at.y.toFixed(1)} m`,
+        'Show this gap', () => this.actions.goTo([gap.low, gap.high])))),
+      el('div', { class: 'row' }, button('Suggest next marker', 'Place one where it closes most of the gaps', () => this.actions.suggest())));
+  }
+
+  // -- issues ---------------------------------------------------------------------------------------------
+
+  showIssues(issues: Issue[]): void {
+    this.issues = issues;
+    const sorted = [...issues].sort((a, b) => a.severity.localeCompare(b.severity));
+    byId('issues').replaceChildren(
+      issues.length === 0 ? el('p', { class: 'fine' }, 'None found.') : el('p', {}, this.countsOf(issues)),
+      listOf(sorted.slice(0, mostIssues).map((issue) => button(issue.words, 'Show on the map', () => {
+        this.editor.select([...this.editor.markers.values()].filter((m) => issue.ids.includes(m.id)).map((m) => m.key));
+        this.actions.goTo(issue.places_m.map(([x, y]) => ({ x, y })));
+      }, { class: issue.severity, 'data-kind': issue.kind }))));
+  }
+
+  private countsOf(issues: Issue[]): string {
+    const errors = issues.filter((i) => i.severity === 'error').length;
+    return `${plural(errors, 'error')}, ${plural(issues.length - errors, 'warning')}`;
+  }
+
+  // -- all markers ----------------------------------------------------------------------------------------
+
+  private showList(): void {
+    const filter = (byId('filter') as HTMLInputElement).value.trim();
+    const all = [...this.editor.markers.values()].filter((m) => String(m.id).includes(filter)).sort((a, b) => a.id - b.id);
+    const rows = all.slice(0, mostRows).map((marker) => {
+      const m = this.editor.onMap(marker);
+      const choose = button(String(m.id), 'Choose and show', () => {
+        this.editor.select([m.key]);
+        this.actions.goTo([m]);
+      });
+      return el('tr', this.editor.selection.has(m.key) ? { class: 'chosen' } : {}, el('td', {}, choose),
+        el('td', {}, m.x.toFixed(3)), el('td', {}, m.y.toFixed(3)), el('td', {}, m.yawDeg.toFixed(1)));
+    });
+    const head = el('thead', {}, el('tr', {}, ...['ID', 'x (m)', 'y (m)', 'yaw (°)'].map((t) => el('th', { scope: 'col' }, t))));
+    byId('list').replaceChildren(el('table', {}, head, el('tbody', {}, ...rows)));
+    if (all.length > mostRows) byId('list').append(el('p', {}, `The first ${mostRows} of ${all.length}; filter to see others.`));
+  }
+}
+
+function listOf(items: HTMLElement[]): HTMLElement {
+  return el('ul', { class: 'plain' }, ...items.map((item) => el('li', {}, item)));
+}
+
+/** The face as printed, and as the map shows it: they are mirror images, and it is said which is which. */
+function facesOf(id: number): HTMLElement {
+  const face = (fromAbove: boolean, words: string) => {
+    const canvas = el('canvas', { width: '96', height: '96', role: 'img', 'aria-label': `Marker ${id} ${words}` });
+    drawFace(canvas, id, fromAbove);
+    return el('div', {}, canvas, words);
+  };
+  return el('div', { class: 'faces', 'data-id': String(id) },
+    face(false, 'from below, as printed'), face(true, 'from above, as on the map'));
+}

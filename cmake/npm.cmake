@@ -1,0 +1,22 @@
+# lodestar_npm_packages(SOURCE FOLDER RESULT): what SOURCE's package-lock.json names, installed into FOLDER, once for
+# each lock file. RESULT is OFF where that cannot be had. No package's script is run.
+function(lodestar_npm_packages source folder result)
+  set(stamp ${folder}/node_modules/.lodestar)
+  file(MD5 ${source}/package-lock.json lock)
+  set(installed "")
+  if(EXISTS ${stamp})
+    file(READ ${stamp} installed)
+  endif()
+  if(NOT installed STREQUAL lock)
+    message(STATUS "Installing the packages of ${source}")
+    file(COPY ${source}/package.json ${source}/package-lock.json DESTINATION ${folder})
+    execute_process(COMMAND ${NPM_PROGRAM} ci --ignore-scripts --no-audit --no-fund
+      WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+    if(failed)
+      set(${result} OFF PARENT_SCOPE)
+      return()
+    endif()
+    file(WRITE ${stamp} ${lock})
+  endif()
+  set(${result} ON PARENT_SCOPE)
+endfunction()

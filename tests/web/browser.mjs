@@ -1,0 +1,49 @@
+// A served copy of the lab and a browser that looks at it.
+import { spawn } from 'node:child_process';
+import { cpSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+
+const require = createRequire(join(resolve(process.env.LODESTAR_WEB_PACKAGES ?? '.'), 'package.json'));
+const { chromium } = require('playwright-core');
+export const axeSource = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+
+export const source = resolve(process.env.LODESTAR_SOURCE_DIR ?? '../..');
+const binary = process.env.LODESTAR_BINARY ?? join(source, 'build/release/lodestar');
+
+const flags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+  '--disable-component-update', '--disable-sync'];
+
+export const launch = () => chromium.launch({ executablePath: '/usr/bin/chromium', headless: true, args: flags });
+
+/** A server over a copy of the lab, on a port of its own. */
+export async function serve(...options) {
+  const folder = mkdtempSync(join(tmpdir(), 'lodestar-web-'));
+  const site = join(folder, 'site');
+  cpSync(join(source, 'sites/lab'), site, { recursive: true });
+  const server = spawn(binary, ['serve', site, '--port', '0', '--runs', join(folder, 'runs'), ...options], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const url = await new Promise((found, failed) => {
+    server.stdout.on('data', (bytes) => found(String(bytes).trim()));
+    server.on('exit', (code) => failed(new Error(`lodestar serve ended with ${code}`)));
+  });
+  const stop = () => {
+    server.kill('SIGTERM');
+    rmSync(folder, { recursive: true, force: true });
+  };
+  return { url, site, runs: join(folder, 'runs'), stop, markersFile: () => readFileSync(join(site, 'markers.yaml'), 'utf8') };
+}
+
+/** A page that has loaded, in a window of this size. */
+export async function open(browser, url, size = { width: 1280, height: 800 }, more = {}) {
+  const context = await browser.newContext({ viewport: size, ...more });
+  const page = await context.newPage();
+  page.complaints = [];
+  page.on('pageerror', (error) => page.complaints.push(String(error)));
+  page.on('console', (message) => {
+    if (message.type() === 'error' && !/status of 4(12|01|22)/.test(message.text())) page.complaints.push(message.text());
+  });
+  await page.goto(url);
+  await page.waitForFunction(() => window.lodestar !== undefined, undefined, { polling: 100 });
+  return page;
+}
