@@ -70,12 +70,14 @@ TEST(Replay, fails_with_a_reason_when_the_goal_is_in_a_wall) {
   EXPECT_THAT(record.goals[0].failure, ::testing::HasSubstr("goal"));
 }
 
-TEST(Replay, does_not_move_without_markers) {
+TEST(Replay, without_markers_looks_around_and_goes_nowhere) {
   Site site = lab();
   site.registry.markers.clear();
   const RunRecord record = replay(site, {.camera = site.default_camera, .seed = 1, .goals = site.goals});
   for (const GoalRecord& goal : record.goals) EXPECT_FALSE(goal.arrived);
-  for (const TruePose& pose : record.truth) EXPECT_EQ(pose.map_from_base.position_m, site.start.position_m);
+  // Wheels that are not alike and slip do not turn quite on the spot.
+  for (const TruePose& pose : record.truth)
+    EXPECT_LT((pose.map_from_base.position_m - site.start.position_m).norm(), 0.02);
 }
 
 TEST(Replay, of_many_runs_gives_what_single_runs_give) {
