@@ -122,8 +122,8 @@ class HttpServer::Impl {
     beast::flat_buffer buffer;
     while (co_await serve_one(stream, buffer)) {
     }
-    error_code ignored;
-    stream.socket().shutdown(tcp::socket::shutdown_both, ignored);
+    error_code error;  // of a client that is gone already: no matter
+    error = stream.socket().shutdown(tcp::socket::shutdown_both, error);
     --connections_;
   }
 

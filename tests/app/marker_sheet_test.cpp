@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <regex>
 #include <sstream>
 
 #include "maps/marker.hpp"
@@ -42,12 +41,17 @@ std::vector<Ring> circles_in_pdf(const std::string& pdf) {
   return rings;
 }
 
+/// The number in quotation marks after a word, from a place of a text on.
+double number_after(const std::string& text, const std::string& word, std::size_t from) {
+  return std::stod(text.substr(text.find(word + "=\"", from) + word.size() + 2));
+}
+
 /// The circles of an SVG whose viewBox is its size in millimetres, y up from the bottom of the first page.
 std::vector<Ring> circles_in_svg(const std::string& svg, double height_mm) {
   std::vector<Ring> rings;
-  const std::regex circle("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"([0-9.]+)\"");
-  for (std::sregex_iterator it(svg.begin(), svg.end(), circle), end; it != end; ++it) {
-    rings.push_back({{std::stod((*it)[1]), height_mm - std::stod((*it)[2])}, std::stod((*it)[3])});
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
+    rings.push_back({{number_after(svg, " cx", at), height_mm - number_after(svg, " cy", at)},
+                     number_after(svg, " r", at)});
   }
   return rings;
 }
