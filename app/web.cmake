@@ -18,7 +18,7 @@ set(LODESTAR_PAGE ${LODESTAR_PAGE} CACHE INTERNAL "Is the page in the program?")
 
 if(LODESTAR_PAGE)
   file(GLOB web_files CONFIGURE_DEPENDS ${web_source}/*.ts ${web_source}/*.html ${web_source}/*.css)
-  set(page_source ${CMAKE_CURRENT_BINARY_DIR}/page.cpp)
+  set(page_source ${CMAKE_CURRENT_BINARY_DIR}/embedded_page.cpp)
   add_custom_command(OUTPUT ${page_source}
     COMMAND ${NODE_PROGRAM} ${web_source}/embed.mjs ${web_packages} ${page_source}
     DEPENDS ${web_files} ${web_source}/embed.mjs
