@@ -11,8 +11,9 @@ double PathCost::leg(const Vec2& from, const Vec2& to) const {
   return counts_cells() ? least * mean_cell_cost(from, to) : least;
 }
 
-/// Sampled at half cells.
+/// Sampled at half cells. No leg leads out of the map.
 double PathCost::mean_cell_cost(const Vec2& from, const Vec2& to) const {
+  if (!is_on_map(from) || !is_on_map(to)) return std::numeric_limits<double>::infinity();
   const int samples = std::max(1, static_cast<int>(std::ceil(2.0 * (to - from).norm())));
   const Vec2 step = (to - from) / samples;
   double sum = 0.0;
@@ -22,6 +23,10 @@ double PathCost::mean_cell_cost(const Vec2& from, const Vec2& to) const {
         static_cast<double>(costs_[map_.index({static_cast<int>(point.x()), static_cast<int>(point.y())})]);
   }
   return sum / samples;
+}
+
+bool PathCost::is_on_map(const Vec2& point) const {
+  return point.x() >= 0.0 && point.y() >= 0.0 && point.x() < map_.columns && point.y() < map_.rows;
 }
 
 double PathCost::path(std::span<const Vec2> points, const EndHeadings& headings) const {

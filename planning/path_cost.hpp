@@ -47,6 +47,7 @@ class PathCost {
   [[nodiscard]] double path(std::span<const Vec2> points, const EndHeadings& headings) const;
 
  private:
+  [[nodiscard]] bool is_on_map(const Vec2& point) const;
   [[nodiscard]] double mean_cell_cost(const Vec2& from, const Vec2& to) const;
 
   const OccupancyMap& map_;
