@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/frame_inputs.hpp"
+#include "app/frames/frame_inputs.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {

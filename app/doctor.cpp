@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "app/camera_setup.hpp"
+#include "app/frames/camera_setup.hpp"
+#include "app/markers/registry_check.hpp"
 #include "app/navigation_setup.hpp"
-#include "app/registry_check.hpp"
 #include "drivers/can_interface.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/socketcan_bus.hpp"
@@ -111,7 +111,7 @@ struct Heard {
 Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& protocol) {
   SocketCanBus bus(connection.interface, {.identifiers = protocol.identifiers()});
   const std::unique_ptr<Camera> camera = open_camera(site, connection, 1);
-  const DetectorOptions detector = navigation_options(site.robot).detector;
+  MarkerDetector detector(navigation_options(site.robot).detector);
   Heard heard;
   for (const Stamp end = monotonic_now() + listening; monotonic_now() < end;) {
     while (const auto received = bus.poll()) {
@@ -124,8 +124,7 @@ Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& p
     }
     while (const auto frame = camera->poll()) {
       ++heard.images;
-      for (const DetectedMarker& marker : detect_markers(frame->gray, detector))
-        heard.markers.insert(marker.id);
+      for (const DetectedMarker& marker : detector.detect(frame->gray)) heard.markers.insert(marker.id);
     }
     sleep_until(monotonic_now() + std::chrono::milliseconds(5));
   }

@@ -82,9 +82,7 @@ std::string complaint(MountFlaw flaw, const MountSet& set, const MountCalibratio
 MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, const CameraModel& camera,
                         const Robot& robot) {
   const PoseFixOptions options = loose_options(robot);
-  DetectorOptions expected;
-  expected.registered_ids = registered_ids(registry);
-  MarkerDetector detector(expected);
+  MarkerDetector detector(expecting(registry));
   MountSet set{.images = log.images.size()};
   for (const LoggedImage& image : log.images) {
     const std::optional<WheelTravel> travel = log.travel_at(image.stamp);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/drive_log.hpp"
+#include "app/report/drive_log.hpp"
 #include "app/site.hpp"
 #include "localization/mount_calibration.hpp"
 

@@ -5,7 +5,8 @@
 
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
-#include "app/run_recorder.hpp"
+#include "app/report/run_recorder.hpp"
+#include "app/stopwatch.hpp"
 #include "drivers/simulation.hpp"
 
 namespace lodestar {
@@ -53,7 +54,7 @@ double share_done(const RunRecord& record, const Mission& mission,
 }  // namespace
 
 RunRecord replay(const Site& site, const ReplayOptions& options) {
-  const auto wall_start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const KnownWorld world = known_world(site, options.camera);
   Simulation simulation(world.map, world.registry, world.camera, simulation_options(site, options.seed));
   BaseDriver base(simulation.can());
@@ -81,13 +82,13 @@ RunRecord replay(const Site& site, const ReplayOptions& options) {
     record_event(record, mission, step.event, simulation.now());
     judge(record, simulation.scorer(), mission, step.event);
     if (options.progress) options.progress(share_done(record, mission, step.navigation.estimate));
-    if (options.realtime) std::this_thread::sleep_until(wall_start + simulation.now().time_since_epoch());
+    if (options.realtime) std::this_thread::sleep_for(simulation.now().time_since_epoch() - watch.elapsed());
   }
 
   record.truth = simulation.scorer().track();
   record.path_distances_m = simulation.scorer().path_distances_m();
   record.contacts = simulation.scorer().contacts();
-  record.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
+  record.wall_time_s = watch.seconds();
   return record;
 }
 

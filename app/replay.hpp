@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "app/run_record.hpp"
+#include "app/report/run_record.hpp"
 #include "app/site.hpp"
 #include "planning/grid_planner.hpp"
 

@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "app/parallel.hpp"
-#include "app/run_statistics.hpp"
+#include "app/report/run_statistics.hpp"
 
 namespace lodestar {
 

@@ -4,7 +4,7 @@
 
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
-#include "app/run_recorder.hpp"
+#include "app/report/run_recorder.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/recorded_bus.hpp"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "app/run_record.hpp"
+#include "app/report/run_record.hpp"
 #include "app/site.hpp"
 #include "drivers/base_protocol.hpp"
 #include "drivers/camera.hpp"

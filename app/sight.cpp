@@ -5,11 +5,6 @@
 namespace lodestar {
 namespace {
 
-DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options) {
-  options.registered_ids = registered_ids(registry);
-  return options;
-}
-
 /// Of markers that contradict each other the estimate believes the one that it expected most, if any.
 std::optional<UsedFix> most_expected(const std::vector<UsedFix>& fixes, const Whereabouts& known) {
   std::optional<UsedFix> best;

@@ -2,7 +2,7 @@
 #include <array>
 #include <fmt/format.h>
 
-#include "app/canvas.hpp"
+#include "app/report/canvas.hpp"
 #include "app/visibility.hpp"
 
 namespace lodestar {

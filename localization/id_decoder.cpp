@@ -73,8 +73,9 @@ IdReading IdDecoder::read(const CellEvidence& cells) const {
   for (const int id : ids_) {
     const double cost = contradiction.cost(id ^ plain);
     if (cost > 30.0) continue;
-    const double weight = (registered_prior_ + (id == plain ? foreign_prior_ : 0.0)) * std::exp(-cost);
-    reading.all_weight += registered_prior_ * std::exp(-cost);
+    const double likelihood = std::exp(-cost);
+    const double weight = (registered_prior_ + (id == plain ? foreign_prior_ : 0.0)) * likelihood;
+    reading.all_weight += registered_prior_ * likelihood;
     if (weight <= reading.weight) continue;
     reading.id = id;
     reading.cost = cost;
@@ -82,8 +83,9 @@ IdReading IdDecoder::read(const CellEvidence& cells) const {
   }
   const double cost = cost_of_corners(cells);
   reading.cost += cost;
-  reading.weight *= std::exp(-cost);
-  reading.all_weight *= std::exp(-cost);
+  const double likelihood = std::exp(-cost);
+  reading.weight *= likelihood;
+  reading.all_weight *= likelihood;
   return reading;
 }
 

@@ -169,6 +169,11 @@ DetectorOptions paper_method() {
   return options;
 }
 
+DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options) {
+  options.registered_ids = registered_ids(registry);
+  return options;
+}
+
 MarkerDetector::MarkerDetector(const DetectorOptions& options)
     : options_(options), dot_finder_(options.dots), id_decoder_(options.registered_ids) {}
 

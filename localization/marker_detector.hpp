@@ -10,6 +10,7 @@
 #include "localization/marker_areas.hpp"
 #include "localization/marker_decoder.hpp"
 #include "localization/marker_lattice.hpp"
+#include "maps/marker_registry.hpp"
 
 // From a frame to decoded markers.
 namespace lodestar {
@@ -34,6 +35,9 @@ struct DetectorOptions {
 /// The paper's own way (sections 4.1 and 4.2): the threshold 200 everywhere, centres of binary dots,
 /// direction dots by the farthest pair, nothing else tried.
 DetectorOptions paper_method();
+
+/// The same, with the registry's markers expected.
+DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options = {});
 
 /// Reads the markers of frame after frame. Keeps its memory from one to the next.
 class MarkerDetector {

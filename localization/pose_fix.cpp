@@ -80,8 +80,8 @@ bool fits(const MapEstimate& estimate, std::span<const KnownMarker> markers, con
   });
 }
 
-/// What P3P makes of the optimal marker, the first, and what the prior's tilt makes of it; the pose that
-/// explains all dots best comes first.
+/// What P3P makes of the optimal marker, the first, and what it looks like from below; the pose that explains
+/// all dots best comes first. A tilt that the prior knows has been tried already.
 std::vector<Eigen::Isometry3d> guesses(const KnownMarker& optimal, std::span<const SurveyedDot> dots,
                                        const CameraModel& camera, const PoseFixOptions& options) {
   struct Guess {
@@ -93,7 +93,9 @@ std::vector<Eigen::Isometry3d> guesses(const KnownMarker& optimal, std::span<con
   const auto add = [&](const Eigen::Isometry3d& guess) {
     scored.push_back({guess, cost_of(guess, dots, camera, options)});
   };
-  if (const auto level = level_guess(optimal.dots, camera, options.prior)) add(*level);
+  if (!options.prior.tilt_sigma_rad) {
+    if (const auto level = level_guess(optimal.dots, camera, options.prior)) add(*level);
+  }
   for (const Eigen::Isometry3d& camera_from_map : p3p_guesses(optimal.direction_dots, camera))
     add(camera_from_map.inverse());
   std::ranges::sort(scored, {}, &Guess::cost);

@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/bench_paper.hpp"
+#include "app/bench/paper.hpp"
 #include "app/commands/bench_plan.hpp"
 #include "app/commands/command.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <memory>
 
-#include "app/bench_localize_report.hpp"
+#include "app/bench/localize_report.hpp"
 #include "app/commands/command.hpp"
 #include "app/progress.hpp"
 #include "maps/atomic_file.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/bench_plan_scenario.hpp"
-#include "app/bench_plan_site.hpp"
+#include "app/bench/plan_scenario.hpp"
+#include "app/bench/plan_site.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/median.hpp"
 #include "maps/input_error.hpp"

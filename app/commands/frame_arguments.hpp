@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/frame_inputs.hpp"
-#include "app/overlay.hpp"
+#include "app/frames/frame_inputs.hpp"
+#include "app/frames/overlay.hpp"
 #include "localization/marker_detector.hpp"
 
 namespace lodestar {

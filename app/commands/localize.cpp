@@ -172,9 +172,7 @@ ExitCode localize(const LocalizeArguments& arguments) {
     fmt::print(
         "file,stamp,ids,x,y,z,yaw_deg,roll_deg,pitch_deg,sigma_x,sigma_y,sigma_yaw_deg,confidence,dots\n");
   }
-  DetectorOptions expected = detector_options(arguments.frames);
-  expected.registered_ids = registered_ids(registry);
-  MarkerDetector detector(expected);
+  MarkerDetector detector(expecting(registry, detector_options(arguments.frames)));
   int frames = 0;
   int found = 0;
   while (const std::optional<SourceFrame> frame = inputs.next()) {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "app/commands/command.hpp"
-#include "app/figure.hpp"
 #include "app/navigation_setup.hpp"
+#include "app/report/figure.hpp"
 #include "app/visibility.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"

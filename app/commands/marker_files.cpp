@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "app/commands/command.hpp"
-#include "app/marker_formats.hpp"
-#include "app/marker_sheet.hpp"
+#include "app/markers/formats.hpp"
+#include "app/markers/sheet.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"

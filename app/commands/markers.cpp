@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.hpp"
-#include "app/registry_check.hpp"
+#include "app/markers/registry_check.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker.hpp"
 #include "maps/marker_code.hpp"
@@ -62,20 +62,6 @@ ExitCode list(const MarkersArguments& arguments) {
   }
   if (arguments.format == "json") fmt::print("{}\n", all.dump(2));
   return done;
-}
-
-std::string_view to_string(IssueKind kind) {
-  switch (kind) {
-    case IssueKind::overlapping:
-      return "overlapping";
-    case IssueKind::outside_map:
-      return "outside-map";
-    case IssueKind::similar_ids:
-      return "similar-ids";
-    case IssueKind::mirror_images:
-      return "mirror-images";
-  }
-  return "";
 }
 
 nlohmann::ordered_json as_json(const DistanceReport& report) {

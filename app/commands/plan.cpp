@@ -1,4 +1,3 @@
-#include <chrono>
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,7 +6,8 @@
 #include "app/arguments.hpp"
 #include "app/commands/command.hpp"
 #include "app/commands/planner_options.hpp"
-#include "app/figure.hpp"
+#include "app/report/figure.hpp"
+#include "app/stopwatch.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"
@@ -34,10 +34,10 @@ struct TimedPlan {
 
 TimedPlan timed_plan(const GridPlanner& planner, const Goal& start, const Goal& goal) {
   const PlanHeadings headings{.start_rad = start.heading_rad, .goal_rad = goal.heading_rad};
-  const auto before = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   PlanResult result = planner.plan(start.position_m, goal.position_m, headings);
-  const auto after = std::chrono::steady_clock::now();
-  return {std::move(result), std::chrono::duration<double, std::micro>(after - before).count()};
+  const double microseconds = watch.microseconds();
+  return {std::move(result), microseconds};
 }
 
 std::size_t turns_in(const Path& path) {

@@ -10,7 +10,7 @@
 #include "app/commands/planner_options.hpp"
 #include "app/progress.hpp"
 #include "app/replay_runs.hpp"
-#include "app/run_folder.hpp"
+#include "app/report/run_folder.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 

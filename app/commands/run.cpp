@@ -7,10 +7,10 @@
 
 #include "app/arguments.hpp"
 #include "app/base_setup.hpp"
-#include "app/camera_setup.hpp"
 #include "app/commands/command.hpp"
+#include "app/frames/camera_setup.hpp"
 #include "app/operator_input.hpp"
-#include "app/run_folder.hpp"
+#include "app/report/run_folder.hpp"
 #include "drivers/guard.hpp"
 
 namespace lodestar {

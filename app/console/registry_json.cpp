@@ -59,20 +59,6 @@ double tidy_degrees(double angle_rad) {
   return std::round(degrees(angle_rad) * per_degree) / per_degree;
 }
 
-const char* name_of(IssueKind kind) {
-  switch (kind) {
-    case IssueKind::overlapping:
-      return "overlapping";
-    case IssueKind::outside_map:
-      return "outside-map";
-    case IssueKind::similar_ids:
-      return "similar-ids";
-    case IssueKind::mirror_images:
-      return "mirror-images";
-  }
-  return "";
-}
-
 /// Where on the map the markers with these IDs are.
 ordered_json places_of(const MarkerRegistry& registry, const std::vector<int>& ids) {
   ordered_json places = ordered_json::array();
@@ -84,7 +70,7 @@ ordered_json places_of(const MarkerRegistry& registry, const std::vector<int>& i
   return places;
 }
 
-ordered_json issue_json(const MarkerRegistry& registry, const std::string& kind, bool error,
+ordered_json issue_json(const MarkerRegistry& registry, std::string_view kind, bool error,
                         const std::vector<int>& ids, const std::string& words) {
   return {{"kind", kind},
           {"severity", error ? "error" : "warning"},
@@ -155,7 +141,7 @@ ordered_json issues_json(const MarkerRegistry& draft, const OccupancyMap& map) {
                                 fmt::format("marker {} stands twice; each ID may stand once", marker.id)));
   }
   for (const RegistryIssue& issue : check_registry(draft, map)) {
-    issues.push_back(issue_json(draft, name_of(issue.kind), issue.error, issue.ids, issue.words));
+    issues.push_back(issue_json(draft, to_string(issue.kind), issue.error, issue.ids, issue.words));
   }
   return issues;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "app/registry_check.hpp"
+#include "app/markers/registry_check.hpp"
 
 // The registry as the page sees it: {"alignment": {x_m, y_m, yaw_deg}, "markers": [{id, x_m, y_m, z_m,
 // yaw_deg}]}, in the registry's own frame.

@@ -1,10 +1,9 @@
-#include "app/bench_scene.hpp"
-
 #include <gtest/gtest.h>
 #include <set>
 
-#include "app/bench_square_tags.hpp"
-#include "app/bench_truth.hpp"
+#include "app/bench/scene.hpp"
+#include "app/bench/square_tags.hpp"
+#include "app/bench/truth.hpp"
 #include "localization/marker_detector.hpp"
 #include "localization/pose_fix.hpp"
 

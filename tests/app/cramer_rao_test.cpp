@@ -1,4 +1,4 @@
-#include "app/cramer_rao.hpp"
+#include "app/bench/cramer_rao.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "app/figure.hpp"
+#include "app/report/figure.hpp"
 
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/canvas.hpp"
+#include "app/report/canvas.hpp"
 #include "maps/input_error.hpp"
 
 #include "tests/app/sample_run.hpp"

@@ -1,8 +1,7 @@
-#include "app/marker_formats.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/markers/formats.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"

@@ -1,9 +1,8 @@
-#include "app/marker_sheet.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
 
+#include "app/markers/sheet.hpp"
 #include "maps/marker.hpp"
 
 // Measures the sheets as a person with a ruler would: in the written file, in millimetres on paper.

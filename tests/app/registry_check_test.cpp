@@ -1,4 +1,4 @@
-#include "app/registry_check.hpp"
+#include "app/markers/registry_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/reliability.hpp"
+#include "app/bench/reliability.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
-#include "app/report.hpp"
+#include "app/report/report.hpp"
 
 #include <gtest/gtest.h>
 
-#include "app/plot.hpp"
+#include "app/report/plot.hpp"
 
 #include "tests/app/sample_run.hpp"
 

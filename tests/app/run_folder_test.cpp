@@ -1,4 +1,4 @@
-#include "app/run_folder.hpp"
+#include "app/report/run_folder.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/run_statistics.hpp"
+#include "app/report/run_statistics.hpp"
 #include "drivers/candump.hpp"
 #include "maps/input_error.hpp"
 

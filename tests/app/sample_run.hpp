@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/run_record.hpp"
+#include "app/report/run_record.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
 

@@ -1,9 +1,8 @@
-#include "app/bench_localize.hpp"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/bench_counts.hpp"
+#include "app/bench/counts.hpp"
+#include "app/bench/localize.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 

@@ -1,7 +1,7 @@
-#include "app/bench_paper.hpp"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "app/bench/paper.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 

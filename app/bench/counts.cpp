@@ -1,0 +1,86 @@
+#include "app/bench/counts.hpp"
+
+#include <algorithm>
+
+#include "app/bench/hard_scene.hpp"
+#include "app/bench/truth.hpp"
+#include "app/parallel.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr int frames_per_scene = 25;
+
+/// Does the whole marker, all 16 cells, lie in the picture and clear of all covers?
+bool is_in_full_view(const TrueMarker& marker, double pitch_px, const BenchView& view,
+                     const CameraModel& camera) {
+  const double reach_px = 2.5 * pitch_px;
+  if (!camera.contains(marker.center_px, reach_px)) return false;
+  return std::ranges::none_of(view.covers, [&](const PrintedSquare& cover) {
+    const auto center =
+        camera.project(view.map_from_camera.inverse() * Vec3(cover.map_from_square.translation()));
+    const double cover_px = cover.side_m * pitch_px / marker_pitch_m * std::numbers::sqrt2 / 2.0;
+    return center && (*center - marker.center_px).norm() < reach_px + cover_px;
+  });
+}
+
+void add(const FrameCounts& part, FrameCounts& whole) {
+  whole.frames += part.frames;
+  whole.markers += part.markers;
+  whole.right += part.right;
+  whole.wrong += part.wrong;
+  whole.frames_with_wrong += part.frames_with_wrong;
+  whole.stated.insert(whole.stated.end(), part.stated.begin(), part.stated.end());
+}
+
+/// The frames of one scene.
+FrameCounts count_scene(HardFrames kind, BenchMethod& method, int frames, Random random) {
+  const HardScene scene = some_hard_scene(kind, random);
+  const CameraModel camera = bench_camera();
+  ImageFormer former(scene.registry, camera, scene.light, random.bits());
+  for (const PrintedSquare& patch : scene.sun) former.hang(patch);
+  method.hang(scene.registry, former);
+  const double pitch_px = camera.fx_px * marker_pitch_m / scene.ceiling_m;
+
+  FrameCounts counts;
+  for (int i = 0; i < frames; ++i) {
+    const BenchView view = some_hard_view(kind, scene, random);
+    former.cover(view.covers);
+    const cv::Mat gray =
+        former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(i));
+    const std::vector<ReadMarker> readings = method.read(gray);
+    const std::vector<TrueMarker> truth =
+        markers_in_view(method, scene.registry, view.map_from_camera, camera);
+    const ReadingCount count = judged(readings, truth);
+    ++counts.frames;
+    counts.right += count.right;
+    counts.wrong += count.wrong;
+    counts.frames_with_wrong += count.wrong > 0 ? 1 : 0;
+    counts.markers += static_cast<int>(std::ranges::count_if(
+        truth, [&](const TrueMarker& marker) { return is_in_full_view(marker, pitch_px, view, camera); }));
+    for (const ReadMarker& reading : readings)
+      if (reading.probability) counts.stated.push_back({*reading.probability, is_right(reading, truth)});
+  }
+  return counts;
+}
+
+}  // namespace
+
+FrameCounts count_frames(HardFrames kind, const MethodChoice& choice, int frames, std::uint64_t seed,
+                         const std::function<void(int frames)>& done) {
+  const int scenes = (frames + frames_per_scene - 1) / frames_per_scene;
+  std::vector<FrameCounts> parts(static_cast<std::size_t>(scenes));
+  in_parallel(scenes, [&](int i) {
+    const std::unique_ptr<BenchMethod> method = choice.make();
+    const int count = std::min(frames_per_scene, frames - i * frames_per_scene);
+    const auto stream = static_cast<std::uint64_t>(i);
+    const Random random = Random(seed).stream(static_cast<std::uint64_t>(kind)).stream(stream);
+    parts[static_cast<std::size_t>(i)] = count_scene(kind, *method, count, random);
+    done(count);
+  });
+  FrameCounts counts;
+  for (const FrameCounts& part : parts) add(part, counts);
+  return counts;
+}
+
+}  // namespace lodestar

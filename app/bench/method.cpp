@@ -1,0 +1,67 @@
+#include "app/bench/method.hpp"
+
+#include "app/bench/square_tags.hpp"
+#include "app/stopwatch.hpp"
+#include "localization/marker_detector.hpp"
+#include "localization/pose_fix.hpp"
+
+namespace lodestar {
+namespace {
+
+std::vector<ReadMarker> readings_of(const std::vector<DetectedMarker>& markers) {
+  std::vector<ReadMarker> readings;
+  readings.reserve(markers.size());
+  for (const DetectedMarker& marker : markers)
+    readings.push_back({marker.id, marker.center_px, marker.probability});
+  return readings;
+}
+
+class Lodestar final : public BenchMethod {
+ public:
+  void hang(const MarkerRegistry& registry, ImageFormer& /*former*/) override {
+    detector_ = MarkerDetector(expecting(registry));
+  }
+
+  [[nodiscard]] int id_at(const MarkerRegistry& registry, std::size_t i) const override {
+    return registry.markers[i].id;
+  }
+
+  std::vector<ReadMarker> read(const cv::Mat& gray) override { return readings_of(detector_.detect(gray)); }
+
+  MethodResult run(const cv::Mat& gray, const MarkerRegistry& registry, const CameraModel& camera,
+                   const Eigen::Matrix3d& tilt) override {
+    PoseFixOptions upright;
+    upright.prior.tilt = tilt;
+    upright.prior.tilt_sigma_rad = 0.0;
+    const Stopwatch watch;
+    const std::vector<DetectedMarker> markers = detector_.detect(gray);
+    const std::optional<PoseFix> fix = fix_pose(Stamp{}, markers, registry, camera, upright);
+    MethodResult result{.microseconds = watch.microseconds()};
+    if (fix) result.upright = fix->map_from_camera;
+    if (const auto free = fix_pose(Stamp{}, markers, registry, camera, {}))
+      result.free = free->map_from_camera;
+    result.markers = readings_of(markers);
+    return result;
+  }
+
+ private:
+  MarkerDetector detector_;
+};
+
+}  // namespace
+
+MethodChoice lodestar_method() {
+  return {"lodestar", "dots, all of them, tilt known", [] { return std::make_unique<Lodestar>(); }};
+}
+
+std::vector<MethodChoice> peer_methods([[maybe_unused]] const std::string& peer) {
+#ifdef LODESTAR_WITH_APRILTAG
+  if (peer == "apriltag") return apriltag_choices();
+#endif
+#ifdef LODESTAR_WITH_ARUCO
+  if (peer == "aruco") return aruco_choices();
+#endif
+  return {};
+}
+
+}  // namespace lodestar

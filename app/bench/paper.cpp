@@ -1,0 +1,186 @@
+#include "app/bench/paper.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "app/bench/scene.hpp"
+#include "app/stopwatch.hpp"
+#include "drivers/image_former.hpp"
+#include "localization/marker_detector.hpp"
+#include "maps/marker.hpp"
+#include "maps/random.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr double ceiling_m = 2.6;  ///< Z of Table 3
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// One marker on the ceiling whose frame is the experiment's: X and Y of the map are X and -Y of the paper's
+/// tables.
+MarkerRegistry single_marker(int id) {
+  return {.markers = {{.id = id, .position_m = {0.0, 0.0, ceiling_m}}}};
+}
+
+Eigen::Isometry3d camera_at(const Vec3& position, double yaw_rad, double roll_rad, double pitch_rad) {
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+  map_from_camera.linear() = rotation_from({0.0, 0.0, yaw_rad}) * rotation_from({roll_rad, pitch_rad, 0.0});
+  map_from_camera.translation() = position;
+  return map_from_camera;
+}
+
+SimulatedCameraOptions varied_light(Random& random) {
+  SimulatedCameraOptions light;
+  light.dot_gray = random.uniform(230.0, 250.0);
+  light.background_gray = random.uniform(10.0, 90.0);
+  light.read_noise_gray = random.uniform(1.0, 4.0);
+  return light;
+}
+
+/// The marker to be read near the place that the camera looks at, and up to two others farther off.
+MarkerRegistry some_markers(int id, Random& random) {
+  MarkerRegistry registry = single_marker(id);
+  const Vec3 center(1.5 * marker_pitch_m, -1.5 * marker_pitch_m, 0.0);
+  registry.markers.front().yaw_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
+  const auto others = random.below(3);
+  for (std::uint64_t i = 0; i < others; ++i) {
+    const double direction = random.uniform(-0.4, 0.4) + (i == 0 ? 0.0 : std::numbers::pi);
+    const Vec3 offset(0.5 * std::cos(direction), 0.5 * std::sin(direction), 0.0);
+    const int other_id = (id + 1 + static_cast<int>(random.below(marker_id_count - 1))) % marker_id_count;
+    registry.markers.push_back({.id = other_id, .position_m = Vec3(0.0, 0.0, ceiling_m) + center + offset});
+  }
+  return registry;
+}
+
+/// A camera 1.5 to 2.6 m below the ceiling, turned anyhow and tilted by some degrees, that looks at the
+/// marker.
+Eigen::Isometry3d some_view(const MarkerRegistry& registry, Random& random) {
+  constexpr double most_tilt = radians(6.0);
+  const double distance = random.uniform(1.5, ceiling_m);
+  Eigen::Isometry3d view =
+      camera_at(Vec3::Zero(), random.uniform(-std::numbers::pi, std::numbers::pi),
+                random.uniform(-most_tilt, most_tilt), random.uniform(-most_tilt, most_tilt));
+  const Vec3 axis = view.linear().col(2);
+  const Vec3 looked_at =
+      registry.markers.front().position_m + Vec3(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.0);
+  view.translation() = looked_at - axis * (distance / axis.z());
+  return view;
+}
+
+/// A camera on its stand: nearly upright, at a place and heading, below the one marker.
+class Stand {
+ public:
+  explicit Stand(const BenchPaperOptions& options)
+      : random_(Random(options.seed).stream(2)),
+        tilt_sigma_rad_(options.tilt_sigma_rad),
+        former_(registry_, bench_camera(), SimulatedCameraOptions{}, random_.bits()) {
+    PosePrior upright;
+    upright.tilt_sigma_rad = options.tilt_sigma_rad;
+    fix_options_.prior = options.prior.value_or(upright);
+  }
+
+  std::optional<PoseFix> measure(const Vec3& position, double yaw_rad) {
+    const Eigen::Isometry3d view =
+        camera_at(position, yaw_rad, tilt_sigma_rad_ * random_.normal(), tilt_sigma_rad_ * random_.normal());
+    const cv::Mat gray = former_.expose(view, view, frame_++);
+    return fix_pose(Stamp{}, detect_markers(gray), registry_, camera_, fix_options_);
+  }
+
+  /// In the frame of Tables 2 and 3, the marker's.
+  [[nodiscard]] Eigen::Isometry3d map_from_table() const {
+    return map_from_marker(registry_, registry_.markers.front());
+  }
+
+ private:
+  MarkerRegistry registry_ = single_marker(1782);
+  CameraModel camera_ = bench_camera();
+  Random random_;
+  double tilt_sigma_rad_;
+  ImageFormer former_;
+  PoseFixOptions fix_options_;
+  std::uint64_t frame_ = 0;
+};
+
+std::vector<AngleTrial> turn(Stand& stand) {
+  std::vector<AngleTrial> trials;
+  for (int heading_deg = 0; heading_deg <= 360; heading_deg += 30) {
+    AngleTrial trial{.real_deg = static_cast<double>(heading_deg)};
+    const Vec3 below_the_marker(1.5 * marker_pitch_m, -1.5 * marker_pitch_m, 0.0);
+    if (const auto fix = stand.measure(below_the_marker, radians(trial.real_deg))) {
+      const double output_deg = degrees(angles_of(fix->map_from_camera.linear()).yaw_rad);
+      trial.output_deg = trial.real_deg - degrees(wrap_angle(radians(trial.real_deg - output_deg)));
+      trial.confidence = fix->confidence;
+      trial.fixed = true;
+    }
+    trials.push_back(trial);
+  }
+  return trials;
+}
+
+std::vector<PositionTrial> move(Stand& stand) {
+  std::vector<PositionTrial> trials;
+  for (int y_cm = -50; y_cm <= 50; y_cm += 10) {
+    PositionTrial trial{.real_m = {-0.5, 0.01 * y_cm, ceiling_m}};
+    const Vec3 position = stand.map_from_table() * trial.real_m;
+    if (const auto fix = stand.measure(position, 0.0)) {
+      trial.output_m = stand.map_from_table().inverse() * fix->map_from_camera.translation();
+      trial.confidence = fix->confidence;
+      trial.fixed = true;
+    }
+    trials.push_back(trial);
+  }
+  return trials;
+}
+
+}  // namespace
+
+IdentificationResult bench_identification(const BenchPaperOptions& options) {
+  const int trials = options.identification_trials;
+  constexpr int different_ids = 100;
+  constexpr int id_step = 37;  // coprime to 4096: the 100 IDs are spread over all of them
+  Random random = Random(options.seed).stream(1);
+  IdentificationResult result;
+  double elapsed_us = 0.0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const int id = (trial % different_ids) * id_step % marker_id_count;
+    const MarkerRegistry registry = some_markers(id, random);
+    const Eigen::Isometry3d view = some_view(registry, random);
+    ImageFormer former(registry, bench_camera(), varied_light(random), random.bits());
+    const cv::Mat gray = former.expose(view, view, static_cast<std::uint64_t>(trial));
+    const Stopwatch watch;
+    const std::vector<DetectedMarker> markers = detect_markers(gray);
+    elapsed_us += watch.microseconds();
+    ++result.trials;
+    if (markers.empty()) continue;
+    ++(markers.front().id == id ? result.correct : result.wrong);
+  }
+  result.mean_ms = 1e-3 * elapsed_us / trials;
+  return result;
+}
+
+double AngleTrial::deviation_deg() const {
+  return fixed ? real_deg - output_deg : inf;
+}
+
+double PoseBenchResult::mean_angle_deviation_deg() const {
+  double sum = 0.0;
+  for (const AngleTrial& trial : angles) sum += std::abs(trial.deviation_deg());
+  return sum / static_cast<double>(angles.size());
+}
+
+double PoseBenchResult::mean_position_deviation_m() const {
+  double sum = 0.0;
+  for (const PositionTrial& trial : positions)
+    sum += trial.fixed ? (trial.real_m - trial.output_m).norm() : inf;
+  return sum / static_cast<double>(positions.size());
+}
+
+PoseBenchResult bench_poses(const BenchPaperOptions& options) {
+  Stand stand(options);
+  PoseBenchResult result;
+  result.angles = turn(stand);
+  result.positions = move(stand);
+  return result;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,49 @@
+#include "app/bench/plan_scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/median.hpp"
+#include "app/stopwatch.hpp"
+#include "planning/grid_search.hpp"
+#include "planning/jump_search.hpp"
+
+namespace lodestar {
+bool ScenarioAnswer::optimal() const {
+  constexpr double exact = 1e-3;  // cells
+  return found && std::abs(*found - query.expected_length) <= std::max(exact, query.rounding);
+}
+
+std::vector<ScenarioAnswer> answer_scenario(const OccupancyMap& map,
+                                            const std::vector<MovingAiQuery>& queries,
+                                            const ScenarioOptions& options) {
+  const ClearSpace space(map, 0.0);
+  const JumpTable jumps(space);
+  JumpSearch search(jumps);
+  const CellCosts even(map.cells.size(), 1.0F);
+  GridSearch astar(space, even);
+
+  std::vector<ScenarioAnswer> answers;
+  for (const MovingAiQuery& query : queries) answers.push_back({.query = query});
+  // One pass over all queries after the other: the same query again at once would find everything in the
+  // caches.
+  std::vector<std::vector<double>> times(queries.size());
+  for (int pass = 0; pass < options.repeats; ++pass) {
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      times[i].push_back(microseconds_of([&] {
+        const std::optional<JumpPath> path = search.find(queries[i].start, queries[i].goal);
+        if (!path) return;
+        answers[i].found = path->steps.length_cells();
+        answers[i].expanded = path->expanded;
+      }));
+    }
+  }
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    answers[i].microseconds = median(times[i]);
+    answers[i].astar_microseconds =
+        microseconds_of([&] { (void)astar.find(queries[i].start, queries[i].goal); });
+  }
+  return answers;
+}
+
+}  // namespace lodestar

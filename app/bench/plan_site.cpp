@@ -1,0 +1,141 @@
+#include "app/bench/plan_site.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "app/median.hpp"
+#include "app/navigation_setup.hpp"
+#include "app/stopwatch.hpp"
+#include "maps/random.hpp"
+#include "planning/jump_search.hpp"
+
+namespace lodestar {
+namespace {
+
+struct Query {
+  Vec2 start_m;
+  Vec2 goal_m;
+};
+
+struct Answer {
+  double microseconds = 0.0;
+  std::optional<Path> path;
+};
+
+/// Any place of a random cell, not only its centre.
+Vec2 random_place(const OccupancyMap& map, Random& random) {
+  const Vec2 in_grid(random.uniform(0.0, map.columns), random.uniform(0.0, map.rows));
+  return map.map_from_grid * Vec2(in_grid * map.resolution_m);
+}
+
+std::vector<Query> random_queries(const OccupancyMap& map, const ClearSpace& space,
+                                  const SiteBenchOptions& options) {
+  constexpr int most_tries = 100000;
+  Random random(options.seed);
+  std::vector<Query> queries;
+  for (int i = 0; i < most_tries && static_cast<int>(queries.size()) < options.queries; ++i) {
+    const Query query{random_place(map, random), random_place(map, random)};
+    const Cell start = map.cell_at(query.start_m);
+    const Cell goal = map.cell_at(query.goal_m);
+    if (!space.at(start) || !space.at(goal) || space.region(start) != space.region(goal)) continue;
+    const Vec2 start_in_grid = inverse(map.map_from_grid) * query.start_m / map.resolution_m;
+    const Vec2 goal_in_grid = inverse(map.map_from_grid) * query.goal_m / map.resolution_m;
+    if (!space.along(start_in_grid, start_in_grid) || !space.along(goal_in_grid, goal_in_grid)) continue;
+    if ((query.goal_m - query.start_m).norm() >= options.least_distance_m) queries.push_back(query);
+  }
+  return queries;
+}
+
+Answer answer(const GridPlanner& planner, const Query& query) {
+  PlanResult result = PlanFailure::no_path;
+  Answer answer;
+  answer.microseconds = microseconds_of([&] { result = planner.plan(query.start_m, query.goal_m); });
+  if (auto* plan = std::get_if<Plan>(&result)) answer.path = std::move(plan->path);
+  return answer;
+}
+
+/// All that is measured of one planner; medians come at the end.
+struct Collected {
+  std::vector<double> microseconds;
+  std::vector<double> length_ratios;
+  std::vector<double> time_ratios;
+  std::vector<double> turns;
+};
+
+double travel_s(const Path& path, const MotionLimits& limits) {
+  return travel_time_s(path, std::nullopt, std::nullopt, limits);
+}
+
+/// Ratios to the best of all answers to the same query.
+void collect(const std::vector<Answer>& answers, const MotionLimits& limits,
+             std::vector<Collected>& collected) {
+  double shortest_m = std::numeric_limits<double>::infinity();
+  double fastest_s = shortest_m;
+  for (const Answer& each : answers) {
+    if (!each.path) continue;
+    shortest_m = std::min(shortest_m, length_m(*each.path));
+    fastest_s = std::min(fastest_s, travel_s(*each.path, limits));
+  }
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    collected[i].microseconds.push_back(answers[i].microseconds);
+    if (!answers[i].path) continue;
+    collected[i].length_ratios.push_back(length_m(*answers[i].path) / shortest_m);
+    collected[i].time_ratios.push_back(travel_s(*answers[i].path, limits) / fastest_s);
+    collected[i].turns.push_back(static_cast<double>(answers[i].path->waypoints_m.size()) - 2.0);
+  }
+}
+
+PlannerResult summary_of(PlannerKind kind, const Collected& collected) {
+  PlannerResult result{.kind = kind, .found = static_cast<int>(collected.length_ratios.size())};
+  result.microseconds = median(collected.microseconds);
+  if (result.found == 0) return result;
+  result.length_ratio = median(collected.length_ratios);
+  result.worst_length_ratio = std::ranges::max(collected.length_ratios);
+  result.travel_time_ratio = median(collected.time_ratios);
+  result.mean_turns = 0.0;
+  for (const double turns : collected.turns) result.mean_turns += turns / result.found;
+  return result;
+}
+
+}  // namespace
+
+SiteBenchResult bench_site(const Site& site, const SiteBenchOptions& options) {
+  const OccupancyMap& map = site.map.map;
+  GridPlannerOptions planning = navigation_options(site.robot).planner;
+  planning.clearance_weight = 0.0;  // so that lengths can be compared
+  planning.sampling = options.sampling;
+
+  const ClearSpace space(map, planning.radius_m);
+  const JumpTable jumps(space);
+  JumpSearch grid(jumps);
+  std::vector<std::unique_ptr<GridPlanner>> planners;
+  for (const PlannerKind kind : options.kinds) {
+    planning.kind = kind;
+    planners.push_back(std::make_unique<GridPlanner>(map, planning));
+  }
+
+  const std::vector<Query> queries = random_queries(map, space, options);
+  std::vector<Collected> collected(planners.size());
+  std::vector<double> grid_times;
+  for (const Query& query : queries) {
+    const Cell start = map.cell_at(query.start_m);
+    const Cell goal = map.cell_at(query.goal_m);
+    grid_times.push_back(microseconds_of([&] { (void)grid.find(start, goal); }));
+  }
+  for (const Query& query : queries) {
+    std::vector<Answer> answers;
+    for (const auto& planner : planners) answers.push_back(answer(*planner, query));
+    collect(answers, planning.limits, collected);
+  }
+
+  SiteBenchResult result{.queries = static_cast<int>(queries.size()),
+                         .grid_microseconds = median(grid_times)};
+  for (std::size_t i = 0; i < planners.size(); ++i) {
+    result.planners.push_back(summary_of(options.kinds[i], collected[i]));
+  }
+  return result;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+
+#include "app/report/run_record.hpp"
+#include "maps/marker_registry.hpp"
+#include "maps/occupancy_map.hpp"
+
+namespace lodestar {
+
+/// The experiment's figure (the paper's Fig. 12): map, markers, planned curve, driven track, start and end,
+/// scale bar, legend.
+cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const MarkerRegistry& registry);
+
+/// Map, markers and one planned path; start and goal alone when the path is empty.
+cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const Vec2& start_m,
+                  const Vec2& goal_m, const Path& path);
+
+/// The bytes of a PNG file.
+std::string png_bytes(const cv::Mat& picture);
+
+/// Throws InputError when the file cannot be written.
+void write_png(const std::filesystem::path& file, const cv::Mat& picture);
+
+}  // namespace lodestar

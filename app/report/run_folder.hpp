@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include "app/report/run_record.hpp"
+#include "maps/marker_registry.hpp"
+#include "maps/occupancy_map.hpp"
+
+namespace lodestar {
+
+/// Leaves a run in a folder: summary.json, map.png, estimate.tum, truth.tum, can.log, report.html. The same
+/// record gives the same bytes. Throws InputError when the folder cannot be written.
+void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
+                      const MarkerRegistry& registry);
+
+}  // namespace lodestar

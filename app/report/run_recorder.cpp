@@ -1,0 +1,39 @@
+#include "app/report/run_recorder.hpp"
+
+namespace lodestar {
+
+void record_step(RunRecord& record, const SensorInput& input, const NavigationStep& step) {
+  record.frames += static_cast<int>(input.frames.size());
+  for (const UsedFix& used : step.fixes) {
+    const bool accepted =
+        used.outcome != FixOutcome::refused_gate && used.outcome != FixOutcome::refused_late;
+    record.fixes.push_back({.stamp = used.fix.stamp,
+                            .map_from_base = used.planar.map_from_base,
+                            .ids = used.fix.ids,
+                            .confidence = used.fix.confidence,
+                            .accepted = accepted});
+  }
+  record.distrusted = step.distrusted;
+  if (!step.estimate) return;
+  record.steps.push_back({.estimate = *step.estimate,
+                          .commanded = step.command,
+                          .measured = input.base.measured.value_or(BodyVelocity{})});
+}
+
+void record_event(RunRecord& record, const Mission& mission, MissionEvent event, Stamp now) {
+  if (event == MissionEvent::none) return;
+  if (event == MissionEvent::path_planned) {
+    GoalRecord& goal = record.goals.at(mission.current());
+    const bool is_first = goal.planned.waypoints_m.empty();
+    goal.planned = mission.path();
+    if (is_first) goal.travel_time = -now.time_since_epoch();
+    return;
+  }
+  GoalRecord& goal = record.goals.at(mission.current() - 1);
+  if (!goal.planned.waypoints_m.empty()) goal.travel_time += now.time_since_epoch();
+  goal.ended = now;
+  goal.arrived = event == MissionEvent::goal_arrived;
+  if (!goal.arrived) goal.failure = mission.failure();
+}
+
+}  // namespace lodestar
