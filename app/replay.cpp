@@ -81,6 +81,7 @@ RunRecord replay(const Site& site, const ReplayOptions& options) {
     record_step(record, input, step.navigation);
     record_event(record, mission, step.event, simulation.now());
     judge(record, simulation.scorer(), mission, step.event);
+    if (options.watch) options.watch({.input = input, .step = step, .mission = mission});
     if (options.progress) options.progress(share_done(record, mission, step.navigation.estimate));
     if (options.realtime) std::this_thread::sleep_for(simulation.now().time_since_epoch() - watch.elapsed());
   }

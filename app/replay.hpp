@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "app/drive_moment.hpp"
 #include "app/report/run_record.hpp"
 #include "app/site.hpp"
 #include "planning/grid_planner.hpp"
@@ -15,6 +16,7 @@ struct ReplayOptions {
   PlannerKind planner = PlannerKind::fastest;
   bool realtime = false;                 ///< no faster than the world's own time
   std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
+  DriveWatcher watch;                    ///< called at every step, if there
 };
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.

@@ -32,20 +32,6 @@ class BaseWatcher {
   std::string said_;
 };
 
-std::string in_words(const Mission& mission, MissionEvent event) {
-  switch (event) {
-    case MissionEvent::none:
-      return "";
-    case MissionEvent::path_planned:
-      return fmt::format("goal {}: a path of {:.2f} m", mission.current() + 1, length_m(mission.path()));
-    case MissionEvent::goal_arrived:
-      return fmt::format("goal {}: arrived", mission.current());
-    case MissionEvent::goal_failed:
-      return fmt::format("goal {}: failed: {}", mission.current(), mission.failure());
-  }
-  return "";
-}
-
 SensorInput sense(Camera& camera, BaseDriver& base) {
   const Stamp now = monotonic_now();
   SensorInput input{.now = now, .frames = {}, .base = base.poll(now)};
@@ -88,6 +74,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     base.command(step.navigation.command);
 
     watcher.see(input.base);
+    if (options.watch) options.watch({.input = input, .step = step, .mission = mission});
     record_step(record, input, step.navigation);
     record_event(record, mission, step.event, input.now);
     if (const std::string words = in_words(mission, step.event); !words.empty()) options.tell(words);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "app/drive_moment.hpp"
 #include "app/report/run_record.hpp"
 #include "app/site.hpp"
 #include "drivers/base_protocol.hpp"
@@ -21,6 +22,7 @@ struct RunOptions {
   bool hold_on_base_fault = true;                ///< wait for resume; else the goal fails
   std::function<OperatorWish()> operator_wish;   ///< asked at every step
   std::function<void(const std::string&)> tell;  ///< what happens, in words for people
+  DriveWatcher watch;                            ///< called at every step, if there
 };
 
 /// Drives the real robot through the goals, in real time: the road of replay(), with a bus and a camera that

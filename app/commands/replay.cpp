@@ -8,9 +8,11 @@
 #include "app/arguments.hpp"
 #include "app/commands/command.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/navigation_setup.hpp"
 #include "app/progress.hpp"
 #include "app/replay_runs.hpp"
 #include "app/report/run_folder.hpp"
+#include "app/viewers/run_mcap.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 
@@ -30,6 +32,7 @@ struct ReplayArguments {
   bool quiet = false;
   bool json = false;
   std::string output;
+  double pictures_hz = 0.0;
 };
 
 /// The lab, wherever the program is started from.
@@ -161,7 +164,11 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
   {
     Progress progress("replay", arguments.quiet);
     options.progress = [&progress](double share) { progress.show(share); };
+    RunMcap mcap(folder, known_world(site, options.camera),
+                 message_options(site.robot, arguments.pictures_hz));
+    options.watch = [&mcap](const DriveMoment& moment) { mcap.watch(moment); };
     record = replay(site, options);
+    mcap.add_truth(record);
   }
   record.repeat = repeat_command(arguments.site, options);
   write_run_folder(folder, record, site.map.map, site.registry);
@@ -209,6 +216,8 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
+  command->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in run.mcap")
+      ->check(CLI::Range(0.0, 100.0));
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_flag("--json", arguments->json, "Results as JSON");
   command->add_option("-o,--output", arguments->output, "Run folder; runs/SITE-SEED when left out");

@@ -9,8 +9,10 @@
 #include "app/base_setup.hpp"
 #include "app/commands/command.hpp"
 #include "app/frames/camera_setup.hpp"
+#include "app/navigation_setup.hpp"
 #include "app/operator_input.hpp"
 #include "app/report/run_folder.hpp"
+#include "app/viewers/run_mcap.hpp"
 #include "drivers/guard.hpp"
 
 namespace lodestar {
@@ -30,6 +32,7 @@ struct RunArguments {
   std::string interface;
   std::uint64_t seed = 1;
   std::string output;
+  double pictures_hz = 0.0;
 };
 
 GuardOptions guard_options(const BaseProtocol& protocol) {
@@ -76,8 +79,16 @@ ExitCode run_command(const RunArguments& arguments) {
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
+  std::optional<RunMcap> mcap;
+  if (!arguments.output.empty()) {
+    mcap.emplace(arguments.output, known_world(site, options.camera),
+                 message_options(site.robot, arguments.pictures_hz));
+    options.watch = [&mcap](const DriveMoment& moment) { mcap->watch(moment); };
+  }
   const RunRecord record = run(site, bus, std::move(protocol), *camera, options);
   if (!arguments.output.empty()) write_run_folder(arguments.output, record, site.map.map, site.registry);
+  if (mcap && !mcap->healthy())
+    fmt::print(stderr, "lodestar: warning: the disk did not take all of run.mcap\n");
   print_goals(record);
   return record.arrived() ? done : job_failed;
 }
@@ -98,6 +109,8 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
   command->add_option("--seed", arguments->seed, "Of a simulated camera")->capture_default_str();
+  command->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in run.mcap")
+      ->check(CLI::Range(0.0, 100.0));
   command->add_option("-o,--output", arguments->output, "Leave a run folder");
   return {{command, [arguments] { return run_command(*arguments); }}};
 }

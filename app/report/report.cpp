@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "app/base64.hpp"
 #include "app/report/page.hpp"
 #include "app/report/plot.hpp"
 #include "app/report/run_statistics.hpp"
@@ -12,22 +13,6 @@ namespace lodestar {
 namespace {
 
 constexpr double mm_per_m = 1000.0;
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k <= bytes.size() ? letters[(group >> (18U - 6U * k)) & 63U] : '=';
-    }
-  }
-  return text;
-}
 
 std::string goal_row(const GoalRecord& goal) {
   const std::string error =

@@ -46,12 +46,16 @@ std::string can_log(const RunRecord& record) {
 
 }  // namespace
 
-void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
-                      const MarkerRegistry& registry) {
+void make_run_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
     throw InputError(folder, 0, "a folder that could not be made (" + error.message() + ")", "one that can");
+}
+
+void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
+                      const MarkerRegistry& registry) {
+  make_run_folder(folder);
   const std::string picture = png_bytes(draw_experiment(record, map, registry));
   write_file_atomically(folder / "summary.json", summary_of(record).dump(2) + "\n");
   write_file_atomically(folder / "map.png", picture);

@@ -8,6 +8,9 @@
 
 namespace lodestar {
 
+/// Makes the folder. Throws InputError when it cannot be made.
+void make_run_folder(const std::filesystem::path& folder);
+
 /// Leaves a run in a folder: summary.json, map.png, estimate.tum, truth.tum, can.log, report.html. The same
 /// record gives the same bytes. Throws InputError when the folder cannot be written.
 void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,

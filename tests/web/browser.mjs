@@ -1,16 +1,12 @@
 // A served copy of the lab and a browser that looks at it.
 import { spawn } from 'node:child_process';
 import { cpSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { join } from 'node:path';
+import { binary, packages, source } from './programs.mjs';
 
-const require = createRequire(join(resolve(process.env.LODESTAR_WEB_PACKAGES ?? '.'), 'package.json'));
-const { chromium } = require('playwright-core');
-export const axeSource = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
-
-export const source = resolve(process.env.LODESTAR_SOURCE_DIR ?? '../..');
-const binary = process.env.LODESTAR_BINARY ?? join(source, 'build/release/lodestar');
+const { chromium } = packages('playwright-core');
+export const axeSource = readFileSync(packages.resolve('axe-core/axe.min.js'), 'utf8');
 
 const flags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
   '--disable-component-update', '--disable-sync'];

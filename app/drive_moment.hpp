@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "app/mission.hpp"
+
+namespace lodestar {
+
+/// One step of a drive, for those who only look on.
+struct DriveMoment {
+  const SensorInput& input;
+  const MissionStep& step;
+  const Mission& mission;
+};
+
+/// Called after each step, once its command is on the way.
+using DriveWatcher = std::function<void(const DriveMoment&)>;
+
+/// What has come of the present goal, in words; empty when nothing has.
+std::string in_words(const Mission& mission, MissionEvent event);
+
+}  // namespace lodestar

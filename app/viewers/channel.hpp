@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "maps/stamp.hpp"
+
+// What a viewer is shown, whether it reads a file or listens: channels of JSON messages with a schema each.
+namespace lodestar {
+
+struct Channel {
+  std::string topic;
+  std::string schema_name;
+  std::string schema;  ///< JSON Schema
+};
+
+struct Message {
+  std::size_t channel = 0;  ///< its place in the list of channels
+  Stamp stamp;
+  std::string json;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,217 @@
+#include "app/viewers/drive_messages.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "app/report/run_statistics.hpp"
+#include "app/viewers/foxglove_messages.hpp"
+#include "app/viewers/foxglove_schemas.hpp"
+
+namespace lodestar {
+namespace {
+
+enum DriveChannel : std::size_t {
+  transform,
+  map,
+  markers,
+  path,
+  robot,
+  pose,
+  drive,
+  fix,
+  log,
+  camera,
+  calibration,
+  truth,
+  error
+};
+
+constexpr double mm_per_m = 1000.0;
+
+Message message(DriveChannel channel, Stamp stamp, const MessageJson& json) {
+  return {.channel = channel, .stamp = stamp, .json = json.dump()};
+}
+
+/// Six digits behind the point tell all that a plot can show.
+double short_number(double value) {
+  constexpr double per_unit = 1e6;
+  return std::round(value * per_unit) / per_unit + 0.0;
+}
+
+double largest_sigma_m(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance.topLeftCorner<2, 2>(),
+                                                              Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
+}
+
+std::string base_words(const BaseFeedback& base) {
+  std::string words(to_string(base.state));
+  if (base.fault) words += fmt::format(" ({})", to_string(*base.fault));
+  return words;
+}
+
+MessageJson drive_json(const DriveMoment& moment, const PoseEstimate& estimate) {
+  const NavigationStep& step = moment.step.navigation;
+  const BodyVelocity measured = moment.input.base.measured.value_or(BodyVelocity{});
+  const Pose2& at = estimate.map_from_base;
+  return {{"timestamp", time_json(estimate.stamp)},
+          {"x_m", short_number(at.position_m.x())},
+          {"y_m", short_number(at.position_m.y())},
+          {"yaw_deg", short_number(degrees(at.yaw_rad))},
+          {"position_sigma_mm", short_number(mm_per_m * largest_sigma_m(estimate.covariance))},
+          {"yaw_sigma_deg", short_number(degrees(std::sqrt(std::max(estimate.covariance(2, 2), 0.0))))},
+          {"commanded_mps", short_number(step.command.forward_mps)},
+          {"commanded_degps", short_number(degrees(step.command.turn_radps))},
+          {"measured_mps", short_number(measured.forward_mps)},
+          {"measured_degps", short_number(degrees(measured.turn_radps))},
+          {"base", base_words(moment.input.base)},
+          {"stop", step.stop ? std::string(to_string(*step.stop)) : ""}};
+}
+
+MessageJson fix_json(const UsedFix& used) {
+  const bool accepted = used.outcome != FixOutcome::refused_gate && used.outcome != FixOutcome::refused_late;
+  const Pose2& at = used.planar.map_from_base;
+  return {{"timestamp", time_json(used.fix.stamp)},
+          {"x_m", short_number(at.position_m.x())},
+          {"y_m", short_number(at.position_m.y())},
+          {"yaw_deg", short_number(degrees(at.yaw_rad))},
+          {"ids", used.fix.ids},
+          {"confidence", short_number(used.fix.confidence)},
+          {"dots", used.fix.dots},
+          {"residual_px", short_number(used.fix.residual_px)},
+          {"accepted", accepted}};
+}
+
+bool is_due(const std::optional<Stamp>& last, Stamp now, Duration period) {
+  return !last || now - *last >= period;
+}
+
+Channel channel(const char* topic, const char* schema) {
+  return {.topic = topic, .schema_name = schema, .schema = viewer_schema(schema)};
+}
+
+}  // namespace
+
+const std::vector<Channel>& drive_channels() {
+  static const std::vector<Channel> channels{channel("/tf", "foxglove.FrameTransform"),
+                                             channel("/map", "foxglove.Grid"),
+                                             channel("/markers", "foxglove.SceneUpdate"),
+                                             channel("/path", "foxglove.PosesInFrame"),
+                                             channel("/robot", "foxglove.SceneUpdate"),
+                                             channel("/pose", "foxglove.PoseInFrame"),
+                                             channel("/drive", "lodestar.Drive"),
+                                             channel("/fix", "lodestar.Fix"),
+                                             channel("/log", "foxglove.Log"),
+                                             channel("/camera", "foxglove.CompressedImage"),
+                                             channel("/camera/calibration", "foxglove.CameraCalibration"),
+                                             channel("/truth", "foxglove.PoseInFrame"),
+                                             channel("/error", "lodestar.EstimateError")};
+  return channels;
+}
+
+DriveMessageOptions message_options(const Robot& robot, double pictures_hz) {
+  DriveMessageOptions options{.robot_radius_m = robot.radius_m};
+  if (pictures_hz > 0.0) options.picture_period = from_seconds(1.0 / pictures_hz);
+  return options;
+}
+
+DriveMessages::DriveMessages(const KnownWorld& world, const DriveMessageOptions& options)
+    : world_(world), options_(options) {}
+
+std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
+  std::vector<Message> messages;
+  const Stamp now = moment.input.now;
+  if (!has_begun_) say_scene(now, messages);
+  has_begun_ = true;
+  say_estimate(moment, messages);
+  say_fixes(moment.step.navigation, messages);
+  say_distrust(moment, messages);
+  say_base(moment, messages);
+  if (const std::string words = in_words(moment.mission, moment.step.event); !words.empty()) {
+    const bool bad = moment.step.event == MissionEvent::goal_failed;
+    messages.push_back(message(log, now, log_message(now, bad ? LogLevel::error : LogLevel::info, words)));
+  }
+  if (moment.step.event == MissionEvent::path_planned)
+    messages.push_back(message(path, now, path_message(now, moment.mission.path())));
+  say_picture(moment, messages);
+  return messages;
+}
+
+void DriveMessages::say_scene(Stamp stamp, std::vector<Message>& messages) const {
+  messages.push_back(message(map, stamp, grid_message(stamp, world_.map)));
+  messages.push_back(message(markers, stamp, markers_message(stamp, world_.registry, {})));
+  messages.push_back(
+      message(transform, stamp, transform_message(stamp, "base_link", "camera", world_.base_from_camera)));
+  messages.push_back(message(calibration, stamp, calibration_message(stamp, world_.camera)));
+}
+
+void DriveMessages::say_estimate(const DriveMoment& moment, std::vector<Message>& messages) {
+  const std::optional<PoseEstimate>& estimate = moment.step.navigation.estimate;
+  if (!estimate || !is_due(last_pose_, estimate->stamp, options_.pose_period)) return;
+  const Stamp stamp = estimate->stamp;
+  const Eigen::Isometry3d map_from_base = lifted(estimate->map_from_base);
+  messages.push_back(message(transform, stamp, transform_message(stamp, "map", "base_link", map_from_base)));
+  messages.push_back(message(pose, stamp, pose_message(stamp, map_from_base)));
+  messages.push_back(message(robot, stamp, robot_message(*estimate, options_.robot_radius_m)));
+  messages.push_back(message(drive, stamp, drive_json(moment, *estimate)));
+  last_pose_ = stamp;
+}
+
+void DriveMessages::say_fixes(const NavigationStep& step, std::vector<Message>& messages) const {
+  for (const UsedFix& used : step.fixes) messages.push_back(message(fix, used.fix.stamp, fix_json(used)));
+}
+
+void DriveMessages::say_distrust(const DriveMoment& moment, std::vector<Message>& messages) {
+  const Stamp now = moment.input.now;
+  std::vector<int> ids;
+  for (const DistrustedMarker& marker : moment.step.navigation.distrusted) ids.push_back(marker.id);
+  if (ids == distrusted_) return;
+  distrusted_ = ids;
+  messages.push_back(message(markers, now, markers_message(now, world_.registry, ids)));
+  const std::string words = fmt::format("no longer trusted: marker {}", fmt::join(ids, ", "));
+  messages.push_back(message(log, now, log_message(now, LogLevel::warning, words)));
+}
+
+void DriveMessages::say_base(const DriveMoment& moment, std::vector<Message>& messages) {
+  const Stamp now = moment.input.now;
+  const std::string words = "base: " + base_words(moment.input.base);
+  if (words == base_said_) return;
+  base_said_ = words;
+  const bool bad = moment.input.base.state == BaseState::fault;
+  messages.push_back(message(log, now, log_message(now, bad ? LogLevel::error : LogLevel::info, words)));
+}
+
+void DriveMessages::say_picture(const DriveMoment& moment, std::vector<Message>& messages) {
+  if (!options_.picture_period || moment.input.frames.empty()) return;
+  const Frame& frame = moment.input.frames.back();
+  if (!is_due(last_picture_, frame.stamp, *options_.picture_period)) return;
+  messages.push_back(message(camera, frame.stamp, picture_message(frame.stamp, frame.gray)));
+  last_picture_ = frame.stamp;
+}
+
+std::vector<Message> truth_messages(const RunRecord& record) {
+  constexpr Duration period = std::chrono::milliseconds(50);
+  std::vector<Message> messages;
+  std::optional<Stamp> last;
+  for (const TruePose& at : record.truth) {
+    if (!is_due(last, at.stamp, period)) continue;
+    messages.push_back(message(truth, at.stamp, pose_message(at.stamp, lifted(at.map_from_base))));
+    last = at.stamp;
+  }
+  last.reset();
+  for (const EstimateError& off : estimate_errors(record)) {
+    const Stamp stamp(from_seconds(off.time_s));
+    if (!is_due(last, stamp, period)) continue;
+    messages.push_back(message(error, stamp,
+                               {{"timestamp", time_json(stamp)},
+                                {"position_mm", short_number(mm_per_m * off.position_m)},
+                                {"yaw_deg", short_number(degrees(off.heading_rad))},
+                                {"position_sigma_mm", short_number(mm_per_m * off.position_sigma_m)},
+                                {"yaw_sigma_deg", short_number(degrees(off.heading_sigma_rad))}}));
+    last = stamp;
+  }
+  return messages;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/drive_moment.hpp"
+#include "app/report/run_record.hpp"
+#include "app/site.hpp"
+#include "app/viewers/channel.hpp"
+
+namespace lodestar {
+
+/// The channels of a drive:
+///
+///   /tf               base_link in map by the estimate, camera in base_link
+///   /map, /markers    the floor and the ceiling as known; a marker no longer trusted turns red
+///   /path             planned
+///   /robot, /pose     footprint and the ellipse of its uncertainty; the estimate
+///   /drive, /fix      numbers for plots: velocities, deviations, state; every pose that came of a frame
+///   /log              what happens, in words
+///   /camera           pictures and calibration
+///   /truth, /error    in simulation: where the robot really was, and how far the estimate was off
+const std::vector<Channel>& drive_channels();
+
+struct DriveMessageOptions {
+  Duration pose_period = std::chrono::milliseconds(50);  ///< of estimates, at most
+  std::optional<Duration> picture_period;                ///< nothing: no pictures
+  double robot_radius_m = 0.0;
+};
+
+/// For this robot; pictures so many times a second, 0 for none.
+DriveMessageOptions message_options(const Robot& robot, double pictures_hz);
+
+/// Puts a drive into messages, moment by moment.
+class DriveMessages {
+ public:
+  DriveMessages(const KnownWorld& world, const DriveMessageOptions& options);
+
+  /// What there is to say of this moment; of the first one also all that does not change.
+  std::vector<Message> of(const DriveMoment& moment);
+
+ private:
+  void say_scene(Stamp stamp, std::vector<Message>& messages) const;
+  void say_estimate(const DriveMoment& moment, std::vector<Message>& messages);
+  void say_fixes(const NavigationStep& step, std::vector<Message>& messages) const;
+  void say_distrust(const DriveMoment& moment, std::vector<Message>& messages);
+  void say_base(const DriveMoment& moment, std::vector<Message>& messages);
+  void say_picture(const DriveMoment& moment, std::vector<Message>& messages);
+
+  KnownWorld world_;
+  DriveMessageOptions options_;
+  bool has_begun_ = false;
+  std::optional<Stamp> last_pose_;
+  std::optional<Stamp> last_picture_;
+  std::string base_said_;
+  std::vector<int> distrusted_;
+};
+
+/// What only the judge of a simulated drive knows, after the drive.
+std::vector<Message> truth_messages(const RunRecord& record);
+
+}  // namespace lodestar

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lodestar {
+
+/// The JSON Schema of a message: those of Foxglove that we send ("foxglove.Grid"), as its viewers know them
+/// by name, and our own ("lodestar.Drive"). Throws std::out_of_range for another name.
+std::string viewer_schema(std::string_view name);
+
+}  // namespace lodestar
