@@ -39,20 +39,52 @@ std::string token_in(const std::string& cookies) {
   return "";
 }
 
-bool has_token(const HttpRequest& head, const std::string& token) {
-  constexpr std::string_view bearer = "Bearer ";
-  const std::string offered = head.authorization.starts_with(bearer)
-                                  ? head.authorization.substr(bearer.size())
-                                  : token_in(head.cookie);
-  return equal_in_constant_time(offered, token);
+/// Compares with all tokens, whichever fits.
+std::optional<Role> role_for(const std::string& offered, const AccessRules& rules) {
+  if (!rules.asks_for_token()) return Role::drive;
+  std::optional<Role> role;
+  const auto compare = [&](const std::string& token, Role its) {
+    if (equal_in_constant_time(offered, token) && !token.empty()) role = its;
+  };
+  compare(rules.view_token, Role::view);
+  compare(rules.edit_token, Role::edit);
+  compare(rules.token, Role::drive);
+  return role;
+}
+
+HttpResponse session_of(Role role) {
+  return {.body = nlohmann::json{{"role", to_string(role)}}.dump()};
 }
 
 }  // namespace
+
+std::string_view to_string(Role role) {
+  switch (role) {
+    case Role::view:
+      return "view";
+    case Role::edit:
+      return "edit";
+    case Role::drive:
+      break;
+  }
+  return "drive";
+}
 
 HttpResponse refusal(int status, const std::string& words) {
   using nlohmann::json;
   return {.status = status,
           .body = json{{"error", words}}.dump(-1, ' ', false, json::error_handler_t::replace)};
+}
+
+bool AccessRules::asks_for_token() const {
+  return !token.empty() || !edit_token.empty() || !view_token.empty();
+}
+
+std::optional<Role> role_of(const HttpRequest& head, const AccessRules& rules) {
+  constexpr std::string_view bearer = "Bearer ";
+  return role_for(head.authorization.starts_with(bearer) ? head.authorization.substr(bearer.size())
+                                                         : token_in(head.cookie),
+                  rules);
 }
 
 bool is_loopback(const std::string& address) {
@@ -80,22 +112,28 @@ std::optional<HttpResponse> turned_away(const HttpRequest& head, const AccessRul
   if (changes && !head.content_type.starts_with("application/json")) {
     return refusal(415, "found '" + head.content_type + "', wanted application/json");
   }
-  const bool needs_token =
-      !rules.token.empty() && head.target.starts_with("/api") && head.target != "/api/session";
-  if (needs_token && !has_token(head, rules.token)) return refusal(401, "found no valid token, wanted it");
+  const bool is_guarded =
+      head.wants_socket || (head.target.starts_with("/api") && head.target != "/api/session");
+  const std::optional<Role> role = role_of(head, rules);
+  if (is_guarded && !role) return refusal(401, "found no valid token, wanted it");
+  if (head.method == "PUT" && role < Role::edit)
+    return refusal(403, "found a token to view, wanted one to edit");
   return std::nullopt;
 }
 
-HttpResponse open_session(const HttpRequest& request, const AccessRules& rules) {
+HttpResponse answer_session(const HttpRequest& request, const AccessRules& rules) {
+  if (request.method != "POST") {
+    const std::optional<Role> role = role_of(request, rules);
+    return role ? session_of(*role) : refusal(401, "found no valid token, wanted it");
+  }
   const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
   const bool is_text = body.is_object() && body.contains("token") && body["token"].is_string();
   const std::string offered = is_text ? body["token"].get<std::string>() : "";
-  if (!rules.token.empty() && !equal_in_constant_time(offered, rules.token)) {
-    return refusal(401, "found another token");
-  }
-  HttpResponse response{.body = "{}"};
-  if (!rules.token.empty()) {
-    response.set_cookie = fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", cookie_name, rules.token);
+  const std::optional<Role> role = role_for(offered, rules);
+  if (!role) return refusal(401, "found another token");
+  HttpResponse response = session_of(*role);
+  if (rules.asks_for_token()) {
+    response.set_cookie = fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", cookie_name, offered);
   }
   return response;
 }

@@ -11,8 +11,18 @@ namespace lodestar {
 struct AccessRules {
   std::string bind = "127.0.0.1";
   unsigned short port = 0;
-  std::string token;  ///< empty: none is asked for, which only loopback allows
+  // Who has a token may do what it is for. With none of them set everyone may do everything, which only
+  // loopback allows.
+  std::string token;  ///< to drive, and all else
+  std::string edit_token;
+  std::string view_token;
+
+  [[nodiscard]] bool asks_for_token() const;
 };
+
+/// What the client may do, by the token it sends as `Authorization: Bearer` or as the cookie; nothing without
+/// a valid one.
+std::optional<Role> role_of(const HttpRequest& head, const AccessRules& rules);
 
 bool is_loopback(const std::string& address);
 
@@ -26,10 +36,11 @@ bool equal_in_constant_time(const std::string& a, const std::string& b);
 ///   refused;
 /// - Origin, where sent, must be ourselves;
 /// - what changes something must carry X-Lodestar and be JSON: no form of another page can do that unasked;
-/// - with a token, all of /api/ but the session itself needs it, as `Authorization: Bearer` or as the cookie.
+/// - where tokens are asked for, all of /api/ but the session itself and every WebSocket needs one;
+/// - PUT needs the one to edit.
 std::optional<HttpResponse> turned_away(const HttpRequest& head, const AccessRules& rules);
 
-/// The answer to a page that offers the token: the cookie, or 401.
-HttpResponse open_session(const HttpRequest& request, const AccessRules& rules);
+/// GET: what the client may do. POST, of a page that offers a token: the cookie. 401 without a valid one.
+HttpResponse answer_session(const HttpRequest& request, const AccessRules& rules);
 
 }  // namespace lodestar

@@ -5,6 +5,10 @@
 // A request and its answer, as far as the console cares.
 namespace lodestar {
 
+/// What somebody may do here; each may also do what those before may.
+enum class Role { view, edit, drive };
+std::string_view to_string(Role role);
+
 struct HttpRequest {
   std::string method;  ///< GET, PUT, ...
   std::string target;  ///< as sent: path and query
@@ -16,6 +20,8 @@ struct HttpRequest {
   std::string cookie;
   std::string if_match;
   std::string if_none_match;
+  bool wants_socket = false;  ///< it asks to go on as a WebSocket
+  std::string subprotocols;   ///< that it offers for that, separated by commas
   std::string body;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>  // the coroutines of Boost 1.74 use std::exchange without including it
 
 #include "app/console/access.hpp"
+#include "app/console/socket.hpp"
 
 namespace lodestar {
 
@@ -14,18 +15,22 @@ struct HttpServerOptions {
   std::size_t max_body_bytes = 4U << 20U;
   unsigned max_header_bytes = 16U << 10U;
   int max_connections = 32;
+  int max_sockets = 128;
+  std::size_t max_socket_message_bytes = 64U << 10U;  ///< of what a client sends over a WebSocket
+  OutboxLimits outbox;
   std::chrono::seconds patience{15};  ///< with a client that sends or takes nothing
 };
 
-/// An HTTP/1.1 server on one thread, the caller's. It enforces the access rules and the limits before the
-/// handler sees anything; a handler that throws gives 500, in words. Boost.Beast stays in its .cpp.
+/// An HTTP/1.1 and WebSocket server on one thread, the caller's. It enforces the access rules and the limits
+/// before the handler or a session sees anything; a handler that throws gives 500, in words. A request for a
+/// WebSocket, on any target, gets the subprotocol that it offers. Boost.Beast stays in its .cpp.
 class HttpServer {
  public:
   using Handler = std::function<HttpResponse(const HttpRequest&)>;
 
   /// Listens at once. Throws InputError when the address or the port cannot be had, and for an address other
-  /// than loopback without a token.
-  HttpServer(const HttpServerOptions& options, Handler handler);
+  /// than loopback without a token. The sessions of `protocols` end with the server, at the latest.
+  HttpServer(const HttpServerOptions& options, Handler handler, std::vector<SocketProtocol> protocols = {});
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
