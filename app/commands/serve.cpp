@@ -5,6 +5,9 @@
 #include "app/console/console.hpp"
 #include "app/console/http_server.hpp"
 #include "app/interruption.hpp"
+#include "app/navigation_setup.hpp"
+#include "app/viewers/drive_messages.hpp"
+#include "app/viewers/foxglove_hub.hpp"
 
 namespace lodestar {
 namespace {
@@ -18,8 +21,13 @@ struct ServeArguments {
 ExitCode serve(const ServeArguments& arguments) {
   check_tokens(arguments.access);
   Console console(arguments.site, arguments.runs);
-  HttpServer server({.access = arguments.access},
-                    [&](const HttpRequest& request) { return console.answer(request); });
+  const Site site = load_site(arguments.site);
+  FoxgloveHub viewers("Lodestar: " + site.name, drive_channels());
+  for (const Message& message : scene_messages(known_world(site, site.default_camera), Stamp()))
+    viewers.publish(message);
+  HttpServer server(
+      {.access = arguments.access}, [&](const HttpRequest& request) { return console.answer(request); },
+      viewers.protocols());
   const Interruption interruption;
   tell_address(arguments.access, server.port());
   while (!Interruption::asked()) server.run_for(std::chrono::milliseconds(200));

@@ -12,7 +12,8 @@ namespace lodestar {
 struct Channel {
   std::string topic;
   std::string schema_name;
-  std::string schema;  ///< JSON Schema
+  std::string schema;          ///< JSON Schema
+  bool every_message = false;  ///< not only the newest counts: they are events
 };
 
 struct Message {

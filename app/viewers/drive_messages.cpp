@@ -24,7 +24,8 @@ enum DriveChannel : std::size_t {
   camera,
   calibration,
   truth,
-  error
+  error,
+  static_transform
 };
 
 constexpr double mm_per_m = 1000.0;
@@ -91,6 +92,12 @@ Channel channel(const char* topic, const char* schema) {
   return {.topic = topic, .schema_name = schema, .schema = viewer_schema(schema)};
 }
 
+Channel events(const char* topic, const char* schema) {
+  Channel made = channel(topic, schema);
+  made.every_message = true;
+  return made;
+}
+
 }  // namespace
 
 const std::vector<Channel>& drive_channels() {
@@ -102,12 +109,21 @@ const std::vector<Channel>& drive_channels() {
                                              channel("/pose", "foxglove.PoseInFrame"),
                                              channel("/drive", "lodestar.Drive"),
                                              channel("/fix", "lodestar.Fix"),
-                                             channel("/log", "foxglove.Log"),
+                                             events("/log", "foxglove.Log"),
                                              channel("/camera", "foxglove.CompressedImage"),
                                              channel("/camera/calibration", "foxglove.CameraCalibration"),
                                              channel("/truth", "foxglove.PoseInFrame"),
-                                             channel("/error", "lodestar.EstimateError")};
+                                             channel("/error", "lodestar.EstimateError"),
+                                             channel("/tf_static", "foxglove.FrameTransform")};
   return channels;
+}
+
+std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp) {
+  return {message(map, stamp, grid_message(stamp, world.map)),
+          message(markers, stamp, markers_message(stamp, world.registry, {})),
+          message(static_transform, stamp,
+                  transform_message(stamp, "base_link", "camera", world.base_from_camera)),
+          message(calibration, stamp, calibration_message(stamp, world.camera))};
 }
 
 DriveMessageOptions message_options(const Robot& robot, double pictures_hz) {
@@ -120,9 +136,8 @@ DriveMessages::DriveMessages(const KnownWorld& world, const DriveMessageOptions&
     : world_(world), options_(options) {}
 
 std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
-  std::vector<Message> messages;
   const Stamp now = moment.input.now;
-  if (!has_begun_) say_scene(now, messages);
+  std::vector<Message> messages = has_begun_ ? std::vector<Message>{} : scene_messages(world_, now);
   has_begun_ = true;
   say_estimate(moment, messages);
   say_fixes(moment.step.navigation, messages);
@@ -136,14 +151,6 @@ std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
     messages.push_back(message(path, now, path_message(now, moment.mission.path())));
   say_picture(moment, messages);
   return messages;
-}
-
-void DriveMessages::say_scene(Stamp stamp, std::vector<Message>& messages) const {
-  messages.push_back(message(map, stamp, grid_message(stamp, world_.map)));
-  messages.push_back(message(markers, stamp, markers_message(stamp, world_.registry, {})));
-  messages.push_back(
-      message(transform, stamp, transform_message(stamp, "base_link", "camera", world_.base_from_camera)));
-  messages.push_back(message(calibration, stamp, calibration_message(stamp, world_.camera)));
 }
 
 void DriveMessages::say_estimate(const DriveMoment& moment, std::vector<Message>& messages) {

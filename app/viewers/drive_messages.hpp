@@ -12,7 +12,7 @@ namespace lodestar {
 
 /// The channels of a drive:
 ///
-///   /tf               base_link in map by the estimate, camera in base_link
+///   /tf, /tf_static   base_link in map by the estimate; camera in base_link
 ///   /map, /markers    the floor and the ceiling as known; a marker no longer trusted turns red
 ///   /path             planned
 ///   /robot, /pose     footprint and the ellipse of its uncertainty; the estimate
@@ -21,6 +21,9 @@ namespace lodestar {
 ///   /camera           pictures and calibration
 ///   /truth, /error    in simulation: where the robot really was, and how far the estimate was off
 const std::vector<Channel>& drive_channels();
+
+/// All that does not change during a drive.
+std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp);
 
 struct DriveMessageOptions {
   Duration pose_period = std::chrono::milliseconds(50);  ///< of estimates, at most
@@ -40,7 +43,6 @@ class DriveMessages {
   std::vector<Message> of(const DriveMoment& moment);
 
  private:
-  void say_scene(Stamp stamp, std::vector<Message>& messages) const;
   void say_estimate(const DriveMoment& moment, std::vector<Message>& messages);
   void say_fixes(const NavigationStep& step, std::vector<Message>& messages) const;
   void say_distrust(const DriveMoment& moment, std::vector<Message>& messages);

@@ -1,9 +1,8 @@
-// A served copy of the lab and a browser that looks at it.
-import { spawn } from 'node:child_process';
-import { cpSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { binary, packages, source } from './programs.mjs';
+// A browser that looks at the console.
+import { readFileSync } from 'node:fs';
+import { packages } from './programs.mjs';
+
+export { serve } from './programs.mjs';
 
 const { chromium } = packages('playwright-core');
 export const axeSource = readFileSync(packages.resolve('axe-core/axe.min.js'), 'utf8');
@@ -12,23 +11,6 @@ const flags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-ru
   '--disable-component-update', '--disable-sync'];
 
 export const launch = () => chromium.launch({ executablePath: '/usr/bin/chromium', headless: true, args: flags });
-
-/** A server over a copy of the lab, on a port of its own. */
-export async function serve(...options) {
-  const folder = mkdtempSync(join(tmpdir(), 'lodestar-web-'));
-  const site = join(folder, 'site');
-  cpSync(join(source, 'sites/lab'), site, { recursive: true });
-  const server = spawn(binary, ['serve', site, '--port', '0', '--runs', join(folder, 'runs'), ...options], { stdio: ['ignore', 'pipe', 'inherit'] });
-  const url = await new Promise((found, failed) => {
-    server.stdout.on('data', (bytes) => found(String(bytes).trim()));
-    server.on('exit', (code) => failed(new Error(`lodestar serve ended with ${code}`)));
-  });
-  const stop = () => {
-    server.kill('SIGTERM');
-    rmSync(folder, { recursive: true, force: true });
-  };
-  return { url, site, runs: join(folder, 'runs'), stop, markersFile: () => readFileSync(join(site, 'markers.yaml'), 'utf8') };
-}
 
 /** A page that has loaded, in a window of this size. */
 export async function open(browser, url, size = { width: 1280, height: 800 }, more = {}) {

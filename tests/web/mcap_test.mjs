@@ -60,7 +60,7 @@ describe('run.mcap', () => {
 
   test('has every channel, and each message is as its schema wants it', () => {
     const topics = new Set(all.messages.map((m) => m.topic));
-    for (const topic of ['/tf', '/map', '/markers', '/path', '/robot', '/pose', '/drive', '/fix', '/log', '/camera', '/camera/calibration', '/truth', '/error']) {
+    for (const topic of ['/tf', '/tf_static', '/map', '/markers', '/path', '/robot', '/pose', '/drive', '/fix', '/log', '/camera', '/camera/calibration', '/truth', '/error']) {
       assert.ok(topics.has(topic), topic);
     }
     for (const message of all.messages) {

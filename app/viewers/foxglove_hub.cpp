@@ -1,0 +1,136 @@
+#include "app/viewers/foxglove_hub.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace lodestar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Message Data: its operation code, the subscription, the time in nanoseconds, the message; little-endian.
+SocketMessage data_frame(std::uint32_t subscription, const Message& message) {
+  constexpr char message_data = 0x01;
+  std::string bytes(1, message_data);
+  const auto append = [&bytes](std::uint64_t value, int size) {
+    for (int i = 0; i < size; ++i)
+      bytes += static_cast<char>((value >> (8U * static_cast<unsigned>(i))) & 0xFFU);
+  };
+  append(subscription, sizeof subscription);
+  append(static_cast<std::uint64_t>(std::max<std::int64_t>(message.stamp.time_since_epoch().count(), 0)),
+         sizeof(std::uint64_t));
+  bytes += message.json;
+  return {.bytes = std::make_shared<const std::string>(std::move(bytes)), .binary = true};
+}
+
+}  // namespace
+
+/// One client: to what it has subscribed, by channel. A client may give a channel one number only.
+class FoxgloveHub::Viewer : public SocketSession {
+ public:
+  Viewer(FoxgloveHub& hub, Outbox& outbox) : hub_(hub), outbox_(outbox) {
+    hub_.viewers_.insert(this);
+    outbox_.queue(text_message(hub_.server_info()));
+    outbox_.queue(text_message(hub_.advertisement()));
+  }
+  ~Viewer() override { hub_.viewers_.erase(this); }
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  void receive(const std::string& bytes, bool binary) override {
+    if (binary) return complain("this server takes no messages from viewers");
+    const Json request = Json::parse(bytes);
+    const auto operation = request.at("op").get<std::string>();
+    if (operation == "subscribe") {
+      for (const Json& wish : request.at("subscriptions"))
+        subscribe(wish.at("id").get<std::uint32_t>(), wish.at("channelId").get<std::size_t>());
+    } else if (operation == "unsubscribe") {
+      for (const Json& id : request.at("subscriptionIds")) unsubscribe(id.get<std::uint32_t>());
+    } else {
+      complain(fmt::format("this server does not know '{}'", operation.substr(0, 40)));
+    }
+  }
+
+  void show(const Message& message) {
+    const auto subscription = subscriptions_.find(message.channel);
+    if (subscription == subscriptions_.end()) return;
+    SocketMessage frame = data_frame(subscription->second, message);
+    if (hub_.channels_[message.channel].every_message) return outbox_.queue(std::move(frame));
+    outbox_.offer(static_cast<int>(message.channel), std::move(frame));
+  }
+
+ private:
+  void subscribe(std::uint32_t id, std::size_t channel) {
+    if (channel >= hub_.channels_.size()) return complain(fmt::format("no channel {}", channel));
+    const bool is_used = std::ranges::any_of(subscriptions_, [id](const auto& s) { return s.second == id; });
+    if (is_used || !subscriptions_.try_emplace(channel, id).second) {
+      return complain(fmt::format("channel {} or subscription {} twice", channel, id));
+    }
+    if (hub_.newest_[channel]) show(*hub_.newest_[channel]);
+  }
+
+  void unsubscribe(std::uint32_t id) {
+    if (std::erase_if(subscriptions_, [id](const auto& s) { return s.second == id; }) == 0) {
+      complain(fmt::format("no subscription {}", id));
+    }
+  }
+
+  void complain(const std::string& words) {
+    constexpr int warning = 1;
+    const Json status{{"op", "status"}, {"level", warning}, {"message", words}};
+    outbox_.queue(text_message(status.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  }
+
+  FoxgloveHub& hub_;
+  Outbox& outbox_;
+  std::map<std::size_t, std::uint32_t> subscriptions_;
+};
+
+FoxgloveHub::FoxgloveHub(std::string name, std::vector<Channel> channels)
+    : name_(std::move(name)),
+      session_(fmt::format("{:08x}", std::random_device{}())),
+      channels_(std::move(channels)),
+      newest_(channels_.size()) {}
+
+std::vector<SocketProtocol> FoxgloveHub::protocols() {
+  std::vector<SocketProtocol> protocols;
+  for (const char* name : {"foxglove.sdk.v1", "foxglove.websocket.v1"}) {
+    protocols.push_back({.name = name, .open = [this](Role /*all may look*/, Outbox& outbox) {
+                           return std::unique_ptr<SocketSession>(std::make_unique<Viewer>(*this, outbox));
+                         }});
+  }
+  return protocols;
+}
+
+void FoxgloveHub::publish(const Message& message) {
+  newest_.at(message.channel) = message;
+  for (Viewer* const viewer : viewers_) viewer->show(message);
+}
+
+std::string FoxgloveHub::server_info() const {
+  return Json{{"op", "serverInfo"},
+              {"name", name_},
+              {"capabilities", Json::array()},
+              {"supportedEncodings", {"json"}},
+              {"metadata", Json::object()},
+              {"sessionId", session_}}
+      .dump();
+}
+
+std::string FoxgloveHub::advertisement() const {
+  Json channels = Json::array();
+  for (std::size_t id = 0; id < channels_.size(); ++id) {
+    channels.push_back({{"id", id},
+                        {"topic", channels_[id].topic},
+                        {"encoding", "json"},
+                        {"schemaName", channels_[id].schema_name},
+                        {"schemaEncoding", "jsonschema"},
+                        {"schema", channels_[id].schema}});
+  }
+  return Json{{"op", "advertise"}, {"channels", channels}}.dump();
+}
+
+}  // namespace lodestar

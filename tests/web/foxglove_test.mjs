@@ -1,0 +1,73 @@
+// The console's port as Foxglove's own client sees it.
+import assert from 'node:assert/strict';
+import { after, before, describe, test } from 'node:test';
+import { packages, serve } from './programs.mjs';
+import { complaints, officialSchema } from './schemas.mjs';
+
+const { FoxgloveClient } = packages('@foxglove/ws-protocol');
+const { WebSocket } = packages('ws');
+
+/** The first event of this name that fits. */
+const event = (emitter, name, fits = () => true) => new Promise((found) => {
+  emitter.on(name, function hear(what) {
+    if (!fits(what)) return;
+    emitter.off(name, hear);
+    found(what);
+  });
+});
+const within = (promise, ms = 5000) => Promise.race([promise,
+  new Promise((_, failed) => setTimeout(() => failed(new Error(`nothing came within ${ms} ms`)), ms).unref())]);
+
+/** Connects, and gives what the server says first. */
+async function connect(url, subprotocol, options = {}) {
+  const socket = new WebSocket(url.replace('http', 'ws'), [subprotocol], options);
+  const client = new FoxgloveClient({ ws: socket });
+  const [info, channels] = await within(Promise.all([event(client, 'serverInfo'), event(client, 'advertise')]));
+  const channel = (topic) => channels.find((c) => c.topic === topic);
+  const hear = async (topic) => {
+    const id = client.subscribe(channel(topic).id);
+    const message = await within(event(client, 'message', (m) => m.subscriptionId === id));
+    return JSON.parse(new TextDecoder().decode(message.data));
+  };
+  return { client, socket, info, channels, channel, hear };
+}
+
+describe('Foxglove', () => {
+  let server;
+  before(async () => { server = await serve(); });
+  after(() => server?.stop());
+
+  for (const subprotocol of [FoxgloveClient.SUPPORTED_SUBPROTOCOL, 'foxglove.sdk.v1']) {
+    test(`${subprotocol}: the map and the markers are there as soon as one asks`, async () => {
+      const { client, socket, info, channels, channel, hear } = await connect(server.url, subprotocol);
+      assert.equal(socket.protocol, subprotocol);
+      assert.deepEqual([info.name, info.capabilities], ['Lodestar: lab', []]);
+      assert.ok(channels.every((c) => c.encoding === 'json' && c.schemaEncoding === 'jsonschema' && JSON.parse(c.schema).title === c.schemaName));
+      for (const topic of ['/map', '/markers', '/tf_static', '/camera/calibration']) {
+        const json = await hear(topic);
+        assert.deepEqual(complaints(officialSchema(channel(topic).schemaName), json), [], topic);
+        if (topic === '/map') assert.equal(Buffer.from(json.data, 'base64').length, 306 * 150);
+        if (topic === '/markers') assert.ok(json.entities.some((e) => e.id === 'marker 447'));
+      }
+      client.close();
+    });
+  }
+
+  test('an app may offer both names at once', async () => {
+    const socket = new WebSocket(server.url.replace('http', 'ws'), ['foxglove.websocket.v1', 'foxglove.sdk.v1']);
+    await within(event(socket, 'open'));
+    assert.match(socket.protocol, /^foxglove\./);
+    socket.close();
+  });
+
+  test('a page of another origin is turned away, a client that publishes is told no', async () => {
+    const stranger = new WebSocket(server.url.replace('http', 'ws'), ['foxglove.sdk.v1'], { origin: 'https://elsewhere.example' });
+    const response = await within(new Promise((found) => stranger.once('unexpected-response', (_, answer) => found(answer.statusCode))));
+    assert.equal(response, 403);
+    const { client } = await connect(server.url, 'foxglove.sdk.v1');
+    const told = event(client, 'status');
+    client.advertise({ topic: '/goal_pose', encoding: 'json', schemaName: 'x' });
+    assert.match((await within(told)).message, /does not know 'advertise'/);
+    client.close();
+  });
+});
