@@ -121,6 +121,7 @@ Site load_site(const std::filesystem::path& folder) {
   site.folder = folder;
   site.name = yaml.text("name");
   site.map = load_map(folder / yaml.text("map"));
+  if (yaml.has("octomap")) site.octomap_file = folder / yaml.text("octomap");
   site.registry_file = folder / yaml.text("markers");
   site.registry = load_registry(site.registry_file);
   StrictYaml cameras = yaml.mapping("cameras");

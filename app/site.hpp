@@ -51,6 +51,7 @@ struct Site {
   std::string name;
   std::filesystem::path folder;
   LoadedMap map;
+  std::optional<std::filesystem::path> octomap_file;  ///< of the same place, where there is one
   MarkerRegistry registry;
   std::filesystem::path registry_file;
   std::map<std::string, CameraModel> cameras;

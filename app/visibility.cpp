@@ -152,14 +152,19 @@ std::optional<double> value_at_share(std::vector<double> values, double share) {
 
 }  // namespace
 
+Cell VisibilityOptions::cell_in_stride(const OccupancyMap& on, Cell corner) const {
+  return {std::min(corner.column + stride / 2, on.columns - 1),
+          std::min(corner.row + stride / 2, on.rows - 1)};
+}
+
 Visibility visibility_of(const OccupancyMap& map, const MarkerRegistry& registry, const CameraModel& camera,
                          const SightLines* sight_lines, const VisibilityOptions& options) {
   const Viewer viewer(registry, camera, sight_lines, options);
   const DistanceField distances(map);
   Visibility visibility{.map = map, .cells = std::vector<std::optional<CellView>>(map.cells.size())};
-  for (int row = 0; row < map.rows; ++row) {
-    for (int column = 0; column < map.columns; ++column) {
-      const Cell cell{column, row};
+  for (int row = 0; row < map.rows; row += options.stride) {
+    for (int column = 0; column < map.columns; column += options.stride) {
+      const Cell cell = options.cell_in_stride(map, {column, row});
       if (!is_drivable(map.at(cell)) || distances.distance_m(cell) <= options.robot_radius_m) continue;
       visibility.cells[map.index(cell)] = viewer.view_from(map.center_of(cell));
     }

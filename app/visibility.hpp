@@ -17,6 +17,10 @@ struct VisibilityOptions {
   int headings = 8;             ///< tried in each cell
   double robot_radius_m = 0.0;  ///< cells nearer to an obstacle are left out: the robot is never there
   double border_px = 8.0;       ///< a marker is seen when all its dots lie farther inside the image
+  int stride = 1;               ///< looked at is the middle one of each so many by so many cells
+
+  /// The cell that is looked at for the square that begins at `corner`.
+  [[nodiscard]] Cell cell_in_stride(const OccupancyMap& on, Cell corner) const;
 };
 
 /// What a robot sees that stands in one cell.

@@ -31,29 +31,6 @@ ordered_json pose_json(const Pose2& pose) {
   return {{"x_m", pose.position_m.x()}, {"y_m", pose.position_m.y()}, {"yaw_deg", degrees(pose.yaw_rad)}};
 }
 
-/// How far from its axis the camera sees on all sides, per metre of height: what it covers however the robot
-/// has turned.
-double narrowest_view(const CameraModel& camera) {
-  double narrowest = 1e9;
-  const double right = camera.width_px - 1.0;
-  const double bottom = camera.height_px - 1.0;
-  for (const Vec2& side : {Vec2(0.0, camera.cy_px), Vec2(right, camera.cy_px), Vec2(camera.cx_px, 0.0),
-                           Vec2(camera.cx_px, bottom)}) {
-    if (const std::optional<Vec2> ray = camera.normalized(side)) narrowest = std::min(narrowest, ray->norm());
-  }
-  return narrowest;
-}
-
-ordered_json coverage_json(const Site& site) {
-  const Vec3 camera = site.robot.base_from_camera.translation();
-  const double half_marker_m =
-      0.5 * (marker_grid_size - 1) * marker_pitch_m * std::sqrt(2.0) + marker_dot_radius_m;
-  return {{"camera", site.default_camera},
-          {"camera_height_m", camera.z()},
-          {"reach_per_m", narrowest_view(site.cameras.at(site.default_camera))},
-          {"margin_m", half_marker_m + camera.head<2>().norm()}};
-}
-
 /// Text with its %XX replaced; empty where one is broken or stands for a zero.
 std::string decoded(const std::string& text) {
   std::string plain;
@@ -72,6 +49,11 @@ std::string decoded(const std::string& text) {
     i += 2;
   }
   return plain;
+}
+
+ordered_json heights_json(const std::optional<HeightBands>& heights) {
+  if (!heights) return nullptr;
+  return {{"low_m", heights->low_m}, {"step_m", heights->step_m}, {"touch_m", heights->touch_m}};
 }
 
 bool matches(const std::string& tags, const std::string& etag) {
@@ -124,7 +106,8 @@ Console::Console(const std::filesystem::path& site_folder, const std::filesystem
     : site_(load_site(site_folder)),
       registry_file_(site_.registry_file),
       history_(registry_file_.parent_path() / ".history"),
-      runs_(runs_folder) {}
+      runs_(runs_folder),
+      view_(site_) {}
 
 HttpResponse Console::answer(const HttpRequest& request) {
   const std::string& target = request.target;
@@ -136,6 +119,7 @@ HttpResponse Console::answer(const HttpRequest& request) {
   if (target == "/api/site") response = site();
   if (target == "/api/map") response = map();
   if (target == "/api/map/cells") response = cells();
+  if (target == "/api/map/heights") response = heights();
   if (target == "/api/markers") response = markers();
   if (target.starts_with(history_path)) response = history(target);
   if (target == runs_path || target.starts_with(std::string(runs_path) + "/")) response = runs(target);
@@ -155,6 +139,7 @@ HttpResponse Console::site() const {
                    {"robot", {{"name", site_.robot.name}, {"radius_m", site_.robot.radius_m}}},
                    {"start", pose_json(site_.start)},
                    {"goals", goals},
+                   {"routes", usual_routes(site_)},
                    {"coverage", coverage_json(site_)},
                    {"formats", marker_format_names()}});
 }
@@ -164,7 +149,18 @@ HttpResponse Console::map() const {
   return document({{"columns", map.columns},
                    {"rows", map.rows},
                    {"resolution_m", map.resolution_m},
-                   {"origin", pose_json(map.map_from_grid)}});
+                   {"origin", pose_json(map.map_from_grid)},
+                   {"heights", heights_json(view_.heights())}});
+}
+
+std::optional<HttpResponse> Console::heights() const {
+  if (!view_.heights()) return std::nullopt;
+  HttpResponse response{.content_type = "application/octet-stream"};
+  for (const std::uint32_t bits : view_.heights()->cells)
+    for (unsigned byte = 0; byte < sizeof bits; ++byte)
+      response.body += static_cast<char>((bits >> (8U * byte)) & 0xFFU);
+  response.etag = etag_of(response.body);
+  return response;
 }
 
 HttpResponse Console::cells() const {
@@ -230,6 +226,9 @@ HttpResponse Console::post(const HttpRequest& request) const {
   try {
     if (request.target == "/api/markers/check") {
       return {.body = issues_json(registry_from_json(request.body), site_.map.map).dump()};
+    }
+    if (request.target == "/api/markers/deviations") {
+      return {.body = view_.deviations(site_, registry_from_json(request.body)).dump()};
     }
     const json body = json::parse(request.body);
     if (request.target == "/api/markers/export") return exported(body);

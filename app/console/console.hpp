@@ -5,6 +5,7 @@
 #include "app/console/document_history.hpp"
 #include "app/console/http.hpp"
 #include "app/console/run_archive.hpp"
+#include "app/console/survey.hpp"
 #include "app/site.hpp"
 
 namespace lodestar {
@@ -12,12 +13,19 @@ namespace lodestar {
 /// The console's documents over HTTP, by fixed names and never by a path of the client's:
 ///
 ///   GET  /, /app.js, ...          the page
-///   GET  /api/site                name, robot, start, goals, what the camera covers
-///   GET  /api/map                 size, resolution, place;  /api/map/cells  one byte a cell, bottom row
-///   first GET  /api/markers             the registry; PUT saves it, with If-Match: 412 when someone else
-///   saved GET  /api/markers/history     numbers of former states;  /api/markers/history/N  one of them POST
-///   /api/markers/check       what is wrong with a draft POST /api/markers/export      {format, registry} ->
-///   {text};  /import  {name, text} -> a registry POST /api/markers/print       {ids, paper} -> a PDF
+///   GET  /api/site                 name, robot, start, goals, usual routes, what the camera covers
+///   GET  /api/map                  size, resolution, place
+///   GET  /api/map/cells            one byte a cell, bottom row first
+///   GET  /api/map/heights          of an OctoMap: four bytes a cell, little-endian
+///   GET  /api/markers              the registry
+///   PUT  /api/markers              saves it, with If-Match: 412 when someone else saved
+///   GET  /api/markers/history      numbers of former states
+///   GET  /api/markers/history/N    one of them
+///   POST /api/markers/check        what is wrong with a draft
+///   POST /api/markers/deviations   how sure of its pose a robot would be under a draft
+///   POST /api/markers/export       {format, registry} -> {text}
+///   POST /api/markers/import       {name, text} -> a registry
+///   POST /api/markers/print        {ids, paper} -> a PDF
 ///
 /// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
 class Console {
@@ -31,6 +39,7 @@ class Console {
   [[nodiscard]] HttpResponse site() const;
   [[nodiscard]] HttpResponse map() const;
   [[nodiscard]] HttpResponse cells() const;
+  [[nodiscard]] std::optional<HttpResponse> heights() const;
   [[nodiscard]] HttpResponse markers() const;
   HttpResponse save_markers(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse history(const std::string& target) const;
@@ -41,6 +50,7 @@ class Console {
   std::filesystem::path registry_file_;
   DocumentHistory history_;
   RunArchive runs_;
+  SiteView view_;
 };
 
 }  // namespace lodestar

@@ -10,6 +10,7 @@ export interface Site {
   robot: { name: string; radius_m: number };
   start: { x_m: number; y_m: number; yaw_deg: number };
   goals: { x_m: number; y_m: number }[];
+  routes: [number, number][][];  // of the usual drive, from place to place
   coverage: { camera: string; camera_height_m: number; reach_per_m: number; margin_m: number };
   formats: string[];
 }
@@ -19,7 +20,14 @@ export interface MapInfo {
   rows: number;
   resolution_m: number;
   origin: { x_m: number; y_m: number; yaw_deg: number };
+  heights: { low_m: number; step_m: number; touch_m: number } | null;  // of an OctoMap
 }
+
+/** What is occupied above each cell: bit k for low_m + k step_m and up to the next. */
+export interface Heights { low_m: number; step_m: number; touch_m: number; bands: Uint32Array }
+
+/** Every so many-th cell of each row and column: millimetres, or null where some heading sees nothing. */
+export interface Deviations { stride: number; columns: number; sigma_mm: (number | null)[] }
 
 export interface Issue {
   kind: string;
@@ -50,6 +58,11 @@ export const getSite = (): Promise<Site> => json(request('GET', '/api/site'));
 export const getMap = (): Promise<MapInfo> => json(request('GET', '/api/map'));
 export const getCells = async (): Promise<Int8Array> =>
   new Int8Array(await (await request('GET', '/api/map/cells')).arrayBuffer());
+
+export const getHeights = async (info: MapInfo): Promise<Heights | null> => info.heights
+  ? { ...info.heights, bands: new Uint32Array(await (await request('GET', '/api/map/heights')).arrayBuffer()) } : null;
+export const getDeviations = (registry: Registry): Promise<Deviations> =>
+  json(request('POST', '/api/markers/deviations', registry));
 
 export interface Tagged { registry: Registry; etag: string }
 

@@ -1,6 +1,6 @@
-// How many markers a robot sees from each free cell, however it has turned: those within the narrowest side of
-// its camera's view, with no occupied cell on the way.
-import type { MapInfo, Site } from './api.js';
+// How many markers a robot sees from each cell where it can stand, however it has turned: those within the narrowest
+// side of its camera's view, with nothing occupied on the way.
+import type { Deviations, Heights, MapInfo, Site } from './api.js';
 import { centerOf, inverse, transform } from './geometry.js';
 import type { Marker, Point, Pose } from './geometry.js';
 
@@ -12,15 +12,58 @@ export interface Gap { at: Point; areaM2: number; low: Point; high: Point }
 export class Floor {
   readonly origin: Pose;
   private readonly gridFromMap: Pose;
+  private readonly roomy: Uint8Array;  // 1 where the robot's middle can be
 
-  constructor(readonly info: MapInfo, readonly cells: Int8Array) {
+  /** With `heights`, of an OctoMap, these hide markers; without, all that is occupied on the map is taken to reach the
+   *  ceiling. */
+  constructor(readonly info: MapInfo, readonly cells: Int8Array, robotRadiusM: number, readonly heights: Heights | null = null) {
     this.origin = { x: info.origin.x_m, y: info.origin.y_m, yawDeg: info.origin.yaw_deg };
     this.gridFromMap = inverse(this.origin);
+    this.roomy = this.placesWithRoom(robotRadiusM / info.resolution_m);
   }
 
   isFree(index: number): boolean {
     const value = this.cells[index]!;
     return value >= 0 && value < occupiedFrom;
+  }
+
+  isWall(column: number, row: number): boolean {
+    const { columns, rows } = this.info;
+    return column >= 0 && row >= 0 && column < columns && row < rows && this.cells[row * columns + column]! >= occupiedFrom;
+  }
+
+  /** Can the robot's middle be there, as planners see it: farther than its radius from all that is not free? */
+  canStand(index: number): boolean { return this.roomy[index] === 1; }
+
+  private placesWithRoom(radius: number): Uint8Array {
+    const { columns, rows } = this.info;
+    const room = Uint8Array.from(this.cells, (_, i) => this.isFree(i) ? 1 : 0);
+    const reach = Math.floor(radius);
+    const isEdge = (column: number, row: number) => [[1, 0], [-1, 0], [0, 1], [0, -1]].some(([dx, dy]) => {
+      const [c, r] = [column + dx!, row + dy!];
+      return c >= 0 && r >= 0 && c < columns && r < rows && this.isFree(r * columns + c);
+    });
+    for (let row = -1; row <= rows; ++row) {
+      for (let column = -1; column <= columns; ++column) {  // beyond its border the map is not free
+        const inside = row >= 0 && column >= 0 && row < rows && column < columns;
+        if ((inside && this.isFree(row * columns + column)) || !isEdge(column, row)) continue;
+        for (let r = Math.max(0, row - reach); r <= Math.min(rows - 1, row + reach); ++r) {
+          for (let c = Math.max(0, column - reach); c <= Math.min(columns - 1, column + reach); ++c) {
+            if ((r - row) ** 2 + (c - column) ** 2 <= radius * radius) room[r * columns + c] = 0;
+          }
+        }
+      }
+    }
+    return room;
+  }
+
+  /** One value a cell, in metres, from values for every so many-th; NaN where there is none. */
+  spread(coarse: Deviations): Float32Array {
+    const { columns } = this.info;
+    return Float32Array.from(this.cells, (_, i) => {
+      const column = Math.floor(i % columns / coarse.stride), row = Math.floor(Math.floor(i / columns) / coarse.stride);
+      return (coarse.sigma_mm[row * coarse.columns + column] ?? NaN) / 1000;
+    });
   }
 
   /** In cells, with fractions. */
@@ -40,9 +83,31 @@ export class Floor {
       .map(([x, y]) => transform(this.origin, { x: x! * r, y: y! * r }));
   }
 
-  /** Is nothing between a marker and a cell? What the marker itself hangs over leaves it in sight: it does not
-   *  reach the ceiling. All else that is occupied is taken to. */
-  sees(cell: Point, marker: Point): boolean {
+  /** Is nothing between a camera over a cell and a marker? */
+  sees(cell: Point, cameraZ: number, marker: Point, markerZ: number): boolean {
+    return this.heights ? this.seesPast(this.heights, cell, cameraZ, marker, markerZ) : this.seesOnMap(cell, marker);
+  }
+
+  /** By heights: what touches the camera or the marker, as the ceiling does, is not in between. */
+  private seesPast(heights: Heights, cell: Point, cameraZ: number, marker: Point, markerZ: number): boolean {
+    const { columns, rows, resolution_m: r } = this.info;
+    const lengthM = Math.hypot((cell.x - marker.x) * r, (cell.y - marker.y) * r, markerZ - cameraZ);
+    const steps = Math.ceil(2 * lengthM / Math.min(r, heights.step_m));
+    for (let i = 1; i < steps; ++i) {
+      const t = i / steps;
+      if (Math.min(t, 1 - t) * lengthM <= heights.touch_m) continue;
+      const column = Math.floor(cell.x + t * (marker.x - cell.x));
+      const row = Math.floor(cell.y + t * (marker.y - cell.y));
+      if (column < 0 || row < 0 || column >= columns || row >= rows) continue;
+      const band = Math.floor((cameraZ + t * (markerZ - cameraZ) - heights.low_m) / heights.step_m);
+      if (band >= 0 && band < 32 && (heights.bands[row * columns + column]! >>> band & 1) === 1) return false;
+    }
+    return true;
+  }
+
+  /** On the flat map. What the marker itself hangs over leaves it in sight: it does not reach the ceiling. All else that
+   *  is occupied is taken to. */
+  private seesOnMap(cell: Point, marker: Point): boolean {
     const { columns, rows } = this.info;
     const steps = Math.ceil(Math.hypot(cell.x - marker.x, cell.y - marker.y));
     let over = true;
@@ -80,7 +145,7 @@ export class Coverage {
       if (known && known.marker.x === marker.x && known.marker.y === marker.y && known.marker.z === marker.z &&
         known.marker.yawDeg === marker.yawDeg) continue;
       if (known) this.count(known.cells, -1);
-      const cells = this.cellsThatSee(centerOf(marker), this.reachM(marker.z));
+      const cells = this.visibleFrom(centerOf(marker), marker.z);
       this.count(cells, 1);
       this.seenFrom.set(marker.key, { marker, cells });
     }
@@ -90,11 +155,11 @@ export class Coverage {
     }
   }
 
-  /** Shares of the free floor: sees one marker at least, two at least. */
+  /** Shares of the floor where the robot can stand: sees one marker at least, two at least. */
   shares(): { one: number; two: number } {
     let free = 0, one = 0, two = 0;
     for (let i = 0; i < this.counts.length; ++i) {
-      if (!this.floor.isFree(i)) continue;
+      if (!this.floor.canStand(i)) continue;
       ++free;
       if (this.counts[i]! >= 1) ++one;
       if (this.counts[i]! >= enoughMarkers) ++two;
@@ -102,7 +167,15 @@ export class Coverage {
     return { one: free ? one / free : 1, two: free ? two / free : 1 };
   }
 
-  /** Connected free places that see nothing, the largest first; specks are left out. */
+  /** How many markers are sure to be seen from a place; 0 beyond the map. */
+  countAt(at: Point): number {
+    const { columns, rows } = this.floor.info;
+    const cell = this.floor.toGrid(at);
+    const [column, row] = [Math.floor(cell.x), Math.floor(cell.y)];
+    return column >= 0 && row >= 0 && column < columns && row < rows ? this.counts[row * columns + column]! : 0;
+  }
+
+  /** Connected places that see nothing, the largest first; specks are left out. */
   gaps(leastM2 = 0.1): Gap[] {
     const { columns, resolution_m: r } = this.floor.info;
     const visited = new Uint8Array(this.counts.length);
@@ -131,7 +204,6 @@ export class Coverage {
   suggestion(z: number): Point | null {
     const { columns, rows, resolution_m: r } = this.floor.info;
     const stride = Math.max(1, Math.round(0.3 / r));
-    const reach = this.reachM(z);
     let best: Point | null = null;
     let bestGain = 0;
     for (let row = stride >> 1; row < rows; row += stride) {
@@ -139,14 +211,14 @@ export class Coverage {
         const index = row * columns + column;
         if (!this.floor.isFree(index)) continue;
         const at = this.floor.centerOfCell(index);
-        const gain = this.cellsThatSee(at, reach).filter((cell) => this.counts[cell] === 0).length;
+        const gain = this.visibleFrom(at, z).filter((cell) => this.counts[cell] === 0).length;
         if (gain > bestGain) [best, bestGain] = [at, gain];
       }
     }
     return best;
   }
 
-  private isBlind(index: number): boolean { return this.counts[index] === 0 && this.floor.isFree(index); }
+  private isBlind(index: number): boolean { return this.counts[index] === 0 && this.floor.canStand(index); }
 
   private gapOf(cells: number[], r: number): Gap {
     const points = cells.map((cell) => this.floor.centerOfCell(cell));
@@ -160,17 +232,19 @@ export class Coverage {
 
   private count(cells: Int32Array, by: number): void { for (const cell of cells) this.counts[cell]! += by; }
 
-  private cellsThatSee(middle: Point, reachM: number): Int32Array {
+  /** The cells, among those where the robot can stand, that see a marker whose middle is here. */
+  visibleFrom(middle: Point, z: number): Int32Array {
     const { columns, rows, resolution_m: r } = this.floor.info;
     const at = this.floor.toGrid(middle);
-    const reach = reachM / r;
+    const reach = this.reachM(z) / r;
+    const cameraZ = this.site.coverage.camera_height_m;
     const cells: number[] = [];
     for (let row = Math.max(0, Math.floor(at.y - reach)); row < Math.min(rows, at.y + reach); ++row) {
       for (let column = Math.max(0, Math.floor(at.x - reach)); column < Math.min(columns, at.x + reach); ++column) {
         const cell = { x: column + 0.5, y: row + 0.5 };
         if ((cell.x - at.x) ** 2 + (cell.y - at.y) ** 2 > reach * reach) continue;
         const index = row * columns + column;
-        if (this.floor.isFree(index) && this.floor.sees(cell, at)) cells.push(index);
+        if (this.floor.canStand(index) && this.floor.sees(cell, cameraZ, at, z)) cells.push(index);
       }
     }
     return Int32Array.from(cells);

@@ -1,8 +1,9 @@
-// Import, export, printing, history, conflict and help.
+// Import, export, printing, conflict and help.
 import * as api from './api.js';
 import type { Command } from './commands.js';
 import { ask, byId, el, plural } from './dom.js';
 import type { Editor, Registry } from './editor.js';
+import { summary } from './history.js';
 
 const suffixes: Record<string, string> = {
   lodestar: '.yaml', csv: '.csv', stargazer: '.yaml', apriltag: '.json', fiducial_slam: '.txt', geojson: '.geojson',
@@ -43,47 +44,13 @@ export async function printChosen(editor: Editor): Promise<void> {
   download('markers.pdf', await api.printSheets(ids, select.value));
 }
 
-/** Takes an earlier state into the editor; nothing is saved by that. */
-export async function openHistory(editor: Editor): Promise<string> {
-  const numbers = await api.getHistory();
-  if (numbers.length === 0) return 'Nothing has been saved over yet';
-  const [row, select] = choice('history-number', 'Saved state', numbers.map(String));
-  if (await ask('Earlier states', [el('p', {}, 'The highest number is the one before the last save.'), row],
-    [['go', 'Bring back'], ['', 'Cancel']]) !== 'go') return '';
-  editor.replaceAll(await api.getFormer(Number(select.value)));
-  return `State ${select.value} brought back; save to keep it`;
-}
-
 export type Resolution = 'merge' | 'theirs' | 'mine' | '';
 
 export async function askAboutConflict(base: Registry, mine: Registry, theirs: Registry): Promise<Resolution> {
-  const words = `Meanwhile somebody else saved: ${difference(base, theirs)}. You: ${difference(base, mine)}.`;
+  const words = `Meanwhile somebody else saved: ${summary(base, theirs)}. You: ${summary(base, mine)}.`;
   return await ask('Somebody else saved first', [el('p', { id: 'conflict-words' }, words),
     el('p', {}, 'Merging applies your changes to theirs; where both changed a marker, yours counts.')],
     [['merge', 'Merge'], ['theirs', 'Take theirs'], ['mine', 'Overwrite with mine'], ['', 'Go on editing']]) as Resolution;
-}
-
-type Entry = Registry['markers'][number];
-const byIdOf = (registry: Registry): Map<number, Entry> => new Map(registry.markers.map((m) => [m.id, m]));
-const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
-
-function difference(from: Registry, to: Registry): string {
-  const before = byIdOf(from), after = byIdOf(to);
-  const added = [...after.keys()].filter((id) => !before.has(id)).length;
-  const removed = [...before.keys()].filter((id) => !after.has(id)).length;
-  const changed = [...after].filter(([id, m]) => before.has(id) && !same(before.get(id), m)).length;
-  return `${changed} changed, ${added} added, ${removed} removed`;
-}
-
-/** What `mine` changed since `base`, applied to `theirs`. */
-export function merged(base: Registry, mine: Registry, theirs: Registry): Registry {
-  const before = byIdOf(base), ours = byIdOf(mine), result = byIdOf(theirs);
-  for (const id of before.keys()) if (!ours.has(id)) result.delete(id);
-  for (const [id, marker] of ours) if (!same(before.get(id), marker)) result.set(id, marker);
-  return {
-    alignment: same(base.alignment, mine.alignment) ? theirs.alignment : mine.alignment,
-    markers: [...result.values()],
-  };
 }
 
 export async function showHelp(commands: Command[]): Promise<void> {

@@ -33,3 +33,21 @@ export function ask(head: string, contents: Child[], answers: [string, string][]
     dialog.addEventListener('close', () => resolve(dialog.returnValue), { once: true });
   });
 }
+
+export interface NumberField { name: string; label: string; value: number; step: number; least?: number; most?: number }
+
+/** A dialog with numbers to fill in; null when it is left, or when one of them cannot be used. */
+export async function askNumbers(head: string, fields: NumberField[], words: string, go: string): Promise<Record<string, number> | null> {
+  const inputs = fields.map((field) => {
+    const input = el('input', { type: 'number', id: `ask-${field.name}`, step: String(field.step), value: String(field.value) });
+    input.addEventListener('keydown', (e) => { if (e.key === 'Enter') (byId('dialog') as HTMLDialogElement).close('go'); });
+    return { field, input };
+  });
+  const grid = el('div', { class: 'fields wide' }, ...inputs.flatMap(({ field, input }) => [el('label', { for: input.id }, field.label), input]));
+  if (await ask(head, [el('p', {}, words), grid], [['go', go], ['', 'Cancel']]) !== 'go') return null;
+  const usable = ({ field, input }: typeof inputs[number]) => Number.isFinite(input.valueAsNumber) && Math.abs(input.valueAsNumber) <= 1e5 &&
+    input.valueAsNumber >= (field.least ?? -Infinity) && input.valueAsNumber <= (field.most ?? Infinity);
+  const wrong = inputs.find((i) => !usable(i));
+  if (wrong) throw new Error(`${wrong.field.label}: found '${wrong.input.value}', wanted a number${wrong.field.least === undefined ? '' : ` in ${wrong.field.least}..${wrong.field.most}`}`);
+  return Object.fromEntries(inputs.map(({ field, input }) => [field.name, input.valueAsNumber]));
+}

@@ -15,19 +15,17 @@ const bits = [
   [0x000, 0x020, 0x200, 0x000], [0x002, 0x010, 0x100, 0x800],
   [0x001, 0x008, 0x080, 0x400], [0x000, 0x004, 0x040, 0x000]];
 
+/** The fifteen places of the face that can hold a dot, with the bit of the ID that says whether one does. */
+export const dotPlaces: { row: number; column: number; bit: number | 'corner' }[] = bits.flatMap((columns, row) =>
+  columns.map((bit, column) => ({ row, column, bit: bit !== 0 ? bit : 'corner' as const })))
+  .filter(({ row, column }) => row !== 0 || column !== 3);
+
 export interface Dot { row: number; column: number; corner: '' | 'O' | 'X' | 'Y' }
 
 /** The dots as on the printed face, seen from below: row 0 on top, Y top left, O bottom left, X bottom right. */
 export function dotsOf(id: number): Dot[] {
-  const dots: Dot[] = [];
-  for (let row = 0; row < 4; ++row) {
-    for (let column = 0; column < 4; ++column) {
-      const corner = row === 3 && column === 0 ? 'O' : row === 3 && column === 3 ? 'X'
-        : row === 0 && column === 0 ? 'Y' : '';
-      if (corner !== '' || (id & bits[row]![column]!) !== 0) dots.push({ row, column, corner });
-    }
-  }
-  return dots;
+  return dotPlaces.filter(({ bit }) => bit === 'corner' || (id & bit) !== 0).map(({ row, column, bit }) =>
+    ({ row, column, corner: bit !== 'corner' ? '' : row === 0 ? 'Y' : column === 0 ? 'O' : 'X' }));
 }
 
 export const radians = (deg: number): number => deg * Math.PI / 180;
@@ -84,43 +82,4 @@ export function fitPairs(pairs: { from: Point; to: Point }[]): { pose: Pose; res
     return Math.hypot(at.x - p.to.x, at.y - p.to.y);
   });
   return { pose, residualsM };
-}
-
-/** A free ID as far as can be, in dots, from all that are taken; five dots at least, not its own mirror image. */
-export function safestId(taken: Iterable<number>): number {
-  const used = new Set(taken);
-  let best = 0;
-  let bestDistance = -1;
-  for (let id = 0; id < idCount; ++id) {
-    if (used.has(id) || ones(id) < 2 || mirrored(id) === id) continue;
-    let nearest = 12;
-    for (const other of used) {
-      nearest = Math.min(nearest, ones(id ^ other), ones(mirrored(id) ^ other));
-      if (nearest <= bestDistance) break;
-    }
-    if (nearest > bestDistance) [best, bestDistance] = [id, nearest];
-  }
-  return best;
-}
-
-function ones(value: number): number {
-  let count = 0;
-  for (let rest = value; rest !== 0; rest &= rest - 1) ++count;
-  return count;
-}
-
-const mirrors = new Map<number, number>();
-
-/** The ID that a marker mirrored about its diagonal through O would show. */
-function mirrored(id: number): number {
-  const known = mirrors.get(id);
-  if (known !== undefined) return known;
-  let result = 0;
-  for (let row = 0; row < 4; ++row) {
-    for (let column = 0; column < 4; ++column) {
-      if ((id & bits[row]![column]!) !== 0) result |= bits[3 - column]![3 - row]!;
-    }
-  }
-  mirrors.set(id, result);
-  return result;
 }

@@ -1,22 +1,28 @@
 // Starts the console's page: reads the documents, and ties map, panel, tools and keys together.
+import { Actions } from './actions.js';
 import * as api from './api.js';
 import { alignByPairs } from './alignment.js';
 import { isTyping, keyOf } from './commands.js';
 import type { Command } from './commands.js';
 import { Coverage, Floor } from './coverage.js';
-import { askAboutConflict, exportTo, importFrom, merged, openHistory, pickFile, printChosen, showHelp } from './dialogs.js';
+import { askAboutConflict, exportTo, importFrom, pickFile, printChosen, showHelp } from './dialogs.js';
 import { button, byId, el } from './dom.js';
 import { Editor } from './editor.js';
 import type { Registry } from './editor.js';
-import { safestId, sideM, centerOf } from './geometry.js';
+import { centerOf } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
+import { merged, openHistory } from './history.js';
+import { Layers } from './layers.js';
+import { Measure } from './measure.js';
 import { Panel } from './panel.js';
-import { Pointer, turned } from './pointer.js';
+import { Pointer } from './pointer.js';
 import { Replay } from './replay.js';
+import { blindStretches, paintRoutes } from './route.js';
 import { Stage } from './stage.js';
 import { View } from './view.js';
 
 const checkAfterMs = 350;
+const mostBlindM = 1;  // that the wheels may carry the robot along the route
 
 function say(words: string, bad = false): void {
   byId('state').textContent = words;
@@ -45,6 +51,10 @@ class Console {
   readonly stage: Stage;
   readonly pointer: Pointer;
   readonly replay: Replay;
+  readonly layers = new Layers();
+  readonly measure: Measure;
+  readonly actions: Actions;
+  readonly routes: Point[][];
   private readonly panel: Panel;
   private readonly commands: Command[];
   private base: Registry;
@@ -54,18 +64,23 @@ class Console {
 
   constructor(readonly site: api.Site, readonly floor: Floor, tagged: api.Tagged) {
     this.coverage = new Coverage(floor, site);
-    this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage);
+    this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage, this.layers);
     this.pointer = new Pointer(this.stage);
     this.replay = new Replay(this.stage, site.robot.radius_m, (error) => attempt(() => Promise.reject(error)));
-    this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.suggest() });
+    this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.actions.suggest(),
+      fill: () => attempt(() => this.actions.fill()), pickId: () => attempt(() => this.actions.pickId()) });
+    this.actions = new Actions(this.editor, this.coverage, say);
+    this.measure = new Measure(this.stage, this.pointer, say);
+    this.routes = site.routes.map((route) => route.map(([x, y]) => ({ x, y })));
+    this.stage.painters.push((c) => { if (this.layers.shown.route) paintRoutes(c, this.stage, this.routes); });
+    this.layers.onChange = () => this.layersChanged();
     [this.base, this.etag] = [tagged.registry, tagged.etag];
     this.commands = this.makeCommands();
     this.pointer.onHover = (at) => { byId('where').textContent = at ? `${at.x.toFixed(3)}, ${at.y.toFixed(3)} m` : ''; };
     this.pointer.onDrag = () => this.dragged();
     this.editor.onChange = () => this.changed();
     byId('title').textContent = `Lodestar: ${site.name}`;
-    byId('legend').append('From above, as through the ceiling.', ...[['none', 'no marker'], ['one', 'one'], ['more', 'two or more']]
-      .flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words!]));
+    this.showLegend();
     this.makeTools();
     this.listenToKeys();
     addEventListener('beforeunload', (e) => { if (this.editor.dirty) e.preventDefault(); });
@@ -83,7 +98,7 @@ class Console {
     this.refreshTools();
     document.title = `${this.editor.dirty ? '• ' : ''}${this.site.name} - Lodestar`;
     clearTimeout(this.coverageTimer);
-    this.coverageTimer = setTimeout(() => this.panel.showCoverage(this.coverage), 60);
+    this.coverageTimer = setTimeout(() => this.panel.showCoverage(this.coverage, blindStretches(this.routes, this.coverage, mostBlindM)), 60);
     clearTimeout(this.checkTimer);
     this.checkTimer = setTimeout(() => this.check(), checkAfterMs);
   }
@@ -97,6 +112,28 @@ class Console {
 
   private check(): void {
     attempt(async () => { this.panel.showIssues(await api.checkMarkers(this.editor.registry())); });
+    if (this.layers.floor === 'deviation') attempt(() => this.showDeviations());
+  }
+
+  /** What a single fix would give at each place, by the server, as `lodestar map visibility` has it. */
+  private async showDeviations(): Promise<void> {
+    this.stage.deviations = this.floor.spread(await api.getDeviations(this.editor.registry()));
+    this.stage.paintRaster();
+    this.stage.redraw();
+  }
+
+  private layersChanged(): void {
+    this.showLegend();
+    this.stage.paintRaster();
+    this.stage.redraw();
+    if (this.layers.floor === 'deviation') attempt(() => this.showDeviations());
+  }
+
+  private showLegend(): void {
+    const entries = { coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more']],
+      deviation: [['more', '5 mm or less'], ['one', '20 mm or more, one deviation of a fix'], ['none', 'no marker at some heading']], plain: [] }[this.layers.floor];
+    byId('legend').replaceChildren('From above, as through the ceiling.',
+      ...entries.flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words!]));
   }
 
   // -- documents --------------------------------------------------------------------------------------------
@@ -142,51 +179,16 @@ class Console {
     });
   }
 
-  // -- edits ------------------------------------------------------------------------------------------------
-
-  private usualHeight(): number {
-    const heights = [...this.editor.markers.values()].map((m) => m.z).sort((a, b) => a - b);
-    return heights[heights.length >> 1] ?? 2.6;
-  }
-
-  /** A marker whose middle hangs over a place. */
-  private addAt(middle: Point): void {
-    const id = safestId([...this.editor.markers.values()].map((m) => m.id));
-    const round = (value: number) => Math.round(value * 100) / 100;
-    const onMap = this.editor.fresh(id, round(middle.x - sideM / 2), round(middle.y + sideM / 2), this.usualHeight(), 0);
-    this.editor.add([this.editor.fromMap(onMap)]);
-  }
-
-  private suggest(): void {
-    const place = this.coverage.suggestion(this.usualHeight());
-    if (!place) return say('Every place on the free floor sees a marker');
-    this.addAt(place);
-    say('Placed a marker where it closes most of the gaps');
-  }
-
-  private duplicate(): void {
-    const ids = [...this.editor.markers.values()].map((m) => m.id);
-    const copies = this.editor.chosen().map((m) => {
-      const id = safestId(ids);
-      ids.push(id);
-      return this.editor.fromMap(this.editor.fresh(id, m.x + 0.3, m.y - 0.3, m.z, m.yawDeg));
-    });
-    if (copies.length > 0) this.editor.add(copies);
-  }
-
-  private nudge(dx: number, dy: number): void {
-    this.editor.change(this.editor.chosen().map((m) => ({ ...m, x: m.x + dx, y: m.y + dy })));
-  }
-
-  private turn(byDeg: number): void {
-    const chosen = this.editor.chosen();
-    if (chosen.length > 0) this.editor.change(turned(chosen, this.editor.pivot(chosen), byDeg));
-  }
 
   // -- view -------------------------------------------------------------------------------------------------
 
   fit(): void {
     this.view.fit(this.floor.corners());
+    this.stage.redraw();
+  }
+
+  private turnView(deg: number): void {
+    this.view.turnBy(deg);
     this.stage.redraw();
   }
 
@@ -204,9 +206,7 @@ class Console {
   }
 
   private toggleCoverage(): void {
-    this.stage.showCoverage = !this.stage.showCoverage;
-    this.stage.paintRaster();
-    this.stage.redraw();
+    this.layers.paintFloor(this.layers.floor === 'coverage' ? 'plain' : 'coverage');
   }
 
   // -- tools and keys ---------------------------------------------------------------------------------------
@@ -217,21 +217,32 @@ class Console {
     const snap = this.pointer.snap;
     const nudges: Command[] = ([['', 0.01, '1 cm'], ['Shift+', 0.1, '10 cm'], ['Alt+', 0.001, '1 mm']] as const).flatMap(([mod, by, words]) =>
       ([['ArrowLeft', -1, 0], ['ArrowRight', 1, 0], ['ArrowUp', 0, 1], ['ArrowDown', 0, -1]] as const).map(([key, x, y]): Command =>
-        ({ name: `${mod}${key}`, key: `${mod}${key}`, title: `move by ${words}`, run: () => this.nudge(x * by, y * by), possible: any })));
+        ({ name: `${mod}${key}`, key: `${mod}${key}`, title: `move by ${words}`, run: () => this.actions.nudge(x * by, y * by), possible: any })));
     return [
       { name: 'undo', button: 'Undo', key: 'Ctrl+Z', title: 'undo', run: () => editor.undo(), possible: () => editor.canUndo },
       { name: 'redo', button: 'Redo', key: 'Ctrl+Shift+Z', title: 'redo', run: () => editor.redo(), possible: () => editor.canRedo },
       { name: 'redo2', key: 'Ctrl+Y', title: 'redo', run: () => editor.redo() },
-      { name: 'add', button: 'Add', key: 'N', title: 'new marker in the middle of the view', run: () => this.addAt(this.view.center) },
-      { name: 'duplicate', button: 'Duplicate', key: 'Ctrl+D', title: 'duplicate, with the safest free IDs', run: () => this.duplicate(), possible: any },
+      { name: 'add', button: 'Add', key: 'N', title: 'new marker in the middle of the view', run: () => this.actions.addAt(this.view.center) },
+      { name: 'duplicate', button: 'Duplicate', key: 'Ctrl+D', title: 'duplicate, with the safest free IDs', run: () => this.actions.duplicate(), possible: any },
+      { name: 'array', button: 'Array', key: 'A', title: 'copies in rows and columns', run: () => attempt(() => this.actions.array()), possible: any },
+      { name: 'move-by', button: 'Move by', key: 'M', title: 'move and turn the chosen by numbers', run: () => attempt(() => this.actions.moveBy()), possible: any },
+      { name: 'distribute', key: 'D', title: 'put three or more at equal steps on a line', run: () => this.actions.distribute(), possible: () => editor.selection.size > 2 },
+      { name: 'wall', key: 'W', title: 'move the chosen straight to a distance from the nearest wall', run: () => attempt(() => this.actions.wall()), possible: any },
+      { name: 'pick-id', key: 'I', title: 'another ID, the safest free ones first', run: () => attempt(() => this.actions.pickId()), possible: () => editor.selection.size === 1 },
       { name: 'delete', button: 'Delete', key: 'Delete', title: 'delete', run: () => editor.remove(editor.selection), possible: any },
       { name: 'all', key: 'Ctrl+A', title: 'choose all', run: () => editor.select(editor.markers.keys()) },
-      { name: 'none', key: 'Escape', title: 'choose nothing; leave a drag', run: () => { this.pointer.pick = null; this.pointer.cancel(); editor.select([]); } },
-      { name: 'ccw', key: '[', title: 'turn by 1° counter-clockwise', run: () => this.turn(1), possible: any },
-      { name: 'cw', key: ']', title: 'turn by 1° clockwise', run: () => this.turn(-1), possible: any },
-      { name: 'quarter', key: 'R', title: 'turn by 90°', run: () => this.turn(90), possible: any },
+      { name: 'none', key: 'Escape', title: 'choose nothing; leave a drag', run: () => { this.measure.end(); this.pointer.pick = null; this.pointer.cancel(); editor.select([]); } },
+      { name: 'ccw', key: '[', title: 'turn by 1° counter-clockwise', run: () => this.actions.turn(1), possible: any },
+      { name: 'cw', key: ']', title: 'turn by 1° clockwise', run: () => this.actions.turn(-1), possible: any },
+      { name: 'quarter', key: 'R', title: 'turn by 90°', run: () => this.actions.turn(90), possible: any },
       { name: 'snap', button: 'Snap', key: 'G', title: 'snap to 5 cm and 15° while dragging', run: () => { snap.on = !snap.on; }, pressed: () => snap.on },
-      { name: 'coverage', button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => this.toggleCoverage(), pressed: () => this.stage.showCoverage },
+      { name: 'coverage', button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => this.toggleCoverage(), pressed: () => this.layers.floor === 'coverage' },
+      { name: 'measure', button: 'Measure', key: 'T', title: 'tape measure between two places', run: () => this.measure.toggle(), pressed: () => this.measure.on },
+      { name: 'deviation', key: 'V', title: 'show how sure of its pose the robot would be', run: () => this.layers.paintFloor(this.layers.floor === 'deviation' ? 'coverage' : 'deviation') },
+      { name: 'fill', key: 'K', title: 'fill the gaps', run: () => attempt(() => this.actions.fill()) },
+      { name: 'turn-view', key: '.', title: 'turn the view by 15° clockwise', run: () => this.turnView(-15) },
+      { name: 'turn-view-back', key: ',', title: 'turn the view by 15° counter-clockwise', run: () => this.turnView(15) },
+      { name: 'north', key: '0', title: 'the map upright again', run: () => this.turnView(-this.view.turnDeg) },
       { name: 'fit', button: 'Fit', key: 'F', title: 'show the whole map', run: () => this.fit() },
       { name: 'align', button: 'Align', title: 'align all markers to the map by pairs of points', run: () => alignByPairs(this.editor, this.pointer, this.stage, say) },
       { name: 'import', button: 'Import', title: 'read markers of another format', run: () => pickFile((file) => attempt(() => importFrom(editor, file))) },
@@ -293,7 +304,7 @@ async function start(): Promise<void> {
   if (matchMedia('(prefers-color-scheme: dark)').matches) document.documentElement.dataset['theme'] = 'dark';
   await useTokenOfAddress();
   const [site, info, cells, tagged] = await Promise.all([api.getSite(), api.getMap(), api.getCells(), api.getMarkers()]);
-  const made = new Console(site, new Floor(info, cells), tagged);
+  const made = new Console(site, new Floor(info, cells, site.robot.radius_m, await api.getHeights(info)), tagged);
   const marker = (id: number) => [...made.editor.shown()].find((m) => m.id === id);
   const handle: Handle = { console: made, marker, screenOf: (id) => made.view.toScreen(centerOf(marker(id)!)) };
   (window as unknown as { lodestar: Handle }).lodestar = handle;

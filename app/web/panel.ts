@@ -1,6 +1,7 @@
 // The panel beside the map: the selection in numbers, coverage, issues, and all markers as a table.
 import type { Issue } from './api.js';
 import type { Coverage, Gap } from './coverage.js';
+import type { BlindStretch } from './route.js';
 import { button, byId, el, plural } from './dom.js';
 import type { Editor } from './editor.js';
 import { idCount, wrapDeg } from './geometry.js';
@@ -13,6 +14,8 @@ const mostIssues = 60;
 export interface PanelActions {
   goTo(points: Point[]): void;
   suggest(): void;
+  fill(): void;
+  pickId(): void;
 }
 
 type FieldName = 'id' | 'x' | 'y' | 'z' | 'yawDeg';
@@ -22,6 +25,7 @@ const fields: [FieldName, string, string][] = [
 export class Panel {
   issues: Issue[] = [];
   private gaps: Gap[] = [];
+  private stretches: BlindStretch[] = [];
   private shownSelection = '';
 
   constructor(private readonly editor: Editor, private readonly actions: PanelActions) {
@@ -44,9 +48,10 @@ export class Panel {
     if (chosen.length === 0) {
       box.replaceChildren(el('p', {}, 'Nothing. Click a marker; Shift+drag a box; press ? for all keys.'));
     } else if (chosen.length === 1) {
-      box.replaceChildren(this.fieldsOf(chosen[0]!), facesOf(chosen[0]!.id));
+      box.replaceChildren(this.fieldsOf(chosen[0]!), el('div', { class: 'row' },
+        button('Safest IDs', 'Free IDs, the safest first (I)', () => this.actions.pickId())), facesOf(chosen[0]!.id));
     } else {
-      box.replaceChildren(el('p', {}, plural(chosen.length, 'marker')), this.relativeFields());
+      box.replaceChildren(el('p', {}, `${plural(chosen.length, 'marker')}. M moves and turns them by numbers, A copies them in an array, D puts them at equal steps.`));
     }
   }
 
@@ -80,53 +85,56 @@ export class Panel {
     this.editor.change([{ ...marker, [name]: name === 'yawDeg' ? wrapDeg(value) : value }]);
   }
 
-  /** By how much to move all that is chosen. */
-  private relativeFields(): HTMLElement {
-    const inputs = (['x', 'y', 'z'] as const).map((name) => {
-      const input = el('input', { id: `by-${name}`, type: 'number', step: '0.01', value: '0' });
-      return { name, input };
-    });
-    const grid = el('div', { class: 'fields' });
-    for (const { name, input } of inputs) grid.append(el('label', { for: input.id }, `Δ${name} (m)`), input);
-    const move = button('Move', 'Move all chosen markers by this much', () => {
-      const by = Object.fromEntries(inputs.map(({ name, input }) => [name, input.valueAsNumber || 0])) as Record<'x' | 'y' | 'z', number>;
-      this.editor.change(this.editor.chosen().map((m) => ({ ...m, x: m.x + by.x, y: m.y + by.y, z: m.z + by.z })));
-    });
-    return el('div', {}, grid, el('div', { class: 'row' }, move));
-  }
-
   // -- coverage -------------------------------------------------------------------------------------------
 
-  showCoverage(coverage: Coverage): void {
+  showCoverage(coverage: Coverage, stretches: BlindStretch[]): void {
     this.gaps = coverage.gaps();
+    this.stretches = stretches;
     const { one, two } = coverage.shares();
     const percent = (share: number) => `${(100 * share).toFixed(1)} %`;
     byId('coverage').replaceChildren(
-      el('p', { id: 'coverage-words' }, `${percent(one)} of the free floor sees a marker, ${percent(two)} two or more, ` +
+      el('p', { id: 'coverage-words' }, `${percent(one)} of the floor where the robot can stand sees a marker, ${percent(two)} two or more, ` +
         'however the robot has turned.'),
       this.gaps.length === 0 ? el('p', { class: 'fine' }, 'No gaps.')
         : el('p', { class: 'warning' }, `${plural(this.gaps.length, 'gap')} without any marker; the wheels carry the robot across short ones.`),
-      listOf(this.gaps.slice(0, 5).map((gap) => button(`${gap.areaM2.toFixed(1)} m² near ${gap.at.x.toFixed(1)}, ${gap.at.y.toFixed(1)} m`,
-        'Show this gap', () => this.actions.goTo([gap.low, gap.high])))),
-      el('div', { class: 'row' }, button('Suggest next marker', 'Place one where it closes most of the gaps', () => this.actions.suggest())));
+      el('div', { class: 'row' }, button('Suggest next marker', 'Place one where it closes most of the gaps', () => this.actions.suggest()),
+        button('Fill the gaps', 'Place as many as it takes, by a greedy search (K)', () => this.actions.fill())));
+    this.listIssues();
   }
 
   // -- issues ---------------------------------------------------------------------------------------------
 
+  /** What the server found in the registry. */
   showIssues(issues: Issue[]): void {
     this.issues = issues;
-    const sorted = [...issues].sort((a, b) => a.severity.localeCompare(b.severity));
-    byId('issues').replaceChildren(
-      issues.length === 0 ? el('p', { class: 'fine' }, 'None found.') : el('p', {}, this.countsOf(issues)),
-      listOf(sorted.slice(0, mostIssues).map((issue) => button(issue.words, 'Show on the map', () => {
-        this.editor.select([...this.editor.markers.values()].filter((m) => issue.ids.includes(m.id)).map((m) => m.key));
-        this.actions.goTo(issue.places_m.map(([x, y]) => ({ x, y })));
-      }, { class: issue.severity, 'data-kind': issue.kind }))));
+    this.listIssues();
   }
 
-  private countsOf(issues: Issue[]): string {
-    const errors = issues.filter((i) => i.severity === 'error').length;
-    return `${plural(errors, 'error')}, ${plural(issues.length - errors, 'warning')}`;
+  private listIssues(): void {
+    const sorted = [...this.issues].sort((a, b) => a.severity.localeCompare(b.severity));
+    const errors = this.issues.filter((i) => i.severity === 'error').length;
+    const warnings = this.issues.length - errors + this.gaps.length + this.stretches.length;
+    const rows = [...sorted.map((issue) => this.issueRow(issue)), ...this.stretches.map((s) => this.stretchRow(s)), ...this.gaps.map((gap) => this.gapRow(gap))];
+    byId('issues').replaceChildren(
+      rows.length === 0 ? el('p', { class: 'fine' }, 'None found.') : el('p', {}, `${plural(errors, 'error')}, ${plural(warnings, 'warning')}`),
+      listOf(rows.slice(0, mostIssues)));
+  }
+
+  private issueRow(issue: Issue): HTMLElement {
+    return button(issue.words, 'Show on the map', () => {
+      this.editor.select([...this.editor.markers.values()].filter((m) => issue.ids.includes(m.id)).map((m) => m.key));
+      this.actions.goTo(issue.places_m.map(([x, y]) => ({ x, y })));
+    }, { class: issue.severity, 'data-kind': issue.kind });
+  }
+
+  private stretchRow(stretch: BlindStretch): HTMLElement {
+    return button(`the usual route sees no marker for ${stretch.lengthM.toFixed(1)} m from ${stretch.from.x.toFixed(1)}, ${stretch.from.y.toFixed(1)} m`,
+      'Show on the map', () => this.actions.goTo([stretch.from, stretch.to]), { class: 'warning', 'data-kind': 'blind-route' });
+  }
+
+  private gapRow(gap: Gap): HTMLElement {
+    return button(`${gap.areaM2.toFixed(1)} m² near ${gap.at.x.toFixed(1)}, ${gap.at.y.toFixed(1)} m without any marker`,
+      'Show on the map', () => this.actions.goTo([gap.low, gap.high]), { class: 'warning', 'data-kind': 'gap' });
   }
 
   // -- all markers ----------------------------------------------------------------------------------------

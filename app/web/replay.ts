@@ -2,7 +2,7 @@
 import { getRun, getRuns } from './api.js';
 import type { Row, Run } from './api.js';
 import { button, byId, el } from './dom.js';
-import { radians, wrapDeg } from './geometry.js';
+import { wrapDeg } from './geometry.js';
 import type { Stage } from './stage.js';
 
 const speeds = ['1', '2', '5', '10', '50'];
@@ -109,13 +109,13 @@ export class Replay {
     if (!pose) return;
     const at = this.stage.view.toScreen({ x: pose[1], y: pose[2] });
     const radius = Math.max(6, this.robotRadiusM * this.stage.view.pixelsPerM);
-    const yaw = radians(pose[3]);
+    const angle = this.stage.view.angleOf(pose[3]);
     c.fillStyle = 'rgb(195 60 192 / 45%)';
     c.beginPath();
     c.arc(at.x, at.y, radius, 0, 2 * Math.PI);
     c.fill();
     c.moveTo(at.x, at.y);
-    c.lineTo(at.x + radius * Math.cos(yaw), at.y - radius * Math.sin(yaw));
+    c.lineTo(at.x + radius * Math.cos(angle), at.y + radius * Math.sin(angle));
     c.stroke();
   }
 

@@ -1,21 +1,25 @@
 // The three layers: floor (map and coverage), ceiling (markers), overlay (selection, handles, pointers).
 import type { Coverage, Floor } from './coverage.js';
-import { centerOf, dotRadiusM, dotsOf, pitchM, radians, sideM, transform } from './geometry.js';
+import { centerOf, dotRadiusM, dotsOf, pitchM, sideM, transform } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import type { Editor } from './editor.js';
+import type { Layers } from './layers.js';
 import type { View } from './view.js';
 
 const fineFromPx = 26;   // side of a marker from which its dots are drawn
 const labelFromPx = 14;
 const handleDistancePx = 46;
+const badTint = [214, 60, 50], doubtTint = [232, 176, 40], goodTint = [46, 150, 80];
+const goodDeviationM = 0.005, badDeviationM = 0.02;
 const manyMarkers = 1500;  // from here on a pan moves the drawn layers, and draws them anew at its end
 
-interface Colours { free: number[]; wall: number[]; unknown: number[]; marker: string; dot: string; chosen: string; ink: string }
-const light: Colours = { free: [255, 255, 255], wall: [52, 60, 72], unknown: [205, 210, 217], marker: '#1c2430', dot: '#ffffff', chosen: '#0b5fce', ink: '#1c2430' };
-const dark: Colours = { free: [40, 47, 58], wall: [150, 161, 176], unknown: [22, 27, 34], marker: '#0a0d12', dot: '#dfe6f0', chosen: '#7fb2ff', ink: '#e7ebf2' };
+interface Colours { free: number[]; wall: number[]; unknown: number[]; marker: string; dot: string; chosen: string; ink: string; route: string }
+const light: Colours = { free: [255, 255, 255], wall: [52, 60, 72], unknown: [205, 210, 217], marker: '#1c2430', dot: '#ffffff', chosen: '#0b5fce', ink: '#1c2430', route: '#7a3fb0' };
+const dark: Colours = { free: [40, 47, 58], wall: [150, 161, 176], unknown: [22, 27, 34], marker: '#0a0d12', dot: '#dfe6f0', chosen: '#7fb2ff', ink: '#e7ebf2', route: '#d9a8ff' };
 
 export class Stage {
-  showCoverage = true;
+  /** Metres a cell; nothing yet, or not seen from there. */
+  deviations: Float32Array | null = null;
   marquee: { a: Point; b: Point } | null = null;
   pins: { at: Point; label: string }[] = [];
   /** What others draw on the overlay. */
@@ -25,10 +29,11 @@ export class Stage {
   private readonly ceilingLayer: CanvasRenderingContext2D;
   private readonly overlayLayer: CanvasRenderingContext2D;
   private readonly raster = document.createElement('canvas');
+  private tints: { none: number[]; one: number[]; more: number[] } = { none: [], one: [], more: [] };
   private wanted = false;
 
   constructor(readonly element: HTMLElement, readonly view: View, readonly editor: Editor,
-    readonly floor: Floor, readonly coverage: Coverage) {
+    readonly floor: Floor, readonly coverage: Coverage, readonly layers: Layers) {
     const context = (id: string) => (document.getElementById(id) as HTMLCanvasElement).getContext('2d')!;
     [this.floorLayer, this.ceilingLayer, this.overlayLayer] = [context('floor'), context('ceiling'), context('overlay')];
     this.raster.width = floor.info.columns;
@@ -85,11 +90,14 @@ export class Stage {
   paintRaster(): void {
     const { columns, rows } = this.floor.info;
     const context = this.raster.getContext('2d')!;
+    this.tints = { none: this.tinted(badTint, 0.42), one: this.tinted(doubtTint, 0.3), more: this.tinted(goodTint, 0.3) };
     const image = context.createImageData(columns, rows);
     for (let row = 0; row < rows; ++row) {
       for (let column = 0; column < columns; ++column) {
-        const [red, green, blue] = this.colourOf(row * columns + column);
-        image.data.set([red!, green!, blue!, 255], 4 * ((rows - 1 - row) * columns + column));
+        const colour = this.colourOf(row * columns + column);
+        const at = 4 * ((rows - 1 - row) * columns + column);
+        for (let i = 0; i < 3; ++i) image.data[at + i] = colour[i]!;
+        image.data[at + 3] = 255;
       }
     }
     context.putImageData(image, 0, 0);
@@ -99,21 +107,25 @@ export class Stage {
     const value = this.floor.cells[index]!;
     if (value < 0) return this.colours.unknown;
     if (value >= 50) return this.colours.wall;
-    if (!this.showCoverage) return this.colours.free;
+    if (this.layers.floor === 'plain' || !this.floor.canStand(index)) return this.colours.free;
+    if (this.layers.floor === 'deviation') return this.tinted(deviationTint(this.deviations?.[index] ?? 0), 0.45);
     const count = this.coverage.counts[index]!;
-    const tint = count === 0 ? [214, 60, 50] : count === 1 ? [232, 176, 40] : [46, 150, 80];
-    const share = count === 0 ? 0.42 : 0.3;
+    return count === 0 ? this.tints.none : count === 1 ? this.tints.one : this.tints.more;
+  }
+
+  private tinted(tint: number[], share: number): number[] {
     return this.colours.free.map((c, i) => c * (1 - share) + tint[i]! * share);
   }
 
   private drawFloor(): void {
     const { view, floor, floorLayer: c } = this;
     c.clearRect(0, 0, view.width, view.height);
+    if (!this.layers.shown.map) return this.drawScale(c);
     c.save();
     const corner = view.toScreen(floor.origin);
     const scale = view.pixelsPerM * floor.info.resolution_m;
     c.translate(corner.x, corner.y);
-    c.rotate(-radians(floor.origin.yawDeg));
+    c.rotate(view.angleOf(floor.origin.yawDeg));
     c.imageSmoothingEnabled = false;
     c.drawImage(this.raster, 0, -floor.info.rows * scale, floor.info.columns * scale, floor.info.rows * scale);
     c.restore();
@@ -134,6 +146,7 @@ export class Stage {
   private drawCeiling(): void {
     const { view, ceilingLayer: c, colours } = this;
     c.clearRect(0, 0, view.width, view.height);
+    if (!this.layers.shown.markers) return;
     const sidePx = (sideM + 2 * pitchM / 2) * view.pixelsPerM;
     c.font = '11px system-ui, sans-serif';
     c.textAlign = 'center';
@@ -148,7 +161,7 @@ export class Stage {
         continue;
       }
       drawFromAbove(c, marker, view, chosen ? colours.chosen : colours.marker, colours.dot, sidePx < fineFromPx);
-      if (sidePx > labelFromPx || few) {
+      if (this.layers.shown.ids && (sidePx > labelFromPx || few)) {
         c.fillStyle = chosen ? colours.chosen : colours.ink;
         c.fillText(String(marker.id), middle.x, middle.y + Math.max(sidePx * 0.75, 14) + 8);
       }
@@ -161,9 +174,9 @@ export class Stage {
     const chosen = this.draggedSelection();
     if (chosen.length === 0) return null;
     const pivot = this.view.toScreen(this.editor.pivot(chosen));
-    const yaw = chosen.length === 1 ? radians(chosen[0]!.yawDeg) : Math.PI / 2;
+    const angle = chosen.length === 1 ? this.view.angleOf(chosen[0]!.yawDeg) : -Math.PI / 2;
     const distance = handleDistancePx + (chosen.length === 1 ? sideM * this.view.pixelsPerM : 0);
-    return { x: pivot.x + distance * Math.cos(yaw), y: pivot.y - distance * Math.sin(yaw) };
+    return { x: pivot.x + distance * Math.cos(angle), y: pivot.y + distance * Math.sin(angle) };
   }
 
   draggedSelection(): Marker[] {
@@ -176,7 +189,7 @@ export class Stage {
     c.strokeStyle = c.fillStyle = colours.chosen;
     c.lineWidth = 1.5;
     const chosen = this.draggedSelection();
-    for (const marker of chosen.length <= 60 ? chosen : []) {
+    for (const marker of this.layers.shown.reach && chosen.length <= 60 ? chosen : []) {
       const middle = view.toScreen(centerOf(marker));
       c.globalAlpha = 0.6;
       c.beginPath();
@@ -217,13 +230,20 @@ export class Stage {
   }
 }
 
+/** From good to bad in one step of colour each way; red where nothing is seen. */
+function deviationTint(sigmaM: number): number[] {
+  if (!(sigmaM > 0)) return badTint;
+  const share = Math.min(1, Math.max(0, (sigmaM - goodDeviationM) / (badDeviationM - goodDeviationM)));
+  return goodTint.map((c, i) => c + share * (doubtTint[i]! - c));
+}
+
 /** A marker as one would see it through the ceiling: mirrored against the printed face. */
 function drawFromAbove(c: CanvasRenderingContext2D, marker: Marker, view: View, plate: string, dot: string, coarse: boolean): void {
   const scale = Math.max(view.pixelsPerM, 12 / (sideM + pitchM));  // never smaller than 12 pixels
   const middle = view.toScreen(centerOf(marker));
   c.save();
   c.translate(middle.x, middle.y);
-  c.rotate(-radians(marker.yawDeg));
+  c.rotate(view.angleOf(marker.yawDeg));
   c.scale(scale, scale);
   const half = sideM / 2 + pitchM / 2;
   c.fillStyle = plate;

@@ -1,28 +1,30 @@
-// What part of the map the stage shows: metres with y up against pixels with y down.
+// What part of the map the stage shows: metres with y up against pixels with y down, the map turned by some angle.
+import { radians, transform, wrapDeg } from './geometry.js';
 import type { Point } from './geometry.js';
 
 export class View {
   center: Point = { x: 0, y: 0 };
   pixelsPerM = 50;
+  turnDeg = 0;  // of the map on the screen, counter-clockwise
   width = 1;
   height = 1;
 
   toScreen(p: Point): Point {
-    return {
-      x: (p.x - this.center.x) * this.pixelsPerM + this.width / 2,
-      y: (this.center.y - p.y) * this.pixelsPerM + this.height / 2,
-    };
+    const at = this.turned({ x: p.x - this.center.x, y: p.y - this.center.y }, this.turnDeg);
+    return { x: at.x * this.pixelsPerM + this.width / 2, y: this.height / 2 - at.y * this.pixelsPerM };
   }
 
   toMap(p: Point): Point {
-    return {
-      x: (p.x - this.width / 2) / this.pixelsPerM + this.center.x,
-      y: this.center.y - (p.y - this.height / 2) / this.pixelsPerM,
-    };
+    const at = this.turned({ x: (p.x - this.width / 2) / this.pixelsPerM, y: (this.height / 2 - p.y) / this.pixelsPerM }, -this.turnDeg);
+    return { x: at.x + this.center.x, y: at.y + this.center.y };
   }
 
+  /** How a direction on the map lies on a canvas: radians, clockwise from the right. */
+  angleOf(yawDeg: number): number { return -radians(yawDeg + this.turnDeg); }
+
   panBy(dx: number, dy: number): void {
-    this.center = { x: this.center.x - dx / this.pixelsPerM, y: this.center.y + dy / this.pixelsPerM };
+    const by = this.turned({ x: dx / this.pixelsPerM, y: -dy / this.pixelsPerM }, -this.turnDeg);
+    this.center = { x: this.center.x - by.x, y: this.center.y - by.y };
   }
 
   /** Zooms about a place on the screen: what is under it stays under it. */
@@ -33,14 +35,20 @@ export class View {
     this.center = { x: this.center.x + before.x - after.x, y: this.center.y + before.y - after.y };
   }
 
+  /** Turns the map about the middle of the screen. */
+  turnBy(deg: number): void { this.turnDeg = wrapDeg(this.turnDeg + deg); }
+
   /** Shows all of these points, with some room around them; never closer than a few metres. */
   fit(points: Point[], leastM = 1): void {
-    const xs = points.map((p) => p.x);
-    const ys = points.map((p) => p.y);
+    const placed = points.map((p) => this.turned(p, this.turnDeg));
+    const xs = placed.map((p) => p.x);
+    const ys = placed.map((p) => p.y);
     const low = { x: Math.min(...xs), y: Math.min(...ys) };
     const high = { x: Math.max(...xs), y: Math.max(...ys) };
-    this.center = { x: (low.x + high.x) / 2, y: (low.y + high.y) / 2 };
+    this.center = this.turned({ x: (low.x + high.x) / 2, y: (low.y + high.y) / 2 }, -this.turnDeg);
     const size = { x: Math.max(leastM, high.x - low.x), y: Math.max(leastM, high.y - low.y) };
     this.pixelsPerM = 0.92 * Math.min(this.width / size.x, this.height / size.y);
   }
+
+  private turned(p: Point, deg: number): Point { return deg === 0 ? p : transform({ x: 0, y: 0, yawDeg: deg }, p); }
 }

@@ -1,0 +1,130 @@
+// What a person does to markers, as one step each that can be undone.
+import { arrayOffsets, distributed, movedBy, toWall } from './arrange.js';
+import type { Coverage } from './coverage.js';
+import { ask, askNumbers, el, plural } from './dom.js';
+import type { Editor } from './editor.js';
+import { fillGaps } from './fill.js';
+import { sideM } from './geometry.js';
+import type { Marker, Point } from './geometry.js';
+import { IdPicker } from './ids.js';
+import { turned } from './pointer.js';
+
+const usualHeightM = 2.6;
+const proposedIds = 8;
+
+export class Actions {
+  constructor(private readonly editor: Editor, private readonly coverage: Coverage, private readonly say: (words: string) => void) {}
+
+  private picker(): IdPicker { return new IdPicker([...this.editor.markers.values()].map((m) => m.id)); }
+
+  private usualHeight(): number {
+    const heights = [...this.editor.markers.values()].map((m) => m.z).sort((a, b) => a - b);
+    return heights[heights.length >> 1] ?? usualHeightM;
+  }
+
+  /** Markers whose middles hang over these places. */
+  private addAll(middles: Point[]): void {
+    const picker = this.picker();
+    const z = this.usualHeight();
+    const round = (value: number) => Math.round(value * 100) / 100;
+    this.editor.add(middles.map((middle) => this.editor.fromMap(
+      this.editor.fresh(picker.next(), round(middle.x - sideM / 2), round(middle.y + sideM / 2), z, 0))));
+  }
+
+  addAt(middle: Point): void { this.addAll([middle]); }
+
+  suggest(): void {
+    const place = this.coverage.suggestion(this.usualHeight());
+    if (!place) return this.say('Every place where the robot can stand sees a marker');
+    this.addAll([place]);
+    this.say('Placed a marker where it closes most of the gaps');
+  }
+
+  /** The fewest more, by a greedy search, such that each place sees so many. */
+  async fill(): Promise<string> {
+    const numbers = await askNumbers('Fill the gaps', [{ name: 'wanted', label: 'Markers that each place shall see', value: 1, least: 1, most: 4, step: 1 }],
+      'Adds the fewest markers that a greedy search finds, at the height of the others; undo takes all of them back.', 'Fill');
+    if (!numbers) return '';
+    const z = this.usualHeight();
+    const { places, blindM2 } = await fillGaps(this.coverage, z, Math.round(numbers['wanted']!), [...this.editor.shown()], async (share) => {
+      this.say(`Looking for places: ${(100 * share).toFixed(0)} %`);
+      await new Promise((done) => setTimeout(done));
+    });
+    const rest = blindM2 > 0 ? `; ${blindM2.toFixed(2)} m² can be seen by no marker of this height` : '';
+    if (places.length === 0) return `Nothing to add${rest}`;
+    this.addAll(places);
+    return `Added ${plural(places.length, 'marker')}${rest}`;
+  }
+
+  private copies(markers: Marker[], offsets: Point[]): Marker[] {
+    const picker = this.picker();
+    return offsets.flatMap((by) => markers.map((m) =>
+      this.editor.fromMap(this.editor.fresh(picker.next(), m.x + by.x, m.y + by.y, m.z, m.yawDeg))));
+  }
+
+  duplicate(): void { this.editor.add(this.copies(this.editor.chosen(), [{ x: 0.3, y: -0.3 }])); }
+
+  /** Copies of what is chosen, in rows and columns. */
+  async array(): Promise<string> {
+    const chosen = this.editor.chosen();
+    const shape = await askNumbers('Array', [
+      { name: 'columns', label: 'Columns', value: 3, least: 1, most: 200, step: 1 }, { name: 'rows', label: 'Rows', value: 2, least: 1, most: 200, step: 1 },
+      { name: 'stepX', label: 'Between columns (m)', value: 1.2, step: 0.05 }, { name: 'stepY', label: 'Between rows (m)', value: 1.2, step: 0.05 },
+      { name: 'turnDeg', label: 'Turned by (°)', value: 0, step: 1 }],
+    'Copies what is chosen, with the safest free IDs. What is chosen stays as the first.', 'Paste');
+    if (!shape) return '';
+    const offsets = arrayOffsets({ columns: Math.round(shape['columns']!), rows: Math.round(shape['rows']!),
+      stepX: shape['stepX']!, stepY: shape['stepY']!, turnDeg: shape['turnDeg']! });
+    if (offsets.length * chosen.length + this.editor.markers.size > 10_000) return 'More than 10,000 markers: nothing pasted';
+    const copies = this.copies(chosen, offsets);
+    if (copies.length > 0) this.editor.add(copies);
+    return `Pasted ${plural(copies.length, 'marker')}`;
+  }
+
+  distribute(): void { this.editor.change(distributed(this.editor.chosen())); }
+
+  async wall(): Promise<string> {
+    const numbers = await askNumbers('To the wall', [{ name: 'distance', label: 'From the wall to the middle (m)', value: 0.5, least: 0, most: 20, step: 0.05 }],
+      'Moves each chosen marker straight to the nearest wall, and turns it square to it.', 'Move');
+    if (!numbers) return '';
+    const chosen = this.editor.chosen();
+    this.editor.change(chosen.map((m) => toWall(this.coverage.floor, m, numbers['distance']!)));
+    return `${plural(chosen.length, 'marker')} ${numbers['distance']!.toFixed(2)} m from the wall`;
+  }
+
+  async moveBy(): Promise<string> {
+    const by = await askNumbers('Move by', [
+      { name: 'x', label: 'x (m)', value: 0, step: 0.01 }, { name: 'y', label: 'y (m)', value: 0, step: 0.01 },
+      { name: 'z', label: 'z (m)', value: 0, step: 0.01 }, { name: 'yawDeg', label: 'Turn (°)', value: 0, step: 1 }],
+    'All that is chosen, turned about its middle; a single marker about its dot O.', 'Move');
+    if (!by) return '';
+    const chosen = this.editor.chosen();
+    this.editor.change(movedBy(chosen, { x: by['x']!, y: by['y']!, z: by['z']!, yawDeg: by['yawDeg']! }, this.editor.pivot(chosen)));
+    return `Moved ${plural(chosen.length, 'marker')}`;
+  }
+
+  nudge(x: number, y: number): void {
+    const chosen = this.editor.chosen();
+    this.editor.change(movedBy(chosen, { x, y, z: 0, yawDeg: 0 }, { x: 0, y: 0 }));
+  }
+
+  turn(byDeg: number): void {
+    const chosen = this.editor.chosen();
+    if (chosen.length > 0) this.editor.change(turned(chosen, this.editor.pivot(chosen), byDeg));
+  }
+
+  /** Free IDs for the chosen marker, the safest first, and how far from all others each of them is. */
+  async pickId(): Promise<string> {
+    const [marker] = this.editor.chosen();
+    if (!marker || this.editor.selection.size !== 1) return 'Choose one marker first';
+    const others = [...this.editor.markers.values()].filter((m) => m.key !== marker.key).map((m) => m.id);
+    const answers = new IdPicker(others).proposals(proposedIds).map(({ id, distance }): [string, string] =>
+      [String(id), `${id}: ${distance} apart`]);
+    const answer = await ask(`Another ID for marker ${marker.id}`, [el('p', {}, 'So many of the sixteen places must be misread, a dot lost or a ' +
+      'glint won, to take it for any other ID here or for itself, however either is turned or mirrored. Three or more is safe.')],
+    [...answers, ['', 'Cancel']]);
+    if (answer === '') return '';
+    this.editor.change([{ ...marker, id: Number(answer) }]);
+    return `Marker ${marker.id} is ${answer} now`;
+  }
+}

@@ -1,0 +1,72 @@
+// Two states of the registry side by side: what changed from one to the other, in words.
+import * as api from './api.js';
+import { ask, el } from './dom.js';
+import type { Editor, Registry } from './editor.js';
+
+type Entry = Registry['markers'][number];
+const byIdOf = (registry: Registry): Map<number, Entry> => new Map(registry.markers.map((m) => [m.id, m]));
+const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
+const mostLines = 200;
+
+/** One line for each marker that differs, by ID. */
+export function differences(from: Registry, to: Registry): string[] {
+  const before = byIdOf(from), after = byIdOf(to);
+  const lines: string[] = [];
+  if (!same(from.alignment, to.alignment)) lines.push('the alignment to the map');
+  for (const id of [...new Set([...before.keys(), ...after.keys()])].sort((a, b) => a - b)) {
+    const a = before.get(id), b = after.get(id);
+    if (!b) lines.push(`${id}: removed`);
+    else if (!a) lines.push(`${id}: added at ${b.x_m.toFixed(3)}, ${b.y_m.toFixed(3)} m`);
+    else if (!same(a, b)) lines.push(`${id}: ${changeOf(a, b)}`);
+  }
+  return lines;
+}
+
+function changeOf(a: Entry, b: Entry): string {
+  const fields: [keyof Entry, string][] = [['x_m', 'x'], ['y_m', 'y'], ['z_m', 'z'], ['yaw_deg', 'yaw']];
+  return fields.filter(([key]) => a[key] !== b[key])
+    .map(([key, name]) => `${name} ${a[key]} → ${b[key]}${key === 'yaw_deg' ? '°' : ' m'}`).join(', ');
+}
+
+export function summary(from: Registry, to: Registry): string {
+  const before = byIdOf(from), after = byIdOf(to);
+  const added = [...after.keys()].filter((id) => !before.has(id)).length;
+  const removed = [...before.keys()].filter((id) => !after.has(id)).length;
+  const changed = [...after].filter(([id, m]) => before.has(id) && !same(before.get(id), m)).length;
+  return `${changed} changed, ${added} added, ${removed} removed`;
+}
+
+/** What `mine` changed since `base`, applied to `theirs`. */
+export function merged(base: Registry, mine: Registry, theirs: Registry): Registry {
+  const before = byIdOf(base), ours = byIdOf(mine), result = byIdOf(theirs);
+  for (const id of before.keys()) if (!ours.has(id)) result.delete(id);
+  for (const [id, marker] of ours) if (!same(before.get(id), marker)) result.set(id, marker);
+  return {
+    alignment: same(base.alignment, mine.alignment) ? theirs.alignment : mine.alignment,
+    markers: [...result.values()],
+  };
+}
+
+/** Shows what differs between a former state and the present one, and takes it into the editor if wanted; nothing is saved
+ *  by that. */
+export async function openHistory(editor: Editor): Promise<string> {
+  const numbers = await api.getHistory();
+  if (numbers.length === 0) return 'Nothing has been saved over yet';
+  const select = el('select', { id: 'history-number' }, ...numbers.map((n) => el('option', { value: String(n) }, String(n))));
+  const words = el('p', { id: 'history-words', role: 'status' });
+  const list = el('ul', { class: 'plain', id: 'history-list' });
+  const show = async (): Promise<void> => {
+    const former = await api.getFormer(Number(select.value));
+    const lines = differences(former, editor.registry());
+    words.textContent = `Since then: ${summary(former, editor.registry())}.`;
+    list.replaceChildren(...lines.slice(0, mostLines).map((line) => el('li', {}, line)));
+  };
+  select.addEventListener('change', () => { show().catch((error: unknown) => { words.textContent = String(error); }); });
+  await show();
+  const row = el('p', {}, el('label', { for: 'history-number' }, 'Saved state '), select);
+  if (await ask('Earlier states', [el('p', {}, 'The highest number is the one before the last save.'), row, words, list],
+    [['go', 'Bring back'], ['', 'Cancel']]) !== 'go') return '';
+  const number = select.value;
+  editor.replaceAll(await api.getFormer(Number(number)));
+  return `State ${number} brought back; save to keep it`;
+}

@@ -1,0 +1,37 @@
+// What the map shows: each layer can be switched off. The floor has one colour at a time.
+import { byId, el } from './dom.js';
+
+export type FloorColour = 'coverage' | 'deviation' | 'plain';
+export type LayerName = 'map' | 'markers' | 'ids' | 'reach' | 'route';
+
+const names: [LayerName, string][] = [
+  ['map', 'Map'], ['markers', 'Markers'], ['ids', 'IDs'], ['reach', 'Reach of the chosen'], ['route', 'Usual route']];
+const colours: [FloorColour, string][] = [
+  ['coverage', 'coverage'], ['deviation', 'deviation'], ['plain', 'nothing']];
+
+export class Layers {
+  shown: Record<LayerName, boolean> = { map: true, markers: true, ids: true, reach: true, route: true };
+  floor: FloorColour = 'coverage';
+  onChange: () => void = () => {};
+  private readonly choice = el('select', { id: 'floor-colour' }, ...colours.map(([value, words]) => el('option', { value }, words)));
+
+  constructor() {
+    const boxes = names.map(([name, words]) => {
+      const input = el('input', { type: 'checkbox', id: `layer-${name}` });
+      input.checked = this.shown[name];
+      input.addEventListener('change', () => {
+        this.shown[name] = input.checked;
+        this.onChange();
+      });
+      return el('label', {}, input, ` ${words}`);
+    });
+    this.choice.addEventListener('change', () => this.paintFloor(this.choice.value as FloorColour));
+    byId('layers').replaceChildren(...boxes, el('label', { for: 'floor-colour' }, 'Floor coloured by'), this.choice);
+  }
+
+  paintFloor(colour: FloorColour): void {
+    this.floor = colour;
+    this.choice.value = colour;
+    this.onChange();
+  }
+}
