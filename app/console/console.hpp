@@ -17,7 +17,9 @@ namespace lodestar {
 ///   first GET  /api/markers             the registry; PUT saves it, with If-Match: 412 when someone else
 ///   saved GET  /api/markers/history     numbers of former states;  /api/markers/history/N  one of them POST
 ///   /api/markers/check       what is wrong with a draft POST /api/markers/export      {format, registry} ->
-///   {text};  /import  {name, text} -> a registry POST /api/markers/print       {ids, paper} -> a PDF
+///   {text};  /import  {name, text} -> a registry POST /api/markers/print       {ids, paper} -> a PDF GET
+///   /api/routes              places and routes; PUT saves them, with If-Match GET  /api/runs names of runs;
+///   /api/runs/NAME  one of them
 ///
 /// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
 class Console {
@@ -27,18 +29,23 @@ class Console {
 
   HttpResponse answer(const HttpRequest& request);
 
+  [[nodiscard]] const Site& site() const { return site_; }
+
  private:
-  [[nodiscard]] HttpResponse site() const;
+  [[nodiscard]] HttpResponse site_document() const;
   [[nodiscard]] HttpResponse map() const;
   [[nodiscard]] HttpResponse cells() const;
   [[nodiscard]] HttpResponse markers() const;
   HttpResponse save_markers(const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse routes() const;
+  HttpResponse save_routes(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse history(const std::string& target) const;
   [[nodiscard]] HttpResponse runs(const std::string& target) const;
   [[nodiscard]] HttpResponse post(const HttpRequest& request) const;
 
   Site site_;
   std::filesystem::path registry_file_;
+  std::filesystem::path routes_file_;
   DocumentHistory history_;
   RunArchive runs_;
 };
