@@ -12,6 +12,7 @@ import { safestId, sideM, centerOf } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import { Panel } from './panel.js';
 import { Pointer, turned } from './pointer.js';
+import { Live } from './live.js';
 import { Replay } from './replay.js';
 import { Stage } from './stage.js';
 import { View } from './view.js';
@@ -38,6 +39,8 @@ async function useTokenOfAddress(): Promise<void> {
   await api.openSession(token);
 }
 
+type Mode = 'edit' | 'live' | 'replay';
+
 class Console {
   readonly editor = new Editor();
   readonly view = new View();
@@ -45,6 +48,8 @@ class Console {
   readonly stage: Stage;
   readonly pointer: Pointer;
   readonly replay: Replay;
+  readonly live: Live;
+  mode: Mode = 'edit';
   private readonly panel: Panel;
   private readonly commands: Command[];
   private base: Registry;
@@ -57,6 +62,8 @@ class Console {
     this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage);
     this.pointer = new Pointer(this.stage);
     this.replay = new Replay(this.stage, site.robot.radius_m, (error) => attempt(() => Promise.reject(error)));
+    this.live = new Live(this.stage, site, say);
+    this.live.onRobot = () => this.enter('live');
     this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.suggest() });
     [this.base, this.etag] = [tagged.registry, tagged.etag];
     this.commands = this.makeCommands();
@@ -67,6 +74,7 @@ class Console {
     byId('legend').append('From above, as through the ceiling.', ...[['none', 'no marker'], ['one', 'one'], ['more', 'two or more']]
       .flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words!]));
     this.makeTools();
+    this.makeModes();
     this.listenToKeys();
     addEventListener('beforeunload', (e) => { if (this.editor.dirty) e.preventDefault(); });
     this.editor.load(tagged.registry);
@@ -231,18 +239,17 @@ class Console {
       { name: 'cw', key: ']', title: 'turn by 1° clockwise', run: () => this.turn(-1), possible: any },
       { name: 'quarter', key: 'R', title: 'turn by 90°', run: () => this.turn(90), possible: any },
       { name: 'snap', button: 'Snap', key: 'G', title: 'snap to 5 cm and 15° while dragging', run: () => { snap.on = !snap.on; }, pressed: () => snap.on },
-      { name: 'coverage', button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => this.toggleCoverage(), pressed: () => this.stage.showCoverage },
-      { name: 'fit', button: 'Fit', key: 'F', title: 'show the whole map', run: () => this.fit() },
+      { name: 'coverage', everywhere: true, button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => this.toggleCoverage(), pressed: () => this.stage.showCoverage },
+      { name: 'fit', everywhere: true, button: 'Fit', key: 'F', title: 'show the whole map', run: () => this.fit() },
       { name: 'align', button: 'Align', title: 'align all markers to the map by pairs of points', run: () => alignByPairs(this.editor, this.pointer, this.stage, say) },
       { name: 'import', button: 'Import', title: 'read markers of another format', run: () => pickFile((file) => attempt(() => importFrom(editor, file))) },
       { name: 'export', button: 'Export', title: 'write markers in another format', run: () => attempt(() => exportTo(editor, this.site.formats)) },
       { name: 'print', button: 'Print', key: 'Ctrl+P', title: 'sheets to make the chosen markers from', run: () => attempt(() => printChosen(editor)) },
       { name: 'history', button: 'History', title: 'bring back an earlier state', run: () => attempt(() => openHistory(editor)) },
-      { name: 'replay', button: 'Replay', title: 'open a run and scrub through it', run: () => attempt(() => this.replay.open()) },
       { name: 'reload', button: 'Reload', title: 'read the markers again; unsaved changes are lost', run: () => this.reload() },
       { name: 'save', button: 'Save', key: 'Ctrl+S', title: 'save', run: () => this.save(), possible: () => editor.dirty },
-      { name: 'theme', button: 'Light/dark', title: 'light or dark', run: () => this.theme() },
-      { name: 'help', button: 'Help', key: '?', title: 'this sheet', run: () => attempt(() => showHelp(this.commands)) },
+      { name: 'theme', everywhere: true, button: 'Light/dark', title: 'light or dark', run: () => this.theme() },
+      { name: 'help', everywhere: true, button: 'Help', key: '?', title: 'this sheet', run: () => attempt(() => showHelp(this.commands)) },
       ...nudges,
     ];
   }
@@ -250,8 +257,33 @@ class Console {
   private makeTools(): void {
     for (const command of this.commands.filter((c) => c.button)) {
       const words = command.title + (command.key ? ` (${command.key})` : '');
-      byId('tools').append(button(command.button!, words, () => this.run(command), { id: `tool-${command.name}` }));
+      byId('tools').append(button(command.button!, words, () => this.run(command),
+        { id: `tool-${command.name}`, ...(command.everywhere ? { class: 'everywhere' } : {}) }));
     }
+  }
+
+  private makeModes(): void {
+    const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['live', 'Live', 'watch the robot, and send it'],
+      ['replay', 'Replay', 'open a run and scrub through it']];
+    byId('modes').append(...titles.map(([mode, text, title]) => button(text, title, () => this.enter(mode), { id: `tool-${mode}` })));
+    this.replay.onClose = () => this.enter(this.live.hello?.robot ? 'live' : 'edit');
+    this.enter('edit');
+  }
+
+  /** What the page is for now: the panel beside the map, and what a click on it means. */
+  enter(mode: Mode): void {
+    const before = this.mode;
+    this.mode = mode;
+    document.body.dataset['mode'] = mode;
+    for (const other of ['edit', 'live', 'replay']) byId(`tool-${other}`).setAttribute('aria-pressed', String(other === mode));
+    this.pointer.cancel();
+    this.pointer.guest = mode === 'live' ? this.live : null;
+    this.live.show(mode === 'live');
+    if (before !== mode) this.stage.showCoverage = mode === 'edit';
+    this.stage.paintRaster();
+    this.stage.redraw();
+    if (mode === 'replay') attempt(() => this.replay.open());
+    else if (before === 'replay') this.replay.leave();
   }
 
   private refreshTools(): void {
@@ -275,7 +307,7 @@ class Console {
       const key = keyOf(e);
       if (isTyping(e.target) && !['Ctrl+S', 'Ctrl+P'].includes(key)) return;
       const command = this.commands.find((c) => c.key === key);
-      if (!command) return;
+      if (!command || (this.mode !== 'edit' && !command.everywhere)) return;
       e.preventDefault();
       this.run(command);
     });
