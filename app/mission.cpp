@@ -17,6 +17,26 @@ bool at_rest(const BaseFeedback& base) {
 
 }  // namespace
 
+std::string_view to_string(MissionPhase phase) {
+  switch (phase) {
+    case MissionPhase::idle:
+      return "waiting for a goal";
+    case MissionPhase::starting:
+      return "about to start";
+    case MissionPhase::driving:
+      return "driving";
+    case MissionPhase::settling:
+      return "coming to rest at the goal";
+    case MissionPhase::waiting_for_base:
+      return "waiting for the base";
+    case MissionPhase::paused:
+      return "paused";
+    case MissionPhase::stopping:
+      return "stopping";
+  }
+  return "";
+}
+
 Mission::Mission(const KnownWorld& world, const NavigationOptions& navigation, std::vector<Goal> goals,
                  const MissionOptions& options)
     : navigation_(world, navigation),
@@ -27,6 +47,7 @@ Mission::Mission(const KnownWorld& world, const NavigationOptions& navigation, s
 MissionStep Mission::step(const SensorInput& input) {
   NavigationStep step = navigation_.step(input);
   const MissionEvent event = finished() ? MissionEvent::none : advance(input, step);
+  last_step_ = input.now;
   return {.navigation = std::move(step), .event = event};
 }
 
@@ -40,13 +61,72 @@ MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& st
       return settle(input);
     case State::held:
       return hold(input);
+    case State::stopping:
+      return come_to_rest(input);
   }
   return MissionEvent::none;
+}
+
+void Mission::start(std::vector<Goal> goals) {
+  goals_ = std::move(goals);
+  current_ = 0;
+  path_ = {};
+  state_ = State::starting;
+  since_.reset();
+  paused_ = false;
+}
+
+void Mission::stop() {
+  if (finished()) return;
+  navigation_.look_for_markers(false);
+  navigation_.cancel();
+  state_ = State::stopping;
+  paused_ = false;
+}
+
+void Mission::pause() {
+  if (finished() || state_ == State::stopping) return;
+  navigation_.pause();
+  paused_ = true;
+}
+
+void Mission::resume() {
+  navigation_.resume();
+  paused_ = false;
+}
+
+MissionPhase Mission::phase() const {
+  if (finished()) return MissionPhase::idle;
+  if (paused_) return MissionPhase::paused;
+  switch (state_) {
+    case State::starting:
+      return MissionPhase::starting;
+    case State::driving:
+      return MissionPhase::driving;
+    case State::settling:
+      return MissionPhase::settling;
+    case State::held:
+      return MissionPhase::waiting_for_base;
+    case State::stopping:
+      break;
+  }
+  return MissionPhase::stopping;
+}
+
+MissionEvent Mission::come_to_rest(const SensorInput& input) {
+  if (input.base.state == BaseState::ready && !at_rest(input.base)) return MissionEvent::none;
+  goals_.resize(current_ + 1);
+  return fail(input.now, "stopped by the operator");
 }
 
 MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep& step) {
   if (!since_) since_ = input.now;
   if (input.base.state == BaseState::fault && options_.hold_on_base_fault) return hold(input);
+  if (paused_) {
+    navigation_.look_for_markers(false);
+    since_.reset();
+    return MissionEvent::none;
+  }
   const bool may_start = !step.stop && input.base.state == BaseState::ready && at_rest(input.base);
   if (!may_start) {
     navigation_.look_for_markers(input.base.state == BaseState::ready);
@@ -77,6 +157,11 @@ MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep
   if (input.base.state == BaseState::fault) return hold(input);
   if (navigation_.arrived()) {
     state_ = State::settling;
+    since_.reset();
+    return MissionEvent::none;
+  }
+  if (paused_) {
+    drive_ends_ += input.now - last_step_;
     since_.reset();
     return MissionEvent::none;
   }
@@ -112,6 +197,7 @@ MissionEvent Mission::settle(const SensorInput& input) {
 
 MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   ++current_;
+  paused_ = false;
   state_ = State::starting;
   since_ = now;
   return event;

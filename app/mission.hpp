@@ -17,6 +17,11 @@ struct MissionOptions {
   Duration max_time_more = std::chrono::seconds(60);
 };
 
+/// What a mission is about.
+enum class MissionPhase { idle, starting, driving, settling, waiting_for_base, paused, stopping };
+/// In words for people.
+std::string_view to_string(MissionPhase phase);
+
 enum class MissionEvent { none, path_planned, goal_arrived, goal_failed };
 
 struct MissionStep {
@@ -32,6 +37,21 @@ class Mission {
 
   MissionStep step(const SensorInput& input);
 
+  /// New goals, once it has finished.
+  void start(std::vector<Goal> goals);
+  /// Comes to rest within the limits; the goal under way then fails, and those after it are forgotten.
+  void stop();
+  /// Comes to rest within the limits, until resume().
+  void pause();
+  void resume();
+  [[nodiscard]] bool paused() const { return paused_; }
+  /// Somebody says where the robot stands. False while the wheels have not been heard.
+  [[nodiscard]] bool place_robot(const Pose2& map_from_base) {
+    return navigation_.place_robot(map_from_base);
+  }
+
+  [[nodiscard]] MissionPhase phase() const;
+  [[nodiscard]] const std::vector<Goal>& goals() const { return goals_; }
   [[nodiscard]] bool finished() const { return current_ >= goals_.size(); }
   [[nodiscard]] std::size_t current() const { return current_; }
   /// The path being followed; valid from path_planned on.
@@ -40,13 +60,14 @@ class Mission {
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
  private:
-  enum class State { starting, driving, settling, held };
+  enum class State { starting, driving, settling, held, stopping };
 
   MissionEvent advance(const SensorInput& input, const NavigationStep& step);
   MissionEvent hold(const SensorInput& input);
   MissionEvent start_goal(const SensorInput& input, const NavigationStep& step);
   MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
   MissionEvent settle(const SensorInput& input);
+  MissionEvent come_to_rest(const SensorInput& input);
   MissionEvent end_goal(Stamp now, MissionEvent event);
   MissionEvent fail(Stamp now, std::string why);
 
@@ -56,7 +77,9 @@ class Mission {
   State state_ = State::starting;
   std::size_t current_ = 0;
   DriveOptions drive_options_;
-  Stamp drive_ends_;            ///< at the latest
+  Stamp drive_ends_;  ///< at the latest
+  bool paused_ = false;
+  Stamp last_step_;
   std::optional<Stamp> since_;  ///< of the present state, or of the present stop while driving
   Path path_;
   std::string failure_;

@@ -113,6 +113,15 @@ DriveOptions Navigation::drive_options(const Path& path) const {
   return options;
 }
 
+bool Navigation::place_robot(const Pose2& map_from_base) {
+  constexpr double position_sigma_m = 0.25;
+  constexpr double heading_sigma_rad = radians(10.0);
+  if (!last_step_) return false;
+  PlanarFix said{.stamp = *last_step_, .map_from_base = map_from_base, .covariance = Eigen::Matrix3d::Zero()};
+  said.covariance.diagonal() = Vec3(position_sigma_m, position_sigma_m, heading_sigma_rad).array().square();
+  return known_.filter.start_at(said);
+}
+
 void Navigation::halt() {
   drive_.reset();
   looks_for_markers_ = false;

@@ -80,6 +80,10 @@ class Navigation {
   /// Brings the robot to rest within its limits and follows nothing any more.
   void cancel();
 
+  /// Somebody says where the robot stands, to about half a metre and 20 degrees. Markers then tell more.
+  /// False while the wheels have not been heard.
+  [[nodiscard]] bool place_robot(const Pose2& map_from_base);
+
   [[nodiscard]] bool arrived() const { return drive_ && drive_->arrived(); }
 
  private:

@@ -1,12 +1,14 @@
 #include "app/replay.hpp"
 
 #include <algorithm>
-#include <thread>
 
+#include "app/live/attendant.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/report/run_recorder.hpp"
+#include "app/report/run_statistics.hpp"
 #include "app/stopwatch.hpp"
+#include "drivers/clock.hpp"
 #include "drivers/simulation.hpp"
 
 namespace lodestar {
@@ -22,6 +24,13 @@ SimulationOptions simulation_options(const Site& site, std::uint64_t seed) {
   options.base.track_width_m = site.robot.track_width_m;
   options.seed = seed;
   return options;
+}
+
+NavigationOptions replay_navigation(const Site& site, const ReplayOptions& options) {
+  NavigationOptions navigation = navigation_options(site.robot);
+  navigation.planner.kind = options.planner;
+  navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
+  return navigation;
 }
 
 SensorInput sense(Simulation& simulation, BaseDriver& base) {
@@ -51,46 +60,132 @@ double share_done(const RunRecord& record, const Mission& mission,
   return (done + 1.0 - std::clamp(left_m / std::max(length_m(path), 1e-9), 0.0, 1.0)) / total;
 }
 
+/// The simulated world, the robot in it, and what its drive leaves behind.
+class SimulatedDrive {
+ public:
+  SimulatedDrive(const Site& site, const ReplayOptions& options)
+      : site_(site),
+        options_(options),
+        world_(known_world(site, options.camera)),
+        simulation_(world_.map, world_.registry, world_.camera, simulation_options(site, options.seed)),
+        base_(simulation_.can()),
+        mission_(world_, replay_navigation(site, options), options.goals) {
+    begin_record();
+    simulation_.on_can_frame([this](const StampedCanFrame& frame) { take(frame); });
+  }
+
+  void step(Attendant* attendant = nullptr) {
+    simulation_.advance(control_period);
+    const SensorInput input = sense(simulation_, base_);
+    const MissionStep step = mission_.step(input);
+    base_.command(step.navigation.command);
+    if (attendant != nullptr)
+      attendant->show(input, step, mission_, [&] { return error_of(step.navigation); });
+    if (!recording_) return simulation_.scorer().forget();
+
+    record_step(record_, input, step.navigation);
+    record_event(record_, mission_, step.event, simulation_.now());
+    judge(record_, simulation_.scorer(), mission_, step.event);
+    if (options_.watch) options_.watch({.input = input, .step = step, .mission = mission_});
+    if (options_.progress) options_.progress(share_done(record_, mission_, step.navigation.estimate));
+  }
+
+  /// From now on, for the mission's goals.
+  void begin_record() {
+    const std::vector<TruePose>& track = simulation_.scorer().track();
+    const Pose2 start = track.empty() ? site_.start : track.back().map_from_base;
+    simulation_.scorer().forget();
+    recording_ = true;
+    record_ = {};
+    record_.site = site_.name;
+    record_.camera = options_.camera;
+    record_.seed = options_.seed;
+    record_.start = start;
+    record_.robot_radius_m = site_.robot.radius_m;
+    for (const Goal& goal : mission_.goals()) record_.goals.push_back({.goal = goal});
+    watch_ = {};
+  }
+
+  RunRecord end_record() {
+    recording_ = false;
+    const Scorer& scorer = simulation_.scorer();
+    record_.truth = scorer.track();
+    record_.path_distances_m = scorer.path_distances_m();
+    record_.contacts = scorer.contacts();
+    record_.wall_time_s = watch_.seconds();
+    return std::move(record_);
+  }
+
+  Mission& mission() { return mission_; }
+  BaseDriver& base() { return base_; }
+  [[nodiscard]] Stamp now() const { return simulation_.now(); }
+  [[nodiscard]] bool recording() const { return recording_; }
+
+ private:
+  void take(const StampedCanFrame& frame) {
+    if (recording_) record_.can_frames.push_back(frame);
+  }
+
+  /// Of an estimate that was made just now.
+  [[nodiscard]] std::optional<double> error_of(const NavigationStep& step) {
+    if (!step.estimate) return std::nullopt;
+    const std::vector<TruePose>& track = simulation_.scorer().track();
+    RunRecord moment;
+    moment.steps.push_back({.estimate = *step.estimate, .commanded = {}, .measured = {}});
+    moment.truth.assign(track.end() - std::min<std::ptrdiff_t>(10, std::ssize(track)), track.end());
+    const std::vector<EstimateError> errors = estimate_errors(moment);
+    return errors.empty() ? std::nullopt : std::optional(errors.front().position_m);
+  }
+
+  const Site& site_;
+  const ReplayOptions& options_;
+  KnownWorld world_;
+  Simulation simulation_;
+  BaseDriver base_;
+  Mission mission_;
+  RunRecord record_;
+  bool recording_ = false;
+  Stopwatch watch_;
+};
+/// Keeps the world's time and the clock on the wall together.
+class Pace {
+ public:
+  /// Until a control period after the last call.
+  void keep() {
+    next_ = std::max(next_ + control_period, monotonic_now());
+    sleep_until(next_);
+  }
+
+ private:
+  Stamp next_ = monotonic_now();
+};
+
 }  // namespace
 
 RunRecord replay(const Site& site, const ReplayOptions& options) {
-  const Stopwatch watch;
-  const KnownWorld world = known_world(site, options.camera);
-  Simulation simulation(world.map, world.registry, world.camera, simulation_options(site, options.seed));
-  BaseDriver base(simulation.can());
-  NavigationOptions navigation = navigation_options(site.robot);
-  navigation.planner.kind = options.planner;
-  navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
-  Mission mission(world, navigation, options.goals);
-
-  RunRecord record;
-  record.site = site.name;
-  record.camera = options.camera;
-  record.seed = options.seed;
-  record.start = site.start;
-  record.robot_radius_m = site.robot.radius_m;
-  for (const Goal& goal : options.goals) record.goals.push_back({.goal = goal});
-  simulation.on_can_frame([&record](const StampedCanFrame& frame) { record.can_frames.push_back(frame); });
-
-  while (!mission.finished()) {
-    simulation.advance(control_period);
-    const SensorInput input = sense(simulation, base);
-    const MissionStep step = mission.step(input);
-    base.command(step.navigation.command);
-
-    record_step(record, input, step.navigation);
-    record_event(record, mission, step.event, simulation.now());
-    judge(record, simulation.scorer(), mission, step.event);
-    if (options.watch) options.watch({.input = input, .step = step, .mission = mission});
-    if (options.progress) options.progress(share_done(record, mission, step.navigation.estimate));
-    if (options.realtime) std::this_thread::sleep_for(simulation.now().time_since_epoch() - watch.elapsed());
+  SimulatedDrive drive(site, options);
+  Pace pace;
+  while (!drive.mission().finished()) {
+    drive.step();
+    if (options.realtime) pace.keep();
   }
+  return drive.end_record();
+}
 
-  record.truth = simulation.scorer().track();
-  record.path_distances_m = simulation.scorer().path_distances_m();
-  record.contacts = simulation.scorer().contacts();
-  record.wall_time_s = watch.seconds();
-  return record;
+void replay_attended(const Site& site, const ReplayOptions& options, Attendant& attendant,
+                     const std::function<bool()>& goes_on, const std::function<void(RunRecord)>& keep) {
+  SimulatedDrive drive(site, options);
+  Pace pace;
+  while (goes_on()) {
+    attendant.obey(drive.mission(), drive.base(), drive.now(), monotonic_now());
+    if (!drive.mission().finished() && !drive.recording()) drive.begin_record();
+    drive.step(&attendant);
+    const bool has_ended = drive.recording() && drive.mission().finished();
+    if (has_ended) keep(drive.end_record());
+    const bool stands = drive.mission().finished() || drive.mission().paused();
+    if (options.realtime || stands) pace.keep();
+  }
+  if (drive.recording()) keep(drive.end_record());
 }
 
 }  // namespace lodestar

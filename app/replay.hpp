@@ -9,6 +9,8 @@
 
 namespace lodestar {
 
+class Attendant;
+
 struct ReplayOptions {
   std::string camera;  ///< a profile of the site
   std::uint64_t seed = 1;
@@ -21,5 +23,11 @@ struct ReplayOptions {
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.
 RunRecord replay(const Site& site, const ReplayOptions& options);
+
+/// The same with people at the console: after the goals it stands and waits for more, until `goes_on` says
+/// no. `keep` gets the record of each drive as it ends. While the robot stands, time passes no faster than on
+/// the wall.
+void replay_attended(const Site& site, const ReplayOptions& options, Attendant& attendant,
+                     const std::function<bool()>& goes_on, const std::function<void(RunRecord)>& keep);
 
 }  // namespace lodestar

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/live/attendant.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/report/run_recorder.hpp"
@@ -48,25 +49,74 @@ bool obey(OperatorWish wish, BaseDriver& base, const RunOptions& options) {
   return true;
 }
 
+/// The record of one drive, while there is one.
+class Recording {
+ public:
+  Recording(const Site& site, const std::string& camera) : site_(site), camera_(camera) {}
+
+  void begin(const std::vector<Goal>& goals) {
+    if (on_) return;
+    on_ = true;
+    start_ = monotonic_now();
+    record_ = {};
+    record_.site = site_.name;
+    record_.camera = camera_;
+    record_.robot_radius_m = site_.robot.radius_m;
+    for (const Goal& goal : goals) record_.goals.push_back({.goal = goal});
+  }
+
+  void take(const StampedCanFrame& frame) {
+    if (on_) record_.can_frames.push_back(frame);
+  }
+
+  void take(const SensorInput& input, const Mission& mission, const MissionStep& step) {
+    if (!on_) return;
+    record_step(record_, input, step.navigation);
+    record_event(record_, mission, step.event, input.now);
+  }
+
+  RunRecord end(const Mission& mission) {
+    if (on_ && !mission.finished()) record_.goals[mission.current()].failure = "stopped by the operator";
+    record_.wall_time_s = seconds(monotonic_now() - start_);
+    on_ = false;
+    return std::exchange(record_, {});
+  }
+
+  [[nodiscard]] bool is_on() const { return on_; }
+
+ private:
+  const Site& site_;
+  const std::string& camera_;
+  bool on_ = false;
+  Stamp start_;
+  RunRecord record_;
+};
+
+/// What people at the console do to the drive before a step.
+void attend(const RunOptions& options, Mission& mission, BaseDriver& base, Recording& recording) {
+  if (options.attendant == nullptr) return;
+  if (recording.is_on() && mission.finished()) options.keep(recording.end(mission));
+  const Stamp now = monotonic_now();
+  options.attendant->obey(mission, base, now, now);
+  if (!mission.finished()) recording.begin(mission.goals());
+}
+
 }  // namespace
 
 RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> protocol, Camera& camera,
               const RunOptions& options) {
-  RunRecord record;
-  record.site = site.name;
-  record.camera = options.camera;
-  record.robot_radius_m = site.robot.radius_m;
-  for (const Goal& goal : options.goals) record.goals.push_back({.goal = goal});
-
-  RecordedBus recorded(bus, [&record](const StampedCanFrame& frame) { record.can_frames.push_back(frame); });
+  Recording recording(site, options.camera);
+  if (!options.goals.empty()) recording.begin(options.goals);
+  RecordedBus recorded(bus, [&recording](const StampedCanFrame& frame) { recording.take(frame); });
   BaseDriver base(recorded, std::move(protocol));
   BaseWatcher watcher(options);
   Mission mission(known_world(site, options.camera), navigation_options(site.robot), options.goals,
                   {.hold_on_base_fault = options.hold_on_base_fault});
 
-  const Stamp start = monotonic_now();
-  Stamp next = start;
-  while (!mission.finished() && obey(options.operator_wish(), base, options)) {
+  Stamp next = monotonic_now();
+  const auto goes_on = [&] { return !mission.finished() || options.attendant != nullptr; };
+  while (goes_on() && obey(options.operator_wish(), base, options)) {
+    attend(options, mission, base, recording);
     next = std::max(next + control_period, monotonic_now());
     sleep_until(next);
     const SensorInput input = sense(camera, base);
@@ -74,15 +124,13 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     base.command(step.navigation.command);
 
     watcher.see(input.base);
-    if (options.watch) options.watch({.input = input, .step = step, .mission = mission});
-    record_step(record, input, step.navigation);
-    record_event(record, mission, step.event, input.now);
+    recording.take(input, mission, step);
+    if (options.watch && recording.is_on()) options.watch({.input = input, .step = step, .mission = mission});
+    if (options.attendant != nullptr) options.attendant->show(input, step, mission);
     if (const std::string words = in_words(mission, step.event); !words.empty()) options.tell(words);
   }
   base.command({});
-  if (!mission.finished()) record.goals[mission.current()].failure = "stopped by the operator";
-  record.wall_time_s = seconds(monotonic_now() - start);
-  return record;
+  return recording.end(mission);
 }
 
 }  // namespace lodestar

@@ -13,6 +13,8 @@
 
 namespace lodestar {
 
+class Attendant;
+
 /// What somebody wants of a robot that drives.
 enum class OperatorWish { none, resume, stop };
 
@@ -22,11 +24,16 @@ struct RunOptions {
   bool hold_on_base_fault = true;                ///< wait for resume; else the goal fails
   std::function<OperatorWish()> operator_wish;   ///< asked at every step
   std::function<void(const std::string&)> tell;  ///< what happens, in words for people
-  DriveWatcher watch;                            ///< called at every step, if there
+  DriveWatcher watch;                            ///< called at every step of a drive, if there
+  /// People at the console, if any: after the goals the robot waits for more from there, until it is told to
+  /// stop on `operator_wish`.
+  Attendant* attendant = nullptr;
+  std::function<void(RunRecord)> keep;  ///< with an attendant: gets the record of each drive as it ends
 };
 
 /// Drives the real robot through the goals, in real time: the road of replay(), with a bus and a camera that
-/// somebody else has opened. What the base and bus say is recorded; the truth is not known here.
+/// somebody else has opened. What the base and bus say is recorded; the truth is not known here. With an
+/// attendant the record of a drive that was cut short is returned, and an empty one otherwise.
 RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> protocol, Camera& camera,
               const RunOptions& options);
 

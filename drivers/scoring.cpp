@@ -37,6 +37,14 @@ void Scorer::claim_arrival(const Vec2& goal_m, std::optional<double> heading_rad
   arrivals_.push_back(score);
 }
 
+void Scorer::forget() {
+  constexpr std::ptrdiff_t newest = 10;
+  track_.erase(track_.begin(), track_.end() - std::min(newest, std::ssize(track_)));
+  arrivals_.clear();
+  path_distances_m_.clear();
+  contacts_ = 0;
+}
+
 void Scorer::claim_path(const Path& path) {
   path_.reset();
   if (!path.waypoints_m.empty()) path_ = path;

@@ -35,6 +35,9 @@ class Scorer {
   /// The navigator follows this path from now on; none, when it is empty.
   void claim_path(const Path& path);
 
+  /// Another drive begins: forgets arrivals, contacts and all but the newest of the track.
+  void forget();
+
   [[nodiscard]] const std::vector<ArrivalScore>& arrivals() const { return arrivals_; }
   [[nodiscard]] const std::vector<TruePose>& track() const { return track_; }
   /// Distances of the driven track from the path followed at the time, one per recorded pose at which the

@@ -62,6 +62,15 @@ bool PoseFilter::rival_prevails() const {
          (!by_one_marker || apart_m >= options_.relocation_by_one_marker_m);
 }
 
+bool PoseFilter::start_at(const PlanarFix& fix) {
+  const std::optional<PlacedFix> at = placed(fix);
+  if (!at) return false;
+  believed_ = rival_from(*at).history;
+  rival_.reset();
+  last_fix_ = fix.stamp;
+  return true;
+}
+
 std::optional<FixExpectation> PoseFilter::expectation(const PlanarFix& fix) const {
   const std::optional<PlacedFix> at = placed(fix);
   if (!at || !believed_) return std::nullopt;

@@ -46,6 +46,10 @@ class PoseFilter {
   /// second marker says the same.
   FixOutcome add_fix(const PlanarFix& fix, std::span<const int> ids = {});
 
+  /// Begins anew at a pose that somebody vouches for, whatever was believed. False, and nothing changes, when
+  /// the fix is out of the readings' reach.
+  bool start_at(const PlanarFix& fix);
+
   /// What the estimate expected of a fix. Nothing before the start, and for a fix that would be late.
   [[nodiscard]] std::optional<FixExpectation> expectation(const PlanarFix& fix) const;
 

@@ -7,7 +7,12 @@
 
 #include "app/arguments.hpp"
 #include "app/commands/command.hpp"
+#include "app/commands/console_options.hpp"
+#include "app/commands/kept_runs.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/console/console_service.hpp"
+#include "app/interruption.hpp"
+#include "app/live/attendant.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/progress.hpp"
 #include "app/replay_runs.hpp"
@@ -33,6 +38,8 @@ struct ReplayArguments {
   bool json = false;
   std::string output;
   double pictures_hz = 0.0;
+  bool serve = false;
+  ConsoleServiceOptions console;
 };
 
 /// The lab, wherever the program is started from.
@@ -156,10 +163,13 @@ void print_goals(const RunRecord& record) {
   }
 }
 
+fs::path output_folder(const Site& site, const ReplayArguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  return fs::path("runs") / fmt::format("{}-{}", site.name, arguments.seed);
+}
+
 ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArguments& arguments) {
-  const fs::path folder = arguments.output.empty()
-                              ? fs::path("runs") / fmt::format("{}-{}", site.name, options.seed)
-                              : fs::path(arguments.output);
+  const fs::path folder = output_folder(site, arguments);
   RunRecord record;
   {
     Progress progress("replay", arguments.quiet);
@@ -184,10 +194,38 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
   return succeeded(summary) ? done : job_failed;
 }
 
+/// In a browser too, until Ctrl-C: what it drives, and where to next.
+ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArguments& arguments) {
+  check_tokens(arguments.console.access);
+  const fs::path folder = output_folder(site, arguments);
+  ConsoleServiceOptions console = arguments.console;
+  console.site = site.folder;
+  console.runs = fs::absolute(folder).parent_path();
+  LiveLink link;
+  ConsoleService service(console, &link);
+  Attendant attendant(link, [](const std::string& words) { fmt::print(stderr, "{}\n", words); });
+  KeptRuns runs(folder, site, options.camera, arguments.pictures_hz);
+  options.watch = [&runs](const DriveMoment& moment) { runs.watch(moment); };
+  bool all_arrived = true;
+
+  const Interruption interruption;
+  tell_address(console.access, service.port());
+  const ConsoleThread thread(service);
+  replay_attended(
+      site, options, attendant, [] { return !Interruption::asked(); },
+      [&](RunRecord record) {
+        all_arrived = all_arrived && record.arrived();
+        record.repeat = repeat_command(arguments.site, options);
+        runs.keep(std::move(record));
+      });
+  return all_arrived ? done : job_failed;
+}
+
 ExitCode replay_command(const ReplayArguments& arguments) {
   const Site site = load_site(arguments.site.empty() ? default_site() : fs::path(arguments.site));
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const ReplayOptions options = replay_options(arguments, site);
+  if (arguments.serve) return replay_served(site, options, arguments);
   return arguments.runs > 1 ? replay_many(site, options, arguments) : replay_once(site, options, arguments);
 }
 
@@ -218,6 +256,10 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
   command->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in run.mcap")
       ->check(CLI::Range(0.0, 100.0));
+  CLI::Option* serve = command->add_flag("--serve", arguments->serve,
+                                         "Show it in a browser, and wait there for more goals until Ctrl-C");
+  serve->excludes(command->get_option("--runs"));
+  add_console_options(*command, arguments->console.access);
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_flag("--json", arguments->json, "Results as JSON");
   command->add_option("-o,--output", arguments->output, "Run folder; runs/SITE-SEED when left out");

@@ -6,6 +6,7 @@
 #include "app/console/page.hpp"
 #include "app/console/registry_edit.hpp"
 #include "app/console/registry_json.hpp"
+#include "app/console/routes.hpp"
 #include "app/markers/formats.hpp"
 #include "app/markers/sheet.hpp"
 #include "maps/atomic_file.hpp"
@@ -60,6 +61,15 @@ bool matches(const std::string& tags, const std::string& etag) {
   return tags == "*" || tags.find(etag) != std::string::npos;
 }
 
+/// Why a document must not be saved over what is there now, if so.
+std::optional<HttpResponse> conflict_with(const std::string& present, const std::string& if_match) {
+  if (if_match.empty()) return refusal(428, "found no If-Match, wanted the tag that was read");
+  if (matches(if_match, etag_of(present))) return std::nullopt;
+  HttpResponse conflict = refusal(412, "somebody else saved since it was read");
+  conflict.etag = etag_of(present);
+  return conflict;
+}
+
 std::optional<HttpResponse> page_file(const std::string& target) {
   for (const PageFile& file : page_files()) {
     if (file.target != target) continue;
@@ -105,6 +115,7 @@ HttpResponse printed(const json& request) {
 Console::Console(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder)
     : site_(load_site(site_folder)),
       registry_file_(site_.registry_file),
+      routes_file_(site_.folder / "routes.yaml"),
       history_(registry_file_.parent_path() / ".history"),
       runs_(runs_folder),
       view_(site_) {}
@@ -112,15 +123,17 @@ Console::Console(const std::filesystem::path& site_folder, const std::filesystem
 HttpResponse Console::answer(const HttpRequest& request) {
   const std::string& target = request.target;
   if (request.method == "PUT" && target == "/api/markers") return save_markers(request);
+  if (request.method == "PUT" && target == "/api/routes") return save_routes(request);
   if (request.method == "POST") return post(request);
   if (request.method != "GET" && request.method != "HEAD") return refusal(405, "found another method");
 
   std::optional<HttpResponse> response = page_file(target);
-  if (target == "/api/site") response = site();
+  if (target == "/api/site") response = site_document();
   if (target == "/api/map") response = map();
   if (target == "/api/map/cells") response = cells();
   if (target == "/api/map/heights") response = heights();
   if (target == "/api/markers") response = markers();
+  if (target == "/api/routes") response = routes();
   if (target.starts_with(history_path)) response = history(target);
   if (target == runs_path || target.starts_with(std::string(runs_path) + "/")) response = runs(target);
   if (!response) return refusal(404, "found no such document");
@@ -130,7 +143,7 @@ HttpResponse Console::answer(const HttpRequest& request) {
   return *response;
 }
 
-HttpResponse Console::site() const {
+HttpResponse Console::site_document() const {
   ordered_json goals = ordered_json::array();
   for (const Goal& goal : site_.goals) {
     goals.push_back({{"x_m", goal.position_m.x()}, {"y_m", goal.position_m.y()}});
@@ -176,13 +189,8 @@ HttpResponse Console::markers() const {
 }
 
 HttpResponse Console::save_markers(const HttpRequest& request) const {
-  if (request.if_match.empty()) return refusal(428, "found no If-Match, wanted the tag that was read");
   const std::string before = read_document(registry_file_);
-  if (!matches(request.if_match, etag_of(before))) {
-    HttpResponse conflict = refusal(412, "somebody else saved the markers since they were read");
-    conflict.etag = etag_of(before);
-    return conflict;
-  }
+  if (std::optional<HttpResponse> conflict = conflict_with(before, request.if_match)) return *conflict;
   try {
     const MarkerRegistry after = registry_from_json(request.body);
     if (const std::optional<int> id = repeated_id(after)) {
@@ -197,6 +205,22 @@ HttpResponse Console::save_markers(const HttpRequest& request) const {
     return refusal(422, error.what());
   }
   return markers();
+}
+
+HttpResponse Console::routes() const {
+  const Routes routes = load_routes(routes_file_);
+  return {.body = routes_json(routes).dump(), .etag = etag_of(routes_text(routes))};
+}
+
+HttpResponse Console::save_routes(const HttpRequest& request) const {
+  const std::string before = routes_text(load_routes(routes_file_));
+  if (std::optional<HttpResponse> conflict = conflict_with(before, request.if_match)) return *conflict;
+  try {
+    write_file_atomically(routes_file_, routes_text(parse_routes(request.body, "the routes sent")));
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  }
+  return routes();
 }
 
 HttpResponse Console::history(const std::string& target) const {

@@ -26,6 +26,8 @@ namespace lodestar {
 ///   POST /api/markers/export       {format, registry} -> {text}
 ///   POST /api/markers/import       {name, text} -> a registry
 ///   POST /api/markers/print        {ids, paper} -> a PDF
+///   GET  /api/routes               places and routes; PUT saves them, with If-Match
+///   GET  /api/runs                 names of runs;  /api/runs/NAME  one of them
 ///
 /// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
 class Console {
@@ -35,19 +37,24 @@ class Console {
 
   HttpResponse answer(const HttpRequest& request);
 
+  [[nodiscard]] const Site& site() const { return site_; }
+
  private:
-  [[nodiscard]] HttpResponse site() const;
+  [[nodiscard]] HttpResponse site_document() const;
   [[nodiscard]] HttpResponse map() const;
   [[nodiscard]] HttpResponse cells() const;
   [[nodiscard]] std::optional<HttpResponse> heights() const;
   [[nodiscard]] HttpResponse markers() const;
   HttpResponse save_markers(const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse routes() const;
+  HttpResponse save_routes(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse history(const std::string& target) const;
   [[nodiscard]] HttpResponse runs(const std::string& target) const;
   [[nodiscard]] HttpResponse post(const HttpRequest& request) const;
 
   Site site_;
   std::filesystem::path registry_file_;
+  std::filesystem::path routes_file_;
   DocumentHistory history_;
   RunArchive runs_;
   SiteView view_;

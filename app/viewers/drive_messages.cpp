@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "app/report/run_statistics.hpp"
-#include "app/viewers/foxglove_messages.hpp"
 #include "app/viewers/foxglove_schemas.hpp"
 
 namespace lodestar {
@@ -46,28 +45,32 @@ double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
 }
 
-std::string base_words(const BaseFeedback& base) {
-  std::string words(to_string(base.state));
-  if (base.fault) words += fmt::format(" ({})", to_string(*base.fault));
+std::string base_words(BaseState state, const std::optional<BaseFault>& fault) {
+  std::string words(to_string(state));
+  if (fault) words += fmt::format(" ({})", to_string(*fault));
   return words;
 }
 
-MessageJson drive_json(const DriveMoment& moment, const PoseEstimate& estimate) {
-  const NavigationStep& step = moment.step.navigation;
-  const BodyVelocity measured = moment.input.base.measured.value_or(BodyVelocity{});
+double yaw_sigma_rad(const PoseEstimate& estimate) {
+  return std::sqrt(std::max(estimate.covariance(2, 2), 0.0));
+}
+
+MessageJson drive_json(const EstimateMoment& moment) {
+  const PoseEstimate& estimate = moment.estimate;
+  const BodyVelocity measured = moment.measured.value_or(BodyVelocity{});
   const Pose2& at = estimate.map_from_base;
   return {{"timestamp", time_json(estimate.stamp)},
           {"x_m", short_number(at.position_m.x())},
           {"y_m", short_number(at.position_m.y())},
           {"yaw_deg", short_number(degrees(at.yaw_rad))},
           {"position_sigma_mm", short_number(mm_per_m * largest_sigma_m(estimate.covariance))},
-          {"yaw_sigma_deg", short_number(degrees(std::sqrt(std::max(estimate.covariance(2, 2), 0.0))))},
-          {"commanded_mps", short_number(step.command.forward_mps)},
-          {"commanded_degps", short_number(degrees(step.command.turn_radps))},
+          {"yaw_sigma_deg", short_number(degrees(yaw_sigma_rad(estimate)))},
+          {"commanded_mps", short_number(moment.commanded.forward_mps)},
+          {"commanded_degps", short_number(degrees(moment.commanded.turn_radps))},
           {"measured_mps", short_number(measured.forward_mps)},
           {"measured_degps", short_number(degrees(measured.turn_radps))},
-          {"base", base_words(moment.input.base)},
-          {"stop", step.stop ? std::string(to_string(*step.stop)) : ""}};
+          {"base", base_words(moment.base, moment.fault)},
+          {"stop", moment.stop ? std::string(to_string(*moment.stop)) : ""}};
 }
 
 MessageJson fix_json(const UsedFix& used) {
@@ -100,6 +103,8 @@ Channel events(const char* topic, const char* schema) {
 
 }  // namespace
 
+const std::size_t camera_channel = DriveChannel::camera;
+
 const std::vector<Channel>& drive_channels() {
   static const std::vector<Channel> channels{channel("/tf", "foxglove.FrameTransform"),
                                              channel("/map", "foxglove.Grid"),
@@ -126,6 +131,45 @@ std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp) {
           message(calibration, stamp, calibration_message(stamp, world.camera))};
 }
 
+std::vector<Message> estimate_messages(const EstimateMoment& moment, double robot_radius_m) {
+  const Stamp stamp = moment.estimate.stamp;
+  const Eigen::Isometry3d map_from_base = lifted(moment.estimate.map_from_base);
+  return {message(transform, stamp, transform_message(stamp, "map", "base_link", map_from_base)),
+          message(pose, stamp, pose_message(stamp, map_from_base)),
+          message(robot, stamp, robot_message(moment.estimate, robot_radius_m)),
+          message(drive, stamp, drive_json(moment))};
+}
+
+Message planned_message(Stamp stamp, const Path& planned) {
+  return message(path, stamp, path_message(stamp, planned));
+}
+
+Message ceiling_message(Stamp stamp, const MarkerRegistry& registry, const std::vector<int>& distrusted) {
+  return message(markers, stamp, markers_message(stamp, registry, distrusted));
+}
+
+Message words_message(Stamp stamp, LogLevel level, const std::string& words) {
+  return message(log, stamp, log_message(stamp, level, words));
+}
+
+Message camera_message(const Frame& frame) {
+  return message(camera, frame.stamp, picture_message(frame.stamp, frame.gray));
+}
+
+Message error_message(const PoseEstimate& estimate, double error_m) {
+  return message(error, estimate.stamp,
+                 {{"timestamp", time_json(estimate.stamp)},
+                  {"position_mm", short_number(mm_per_m * error_m)},
+                  {"position_sigma_mm", short_number(mm_per_m * largest_sigma_m(estimate.covariance))},
+                  {"yaw_sigma_deg", short_number(degrees(yaw_sigma_rad(estimate)))}});
+}
+
+std::vector<int> ids_of(const std::vector<DistrustedMarker>& distrusted) {
+  std::vector<int> ids;
+  for (const DistrustedMarker& marker : distrusted) ids.push_back(marker.id);
+  return ids;
+}
+
 DriveMessageOptions message_options(const Robot& robot, double pictures_hz) {
   DriveMessageOptions options{.robot_radius_m = robot.radius_m};
   if (pictures_hz > 0.0) options.picture_period = from_seconds(1.0 / pictures_hz);
@@ -140,60 +184,60 @@ std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
   std::vector<Message> messages = has_begun_ ? std::vector<Message>{} : scene_messages(world_, now);
   has_begun_ = true;
   say_estimate(moment, messages);
-  say_fixes(moment.step.navigation, messages);
+  for (const UsedFix& used : moment.step.navigation.fixes)
+    messages.push_back(message(fix, used.fix.stamp, fix_json(used)));
   say_distrust(moment, messages);
   say_base(moment, messages);
   if (const std::string words = in_words(moment.mission, moment.step.event); !words.empty()) {
     const bool bad = moment.step.event == MissionEvent::goal_failed;
-    messages.push_back(message(log, now, log_message(now, bad ? LogLevel::error : LogLevel::info, words)));
+    messages.push_back(words_message(now, bad ? LogLevel::error : LogLevel::info, words));
   }
   if (moment.step.event == MissionEvent::path_planned)
-    messages.push_back(message(path, now, path_message(now, moment.mission.path())));
+    messages.push_back(planned_message(now, moment.mission.path()));
   say_picture(moment, messages);
   return messages;
 }
 
 void DriveMessages::say_estimate(const DriveMoment& moment, std::vector<Message>& messages) {
-  const std::optional<PoseEstimate>& estimate = moment.step.navigation.estimate;
-  if (!estimate || !is_due(last_pose_, estimate->stamp, options_.pose_period)) return;
-  const Stamp stamp = estimate->stamp;
-  const Eigen::Isometry3d map_from_base = lifted(estimate->map_from_base);
-  messages.push_back(message(transform, stamp, transform_message(stamp, "map", "base_link", map_from_base)));
-  messages.push_back(message(pose, stamp, pose_message(stamp, map_from_base)));
-  messages.push_back(message(robot, stamp, robot_message(*estimate, options_.robot_radius_m)));
-  messages.push_back(message(drive, stamp, drive_json(moment, *estimate)));
-  last_pose_ = stamp;
-}
-
-void DriveMessages::say_fixes(const NavigationStep& step, std::vector<Message>& messages) const {
-  for (const UsedFix& used : step.fixes) messages.push_back(message(fix, used.fix.stamp, fix_json(used)));
+  const NavigationStep& step = moment.step.navigation;
+  if (!step.estimate || !is_due(last_pose_, step.estimate->stamp, options_.pose_period)) return;
+  last_pose_ = step.estimate->stamp;
+  const BaseFeedback& base = moment.input.base;
+  for (Message& said : estimate_messages({.estimate = *step.estimate,
+                                          .commanded = step.command,
+                                          .measured = base.measured,
+                                          .base = base.state,
+                                          .fault = base.fault,
+                                          .stop = step.stop},
+                                         options_.robot_radius_m))
+    messages.push_back(std::move(said));
 }
 
 void DriveMessages::say_distrust(const DriveMoment& moment, std::vector<Message>& messages) {
   const Stamp now = moment.input.now;
-  std::vector<int> ids;
-  for (const DistrustedMarker& marker : moment.step.navigation.distrusted) ids.push_back(marker.id);
+  const std::vector<int> ids = ids_of(moment.step.navigation.distrusted);
   if (ids == distrusted_) return;
   distrusted_ = ids;
-  messages.push_back(message(markers, now, markers_message(now, world_.registry, ids)));
-  const std::string words = fmt::format("no longer trusted: marker {}", fmt::join(ids, ", "));
-  messages.push_back(message(log, now, log_message(now, LogLevel::warning, words)));
+  messages.push_back(ceiling_message(now, world_.registry, ids));
+  const std::string words = ids.empty() ? "all markers are trusted again"
+                                        : fmt::format("not trusted: marker {}", fmt::join(ids, ", "));
+  messages.push_back(words_message(now, LogLevel::warning, words));
 }
 
 void DriveMessages::say_base(const DriveMoment& moment, std::vector<Message>& messages) {
-  const Stamp now = moment.input.now;
-  const std::string words = "base: " + base_words(moment.input.base);
+  const BaseFeedback& base = moment.input.base;
+  const std::string words = "base: " + base_words(base.state, base.fault);
   if (words == base_said_) return;
   base_said_ = words;
-  const bool bad = moment.input.base.state == BaseState::fault;
-  messages.push_back(message(log, now, log_message(now, bad ? LogLevel::error : LogLevel::info, words)));
+  const bool bad = base.state == BaseState::fault;
+  messages.push_back(words_message(moment.input.now, bad ? LogLevel::error : LogLevel::info, words));
 }
 
 void DriveMessages::say_picture(const DriveMoment& moment, std::vector<Message>& messages) {
   if (!options_.picture_period || moment.input.frames.empty()) return;
   const Frame& frame = moment.input.frames.back();
   if (!is_due(last_picture_, frame.stamp, *options_.picture_period)) return;
-  messages.push_back(message(camera, frame.stamp, picture_message(frame.stamp, frame.gray)));
+  messages.push_back(camera_message(frame));
   last_picture_ = frame.stamp;
 }
 

@@ -7,6 +7,7 @@
 #include "app/report/run_record.hpp"
 #include "app/site.hpp"
 #include "app/viewers/channel.hpp"
+#include "app/viewers/foxglove_messages.hpp"
 
 namespace lodestar {
 
@@ -22,8 +23,34 @@ namespace lodestar {
 ///   /truth, /error    in simulation: where the robot really was, and how far the estimate was off
 const std::vector<Channel>& drive_channels();
 
+/// The place of /camera among them: pictures cost more than all else, so it is asked first who wants them.
+extern const std::size_t camera_channel;
+
+/// What is known of the drive together with an estimate.
+struct EstimateMoment {
+  const PoseEstimate& estimate;
+  BodyVelocity commanded;
+  std::optional<BodyVelocity> measured;
+  BaseState base = BaseState::waiting_for_base;
+  std::optional<BaseFault> fault;
+  std::optional<StopReason> stop;
+};
+
 /// All that does not change during a drive.
 std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp);
+/// /tf, /pose, /robot and /drive.
+std::vector<Message> estimate_messages(const EstimateMoment& moment, double robot_radius_m);
+Message planned_message(Stamp stamp, const Path& path);
+Message ceiling_message(Stamp stamp, const MarkerRegistry& registry, const std::vector<int>& distrusted);
+Message words_message(Stamp stamp, LogLevel level, const std::string& words);
+Message camera_message(const Frame& frame);
+/// How far the estimate is off in place; the heading's error is not known.
+Message error_message(const PoseEstimate& estimate, double error_m);
+
+/// What only the judge of a simulated drive knows, after the drive.
+std::vector<Message> truth_messages(const RunRecord& record);
+
+std::vector<int> ids_of(const std::vector<DistrustedMarker>& markers);
 
 struct DriveMessageOptions {
   Duration pose_period = std::chrono::milliseconds(50);  ///< of estimates, at most
@@ -44,7 +71,6 @@ class DriveMessages {
 
  private:
   void say_estimate(const DriveMoment& moment, std::vector<Message>& messages);
-  void say_fixes(const NavigationStep& step, std::vector<Message>& messages) const;
   void say_distrust(const DriveMoment& moment, std::vector<Message>& messages);
   void say_base(const DriveMoment& moment, std::vector<Message>& messages);
   void say_picture(const DriveMoment& moment, std::vector<Message>& messages);
@@ -57,8 +83,5 @@ class DriveMessages {
   std::string base_said_;
   std::vector<int> distrusted_;
 };
-
-/// What only the judge of a simulated drive knows, after the drive.
-std::vector<Message> truth_messages(const RunRecord& record);
 
 }  // namespace lodestar

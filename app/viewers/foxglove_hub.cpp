@@ -54,6 +54,8 @@ class FoxgloveHub::Viewer : public SocketSession {
     }
   }
 
+  [[nodiscard]] bool hears(std::size_t channel) const { return subscriptions_.contains(channel); }
+
   void show(const Message& message) {
     const auto subscription = subscriptions_.find(message.channel);
     if (subscription == subscriptions_.end()) return;
@@ -108,6 +110,10 @@ std::vector<SocketProtocol> FoxgloveHub::protocols() {
 void FoxgloveHub::publish(const Message& message) {
   newest_.at(message.channel) = message;
   for (Viewer* const viewer : viewers_) viewer->show(message);
+}
+
+bool FoxgloveHub::is_heard(std::size_t channel) const {
+  return std::ranges::any_of(viewers_, [&](const Viewer* viewer) { return viewer->hears(channel); });
 }
 
 std::string FoxgloveHub::server_info() const {

@@ -28,6 +28,8 @@ class FoxgloveHub {
 
   /// Does anybody look?
   [[nodiscard]] bool has_viewers() const { return !viewers_.empty(); }
+  /// Does anybody listen to this channel?
+  [[nodiscard]] bool is_heard(std::size_t channel) const;
 
  private:
   class Viewer;

@@ -84,6 +84,16 @@ export const printSheets = async (ids: number[], paper: string): Promise<Blob> =
 export const getHistory = (): Promise<number[]> => json(request('GET', '/api/markers/history'));
 export const getFormer = (number: number): Promise<Registry> => json(request('GET', `/api/markers/history/${number}`));
 
+export interface Place { name: string; x_m: number; y_m: number; yaw_deg?: number }
+export interface Routes { format: string; version: number; places: Place[]; routes: { name: string; places: string[] }[] }
+export interface TaggedRoutes { routes: Routes; etag: string }
+
+const taggedRoutes = async (response: Response): Promise<TaggedRoutes> =>
+  ({ routes: await response.json() as Routes, etag: response.headers.get('ETag') ?? '' });
+export const getRoutes = async (): Promise<TaggedRoutes> => taggedRoutes(await request('GET', '/api/routes'));
+export const putRoutes = async (routes: Routes, etag: string): Promise<TaggedRoutes> =>
+  taggedRoutes(await request('PUT', '/api/routes', routes, { 'If-Match': etag }));
+
 /** Seconds, x and y in metres, yaw in degrees. */
 export type Row = [number, number, number, number];
 export interface Run { name: string; summary: Record<string, unknown>; estimate: Row[]; truth: Row[] }

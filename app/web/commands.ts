@@ -5,6 +5,7 @@ export interface Command {
   title: string;
   key?: string;          // as shown
   button?: string;       // its text in the toolbar; none: a key only
+  everywhere?: boolean;  // not only while markers are edited
   run: () => void;
   pressed?: () => boolean;
   possible?: () => boolean;

@@ -10,13 +10,14 @@ const { buildSync } = createRequire(join(resolve(packages), 'package.json'))('es
 
 const bundle = buildSync({
   entryPoints: [join(source, 'main.ts')], bundle: true, minify: true, format: 'esm', target: 'es2022',
-  legalComments: 'none', write: false,
+  legalComments: 'none', write: false, nodePaths: [join(resolve(packages), 'node_modules')],
 }).outputFiles[0].text;
 
+const plotStyle = readFileSync(join(resolve(packages), 'node_modules/uplot/dist/uPlot.min.css'), 'utf8');
 const files = [
   ['/', 'text/html; charset=utf-8', readFileSync(join(source, 'index.html'), 'utf8')],
   ['/app.js', 'text/javascript; charset=utf-8', bundle],
-  ['/style.css', 'text/css; charset=utf-8', readFileSync(join(source, 'style.css'), 'utf8')],
+  ['/style.css', 'text/css; charset=utf-8', plotStyle + readFileSync(join(source, 'style.css'), 'utf8')],
 ];
 
 /** A raw string literal in pieces: compilers take no piece beyond 64 KiB. */

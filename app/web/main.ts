@@ -15,6 +15,7 @@ import { merged, openHistory } from './history.js';
 import { Layers } from './layers.js';
 import { Measure } from './measure.js';
 import { Panel } from './panel.js';
+import { Live } from './live.js';
 import { Pointer } from './pointer.js';
 import { Replay } from './replay.js';
 import { blindStretches, paintRoutes } from './route.js';
@@ -44,6 +45,8 @@ async function useTokenOfAddress(): Promise<void> {
   await api.openSession(token);
 }
 
+type Mode = 'edit' | 'live' | 'replay';
+
 class Console {
   readonly editor = new Editor();
   readonly view = new View();
@@ -55,6 +58,8 @@ class Console {
   readonly measure: Measure;
   readonly actions: Actions;
   readonly routes: Point[][];
+  readonly live: Live;
+  mode: Mode = 'edit';
   private readonly panel: Panel;
   private readonly commands: Command[];
   private base: Registry;
@@ -67,6 +72,8 @@ class Console {
     this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage, this.layers);
     this.pointer = new Pointer(this.stage);
     this.replay = new Replay(this.stage, site.robot.radius_m, (error) => attempt(() => Promise.reject(error)));
+    this.live = new Live(this.stage, site, say);
+    this.live.onRobot = () => this.enter('live');
     this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.actions.suggest(),
       fill: () => attempt(() => this.actions.fill()), pickId: () => attempt(() => this.actions.pickId()) });
     this.actions = new Actions(this.editor, this.coverage, say);
@@ -82,6 +89,7 @@ class Console {
     byId('title').textContent = `Lodestar: ${site.name}`;
     this.showLegend();
     this.makeTools();
+    this.makeModes();
     this.listenToKeys();
     addEventListener('beforeunload', (e) => { if (this.editor.dirty) e.preventDefault(); });
     this.editor.load(tagged.registry);
@@ -236,24 +244,23 @@ class Console {
       { name: 'cw', key: ']', title: 'turn by 1° clockwise', run: () => this.actions.turn(-1), possible: any },
       { name: 'quarter', key: 'R', title: 'turn by 90°', run: () => this.actions.turn(90), possible: any },
       { name: 'snap', button: 'Snap', key: 'G', title: 'snap to 5 cm and 15° while dragging', run: () => { snap.on = !snap.on; }, pressed: () => snap.on },
-      { name: 'coverage', button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => this.toggleCoverage(), pressed: () => this.layers.floor === 'coverage' },
-      { name: 'measure', button: 'Measure', key: 'T', title: 'tape measure between two places', run: () => this.measure.toggle(), pressed: () => this.measure.on },
-      { name: 'deviation', key: 'V', title: 'show how sure of its pose the robot would be', run: () => this.layers.paintFloor(this.layers.floor === 'deviation' ? 'coverage' : 'deviation') },
+      { name: 'coverage', everywhere: true, button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => this.toggleCoverage(), pressed: () => this.layers.floor === 'coverage' },
+      { name: 'measure', everywhere: true, button: 'Measure', key: 'T', title: 'tape measure between two places', run: () => this.measure.toggle(), pressed: () => this.measure.on },
+      { name: 'deviation', everywhere: true, key: 'V', title: 'show how sure of its pose the robot would be', run: () => this.layers.paintFloor(this.layers.floor === 'deviation' ? 'coverage' : 'deviation') },
       { name: 'fill', key: 'K', title: 'fill the gaps', run: () => attempt(() => this.actions.fill()) },
-      { name: 'turn-view', key: '.', title: 'turn the view by 15° clockwise', run: () => this.turnView(-15) },
-      { name: 'turn-view-back', key: ',', title: 'turn the view by 15° counter-clockwise', run: () => this.turnView(15) },
-      { name: 'north', key: '0', title: 'the map upright again', run: () => this.turnView(-this.view.turnDeg) },
-      { name: 'fit', button: 'Fit', key: 'F', title: 'show the whole map', run: () => this.fit() },
+      { name: 'turn-view', everywhere: true, key: '.', title: 'turn the view by 15° clockwise', run: () => this.turnView(-15) },
+      { name: 'turn-view-back', everywhere: true, key: ',', title: 'turn the view by 15° counter-clockwise', run: () => this.turnView(15) },
+      { name: 'north', everywhere: true, key: '0', title: 'the map upright again', run: () => this.turnView(-this.view.turnDeg) },
+      { name: 'fit', everywhere: true, button: 'Fit', key: 'F', title: 'show the whole map', run: () => this.fit() },
       { name: 'align', button: 'Align', title: 'align all markers to the map by pairs of points', run: () => alignByPairs(this.editor, this.pointer, this.stage, say) },
       { name: 'import', button: 'Import', title: 'read markers of another format', run: () => pickFile((file) => attempt(() => importFrom(editor, file))) },
       { name: 'export', button: 'Export', title: 'write markers in another format', run: () => attempt(() => exportTo(editor, this.site.formats)) },
       { name: 'print', button: 'Print', key: 'Ctrl+P', title: 'sheets to make the chosen markers from', run: () => attempt(() => printChosen(editor)) },
       { name: 'history', button: 'History', title: 'bring back an earlier state', run: () => attempt(() => openHistory(editor)) },
-      { name: 'replay', button: 'Replay', title: 'open a run and scrub through it', run: () => attempt(() => this.replay.open()) },
       { name: 'reload', button: 'Reload', title: 'read the markers again; unsaved changes are lost', run: () => this.reload() },
       { name: 'save', button: 'Save', key: 'Ctrl+S', title: 'save', run: () => this.save(), possible: () => editor.dirty },
-      { name: 'theme', button: 'Light/dark', title: 'light or dark', run: () => this.theme() },
-      { name: 'help', button: 'Help', key: '?', title: 'this sheet', run: () => attempt(() => showHelp(this.commands)) },
+      { name: 'theme', everywhere: true, button: 'Light/dark', title: 'light or dark', run: () => this.theme() },
+      { name: 'help', everywhere: true, button: 'Help', key: '?', title: 'this sheet', run: () => attempt(() => showHelp(this.commands)) },
       ...nudges,
     ];
   }
@@ -261,8 +268,33 @@ class Console {
   private makeTools(): void {
     for (const command of this.commands.filter((c) => c.button)) {
       const words = command.title + (command.key ? ` (${command.key})` : '');
-      byId('tools').append(button(command.button!, words, () => this.run(command), { id: `tool-${command.name}` }));
+      byId('tools').append(button(command.button!, words, () => this.run(command),
+        { id: `tool-${command.name}`, ...(command.everywhere ? { class: 'everywhere' } : {}) }));
     }
+  }
+
+  private makeModes(): void {
+    const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['live', 'Live', 'watch the robot, and send it'],
+      ['replay', 'Replay', 'open a run and scrub through it']];
+    byId('modes').append(...titles.map(([mode, text, title]) => button(text, title, () => this.enter(mode), { id: `tool-${mode}` })));
+    this.replay.onClose = () => this.enter(this.live.hello?.robot ? 'live' : 'edit');
+    this.enter('edit');
+  }
+
+  /** What the page is for now: the panel beside the map, and what a click on it means. */
+  enter(mode: Mode): void {
+    const before = this.mode;
+    this.mode = mode;
+    document.body.dataset['mode'] = mode;
+    for (const other of ['edit', 'live', 'replay']) byId(`tool-${other}`).setAttribute('aria-pressed', String(other === mode));
+    this.pointer.cancel();
+    this.pointer.guest = mode === 'live' ? this.live : null;
+    this.live.show(mode === 'live');
+    if (before !== mode) this.layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
+    this.stage.paintRaster();
+    this.stage.redraw();
+    if (mode === 'replay') attempt(() => this.replay.open());
+    else if (before === 'replay') this.replay.leave();
   }
 
   private refreshTools(): void {
@@ -286,7 +318,7 @@ class Console {
       const key = keyOf(e);
       if (isTyping(e.target) && !['Ctrl+S', 'Ctrl+P'].includes(key)) return;
       const command = this.commands.find((c) => c.key === key);
-      if (!command) return;
+      if (!command || (this.mode !== 'edit' && !command.everywhere)) return;
       e.preventDefault();
       this.run(command);
     });

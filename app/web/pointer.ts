@@ -6,7 +6,16 @@ import type { Stage } from './stage.js';
 
 export interface Snap { on: boolean; gridM: number; angleDeg: number }
 
+/** Who takes clicks and drags on the map instead of the editor: places on the screen, but for a click. */
+export interface Guest {
+  press(screen: Point): boolean;
+  drag(screen: Point): void;
+  release(): void;
+  click(at: Point, also: boolean): void;
+}
+
 type Gesture =
+  | { kind: 'guest'; guest: Guest }
   | { kind: 'pan' }
   | { kind: 'marquee' }
   | { kind: 'move'; before: Marker[]; leader: Marker; from: Point }
@@ -18,6 +27,7 @@ export class Pointer {
   snap: Snap = { on: true, gridM: 0.05, angleDeg: 15 };
   /** Set while something asks for a place on the map: gets the next click. */
   pick: ((at: Point, marker: Marker | null) => void) | null = null;
+  guest: Guest | null = null;
   onHover: (at: Point | null) => void = () => {};
   onDrag: () => void = () => {};
 
@@ -74,6 +84,10 @@ export class Pointer {
       this.pick(view.toMap(this.down), marker);
       return;
     }
+    if (this.guest) {
+      this.gesture = e.button === 0 && this.guest.press(this.down) ? { kind: 'guest', guest: this.guest } : { kind: 'pan' };
+      return;
+    }
     const handle = this.stage.rotateHandle();
     if (e.button !== 0) {
       this.gesture = { kind: 'pan' };
@@ -108,6 +122,9 @@ export class Pointer {
     this.moved = true;
     const snapping = this.snap.on && !e.altKey;
     switch (gesture.kind) {
+      case 'guest':
+        gesture.guest.drag(now);
+        break;
       case 'pan':
         this.stage.pan(now.x - this.last.x, now.y - this.last.y);
         break;
@@ -153,8 +170,14 @@ export class Pointer {
     this.stage.marquee = null;
     if (gesture?.kind === 'marquee' && marquee) this.chooseWithin(marquee.a, marquee.b, editor.selection);
     else if (gesture && editor.preview.size > 0) editor.change([...editor.preview.values()]);
-    else if (gesture?.kind === 'pan' && !this.moved && e.button === 0) editor.select([]);
+    else if (gesture?.kind === 'guest') gesture.guest.release();
+    else if (gesture?.kind === 'pan' && !this.moved && e.button === 0) this.clickOnFloor(e.shiftKey);
     this.stage.redraw();
+  }
+
+  private clickOnFloor(also: boolean): void {
+    if (this.guest) this.guest.click(this.stage.view.toMap(this.down), also);
+    else this.stage.editor.select([]);
   }
 
   private chooseWithin(a: Point, b: Point, also: Set<number>): void {

@@ -26,6 +26,7 @@ export function poseAt(rows: Row[], time: number): Row | null {
 export class Replay {
   time = 0;
   run: Run | null = null;
+  onClose: () => void = () => {};
   private playing = false;
   private lastFrame = 0;
   private readonly runs = el('select', { 'aria-label': 'Run' });
@@ -36,7 +37,7 @@ export class Replay {
 
   constructor(private readonly stage: Stage, private readonly robotRadiusM: number, private readonly fail: (error: unknown) => void) {
     byId('replay').append(this.runs, this.play, this.slider, this.speed, this.words,
-      button('Close', 'Leave the replay', () => this.close()));
+      button('Close', 'Leave the replay', () => this.onClose()));
     this.runs.addEventListener('change', () => { this.load(this.runs.value).catch(this.fail); });
     this.slider.addEventListener('input', () => this.goTo(this.slider.valueAsNumber));
     stage.painters.push((c) => this.paint(c));
@@ -53,7 +54,7 @@ export class Replay {
     return '';
   }
 
-  close(): void {
+  leave(): void {
     this.run = null;
     this.playing = false;
     byId('replay').hidden = true;

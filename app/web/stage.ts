@@ -31,6 +31,7 @@ export class Stage {
   private readonly raster = document.createElement('canvas');
   private tints: { none: number[]; one: number[]; more: number[] } = { none: [], one: [], more: [] };
   private wanted = false;
+  private overlayWanted = false;
 
   constructor(readonly element: HTMLElement, readonly view: View, readonly editor: Editor,
     readonly floor: Floor, readonly coverage: Coverage, readonly layers: Layers) {
@@ -84,6 +85,22 @@ export class Stage {
       this.drawCeiling();
       this.drawOverlay();
     });
+  }
+
+  /** The same for the overlay alone: for what moves. */
+  redrawOverlay(): void {
+    if (this.wanted || this.overlayWanted) return;
+    this.overlayWanted = true;
+    requestAnimationFrame(() => {
+      this.overlayWanted = false;
+      if (this.shift.x === 0 && this.shift.y === 0) this.drawOverlay();
+    });
+  }
+
+  /** The middle of the marker with an ID. */
+  placeOfId(id: number): Point | null {
+    for (const marker of this.editor.shown()) if (marker.id === id) return centerOf(marker);
+    return null;
   }
 
   /** The cells' colours; to be called when coverage or theme has changed. */

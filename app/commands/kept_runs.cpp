@@ -1,0 +1,54 @@
+#include "app/commands/kept_runs.hpp"
+
+#include <fmt/core.h>
+
+#include "app/navigation_setup.hpp"
+#include "app/report/run_folder.hpp"
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+
+KeptRuns::KeptRuns(std::filesystem::path first, const Site& site, const std::string& camera,
+                   double pictures_hz)
+    : first_(std::move(first)),
+      site_(site),
+      world_(known_world(site, camera)),
+      messages_(message_options(site.robot, pictures_hz)) {}
+
+KeptRuns::~KeptRuns() {
+  if (writing_.valid()) writing_.wait();
+}
+
+std::filesystem::path KeptRuns::next() const {
+  return count_ == 0 ? first_ : std::filesystem::path(fmt::format("{}-{}", first_.string(), count_ + 1));
+}
+
+void KeptRuns::watch(const DriveMoment& moment) {
+  if (mcap_refused_) return;
+  try {
+    if (!mcap_) mcap_.emplace(next(), world_, messages_);
+    mcap_->watch(moment);
+  } catch (const InputError& error) {
+    mcap_refused_ = true;
+    fmt::print(stderr, "lodestar: warning: {}\n", error.what());
+  }
+}
+
+void KeptRuns::keep(RunRecord record) {
+  if (mcap_) mcap_->add_truth(record);
+  mcap_.reset();
+  mcap_refused_ = false;
+  if (writing_.valid()) writing_.wait();
+  const std::filesystem::path folder = next();
+  ++count_;
+  writing_ = std::async(std::launch::async, [this, folder, kept = std::move(record)] {
+    try {
+      write_run_folder(folder, kept, site_.map.map, site_.registry);
+      fmt::print(stderr, "run folder: {}\n", folder.string());
+    } catch (const InputError& error) {
+      fmt::print(stderr, "lodestar: warning: {}\n", error.what());
+    }
+  });
+}
+
+}  // namespace lodestar

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <future>
+
+#include "app/report/run_record.hpp"
+#include "app/site.hpp"
+#include "app/viewers/run_mcap.hpp"
+
+namespace lodestar {
+
+/// Writes run folders while the robot goes on: the first as asked for, those of the drives after it as
+/// NAME-2, NAME-3 beside it.
+class KeptRuns {
+ public:
+  /// `pictures_hz`: of the camera, to keep in run.mcap.
+  KeptRuns(std::filesystem::path first, const Site& site, const std::string& camera, double pictures_hz);
+  ~KeptRuns();
+  KeptRuns(const KeptRuns&) = delete;
+  KeptRuns& operator=(const KeptRuns&) = delete;
+
+  /// At each step of a drive, for its run.mcap.
+  void watch(const DriveMoment& moment);
+
+  /// At its end. Waits for the one before, if that is still being written; then returns at once. What cannot
+  /// be written is told on standard error, and the drive goes on.
+  void keep(RunRecord record);
+
+  /// How many have been kept.
+  [[nodiscard]] int count() const { return count_; }
+
+ private:
+  [[nodiscard]] std::filesystem::path next() const;
+
+  std::filesystem::path first_;
+  const Site& site_;
+  KnownWorld world_;
+  DriveMessageOptions messages_;
+  std::optional<RunMcap> mcap_;  ///< of the present drive
+  bool mcap_refused_ = false;
+  int count_ = 0;
+  std::future<void> writing_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,53 @@
+#include "app/console/camera_picture.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+namespace lodestar {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int jpeg_quality = 75;
+
+ordered_json point_json(const Vec2& px) {
+  return {std::round(px.x() * 10.0) / 10.0, std::round(px.y() * 10.0) / 10.0};
+}
+
+ordered_json marker_json(const DetectedMarker& marker) {
+  ordered_json dots = ordered_json::array();
+  for (const MarkerDot& dot : marker.dots) dots.push_back(point_json(dot.center_px));
+  return {{"id", marker.id},
+          {"confidence", marker.confidence},
+          {"o_px", point_json(marker.o_px)},
+          {"x_px", point_json(marker.x_px)},
+          {"y_px", point_json(marker.y_px)},
+          {"dots_px", dots}};
+}
+
+}  // namespace
+
+std::optional<std::string> CameraPicture::message(const Frame& frame) {
+  if (frame.gray.empty() || frame.gray.type() != CV_8UC1) return std::nullopt;
+  ordered_json head{{"time_s", seconds(frame.stamp)},
+                    {"width_px", frame.gray.cols},
+                    {"height_px", frame.gray.rows},
+                    {"markers", ordered_json::array()}};
+  for (const DetectedMarker& marker : detector_.detect(frame.gray))
+    head["markers"].push_back(marker_json(marker));
+  std::vector<unsigned char> jpeg;
+  if (!cv::imencode(".jpg", frame.gray, jpeg, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality})) return std::nullopt;
+
+  const std::string text = head.dump();
+  std::string message;
+  for (unsigned shift = 0; shift < 32; shift += 8) {
+    message += static_cast<char>((static_cast<std::uint32_t>(text.size()) >> shift) & 0xFFU);
+  }
+  message += text;
+  message.append(jpeg.begin(), jpeg.end());
+  return message;
+}
+
+}  // namespace lodestar

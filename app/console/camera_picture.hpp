@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "localization/marker_detector.hpp"
+#include "maps/frame.hpp"
+
+namespace lodestar {
+
+/// Frames as the page gets them: a picture and what was read in it.
+class CameraPicture {
+ public:
+  explicit CameraPicture(const MarkerRegistry& registry) : detector_(expecting(registry)) {}
+
+  /// The length of the following JSON (4 bytes, little endian), {"time_s", "width_px", "height_px",
+  /// "markers":
+  /// [{"id", "confidence", "o_px", "x_px", "y_px", "dots_px"}]}, and the frame as JPEG. Nothing for a frame
+  /// that is no picture.
+  std::optional<std::string> message(const Frame& frame);
+
+ private:
+  MarkerDetector detector_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,115 @@
+#include "app/console/live_json.hpp"
+
+#include <cmath>
+
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+double rounded(double value, double per_unit = 1e4) {
+  return std::round(value * per_unit) / per_unit;
+}
+
+ordered_json velocity_json(const BodyVelocity& velocity) {
+  return {{"forward_mps", rounded(velocity.forward_mps)},
+          {"turn_degps", rounded(degrees(velocity.turn_radps))}};
+}
+
+ordered_json estimate_json(const PoseEstimate& estimate) {
+  const Pose2& pose = estimate.map_from_base;
+  const Eigen::Matrix3d& covariance = estimate.covariance;
+  return {{"x_m", rounded(pose.position_m.x(), 1e5)},
+          {"y_m", rounded(pose.position_m.y(), 1e5)},
+          {"yaw_deg", rounded(degrees(pose.yaw_rad), 1e3)},
+          {"covariance_m2", {covariance(0, 0), covariance(0, 1), covariance(1, 1)}},
+          {"sigma_yaw_deg", rounded(degrees(std::sqrt(std::max(covariance(2, 2), 0.0))))}};
+}
+
+ordered_json goal_json(const Goal& goal) {
+  ordered_json numbers{goal.position_m.x(), goal.position_m.y()};
+  if (goal.heading_rad) numbers.push_back(rounded(degrees(*goal.heading_rad)));
+  return numbers;
+}
+
+template <typename Value>
+ordered_json or_null(const std::optional<Value>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+double number_in(const json& value, double limit) {
+  if (!value.is_number() || !(std::abs(value.get<double>()) <= limit)) {
+    throw InputError("found '" + value.dump().substr(0, 60) + "', wanted a number in metres or degrees");
+  }
+  return value.get<double>();
+}
+
+constexpr double far_m = 1e5;
+
+Goal goal_from_json(const json& goal) {
+  if (!goal.is_array() || goal.size() < 2 || goal.size() > 3)
+    throw InputError("wanted [x_m, y_m] or [x_m, y_m, yaw_deg]");
+  Goal read{Vec2(number_in(goal[0], far_m), number_in(goal[1], far_m)), std::nullopt};
+  if (goal.size() == 3) read.heading_rad = wrap_angle(radians(number_in(goal[2], 360.0)));
+  return read;
+}
+
+}  // namespace
+
+ordered_json state_json(const RobotState& state) {
+  ordered_json out{
+      {"type", "state"},
+      {"time_s", rounded(seconds(state.now))},
+      {"pose", state.estimate ? estimate_json(*state.estimate) : ordered_json(nullptr)},
+      {"commanded", velocity_json(state.commanded)},
+      {"measured", state.measured ? velocity_json(*state.measured) : ordered_json(nullptr)},
+      {"phase", to_string(state.phase)},
+      {"moving", state.phase != MissionPhase::idle},
+      {"paused", state.phase == MissionPhase::paused},
+      {"goals", ordered_json::array()},
+      {"current", state.current},
+      {"stop", state.stop ? ordered_json(to_string(*state.stop)) : ordered_json(nullptr)},
+      {"base", to_string(state.base)},
+      {"base_ready", state.base == BaseState::ready},
+      {"fault", state.fault ? ordered_json(to_string(*state.fault)) : ordered_json(nullptr)},
+      {"battery_v", or_null(state.battery_v)},
+      {"markers", state.markers},
+      {"confidence", rounded(state.confidence)},
+      {"seen_s", state.last_seen ? ordered_json(rounded(seconds(*state.last_seen))) : ordered_json(nullptr)},
+      {"distrusted", ordered_json::array()},
+      {"error_m", or_null(state.error_m)},
+      {"events", ordered_json::array()}};
+  for (const Goal& goal : state.goals) out["goals"].push_back(goal_json(goal));
+  for (const DistrustedMarker& marker : state.distrusted) out["distrusted"].push_back(marker.id);
+  for (const Event& event : state.events) {
+    out["events"].push_back(
+        {{"number", event.number}, {"time_s", rounded(seconds(event.stamp))}, {"words", event.words}});
+  }
+  return out;
+}
+
+ordered_json points_json(const Path& path) {
+  ordered_json points = ordered_json::array();
+  for (const Vec2& point : path.waypoints_m) points.push_back({rounded(point.x()), rounded(point.y())});
+  return points;
+}
+
+std::vector<Goal> goals_from_json(const json& goals) {
+  constexpr std::size_t most_goals = 100;
+  if (!goals.is_array() || goals.empty() || goals.size() > most_goals)
+    throw InputError("wanted 1 to 100 goals");
+  std::vector<Goal> read;
+  for (const json& goal : goals) read.push_back(goal_from_json(goal));
+  return read;
+}
+
+Pose2 pose_from_json(const json& pose) {
+  const Goal read = goal_from_json(pose);
+  if (!read.heading_rad) throw InputError("wanted [x_m, y_m, yaw_deg]");
+  return {read.position_m, *read.heading_rad};
+}
+
+}  // namespace lodestar

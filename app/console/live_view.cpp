@@ -1,0 +1,178 @@
+#include "app/console/live_view.hpp"
+
+#include <fmt/format.h>
+
+#include "app/console/live_json.hpp"
+#include "drivers/clock.hpp"
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+enum Slot : int { state_slot, path_slot, picture_slot, preview_slot };
+
+SocketMessage message_of(const ordered_json& content) {
+  return text_message(content.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+}  // namespace
+
+class LiveView::Session : public SocketSession {
+ public:
+  Session(LiveView& view, Role role, Outbox& outbox) : view_(view) {
+    client_.role = role;
+    client_.outbox = &outbox;
+    view_.welcome(client_);
+  }
+  ~Session() override { view_.part(client_); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  void receive(const std::string& bytes, bool /*binary*/) override {
+    view_.receive(client_, json::parse(bytes), monotonic_now());
+  }
+
+ private:
+  LiveView& view_;
+  Client client_;
+};
+
+LiveView::LiveView(const Site& site, LiveLink* link, const LiveViewOptions& options)
+    : link_(link), options_(options), preview_(site), camera_(site.registry), lease_(options.lease) {}
+
+std::vector<SocketProtocol> LiveView::protocols() {
+  return {
+      {.name = "lodestar.v1", .open = [this](Role role, Outbox& outbox) -> std::unique_ptr<SocketSession> {
+         return std::make_unique<Session>(*this, role, outbox);
+       }}};
+}
+
+void LiveView::welcome(Client& client) {
+  client.number = ++welcomed_;
+  clients_.push_back(&client);
+  client.outbox->queue(message_of({{"type", "hello"},
+                                   {"client", client.number},
+                                   {"role", to_string(client.role)},
+                                   {"robot", link_ != nullptr},
+                                   {"lease_s", seconds(options_.lease)}}));
+  if (path_message_.bytes) client.outbox->offer(path_slot, path_message_);
+  if (state_.bytes) client.outbox->offer(state_slot, state_);
+}
+
+void LiveView::part(const Client& client) {
+  std::erase(clients_, &client);
+  lease_.release(client.number);
+  if (link_ != nullptr) link_->hold_until(lease_.until());
+}
+
+void LiveView::receive(Client& client, const json& message, Stamp now) {
+  const auto type = message.at("type").get<std::string>();
+  if (const std::optional<std::string> why = obey(client, type, message, now)) {
+    client.outbox->queue(message_of({{"type", "refused"}, {"what", type}, {"why", *why}}));
+  }
+  if (link_ != nullptr) link_->hold_until(lease_.until());
+}
+
+std::optional<std::string> LiveView::obey(Client& client, const std::string& type, const json& message,
+                                          Stamp now) {
+  if (link_ == nullptr) return "no robot is here";
+  if (type == "stop") {
+    link_->stop();
+    return std::nullopt;
+  }
+  if (type == "camera") {
+    client.wants_camera = message.at("on").get<bool>();
+    return std::nullopt;
+  }
+  if (client.role < Role::drive) return "this needs the token to drive";
+  if (type == "take") {
+    if (lease_.take(client.number, now)) return std::nullopt;
+    return fmt::format("client {} is at the wheel", *lease_.holder(now));
+  }
+  if (type == "release") {
+    lease_.release(client.number);
+    return std::nullopt;
+  }
+  try {
+    if (type == "preview") {
+      client.preview = goals_from_json(message.at("goals"));
+      return std::nullopt;
+    }
+    if (!lease_.hold(client.number, now)) return "somebody must be at the wheel: take it first";
+    return steer(client, type, message);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+std::optional<std::string> LiveView::steer(const Client& client, const std::string& type,
+                                           const json& message) {
+  Order order{.by = fmt::format("client {}", client.number), .what = PauseOrder{}};
+  if (type == "hold") return std::nullopt;
+  if (type == "go") {
+    order.what = GoOrder{goals_from_json(message.at("goals"))};
+  } else if (type == "resume") {
+    order.what = ResumeOrder{};
+  } else if (type == "clear_fault") {
+    order.what = ClearFaultOrder{};
+  } else if (type == "place") {
+    order.what = PlaceOrder{pose_from_json(message.at("pose"))};
+  } else if (type != "pause") {
+    return "found an unknown word";
+  }
+  if (link_->give(std::move(order))) return std::nullopt;
+  return "the robot has not taken the orders before this one yet";
+}
+
+void LiveView::pump(Stamp now, const RobotState* fresh) {
+  if (fresh != nullptr) show(*fresh, now);
+  show_camera(now);
+  answer_previews();
+}
+
+void LiveView::show(const RobotState& state, Stamp now) {
+  estimate_ = state.estimate;
+  frame_ = state.frame;
+  if (state.path != path_) show_path(state.path);
+  ordered_json content = state_json(state);
+  const std::optional<int> driver = lease_.holder(now);
+  content["driver"] = driver ? ordered_json(*driver) : ordered_json(nullptr);
+  content["viewers"] = clients_.size();
+  state_ = message_of(content);
+  for (const Client* const client : clients_) client->outbox->offer(state_slot, state_);
+}
+
+void LiveView::show_path(const std::shared_ptr<const Path>& path) {
+  path_ = path;
+  path_message_ = message_of({{"type", "path"}, {"points", points_json(path ? *path : Path{})}});
+  for (const Client* const client : clients_) client->outbox->offer(path_slot, path_message_);
+}
+
+void LiveView::show_camera(Stamp now) {
+  const bool is_wanted = std::ranges::any_of(clients_, &Client::wants_camera);
+  if (!is_wanted || !frame_ || now - last_picture_ < options_.camera_period) return;
+  last_picture_ = now;
+  std::optional<std::string> bytes = camera_.message(*std::exchange(frame_, std::nullopt));
+  if (!bytes) return;
+  const SocketMessage message{.bytes = std::make_shared<const std::string>(std::move(*bytes)),
+                              .binary = true};
+  for (const Client* const client : clients_) {
+    if (client->wants_camera) client->outbox->offer(picture_slot, message);
+  }
+}
+
+void LiveView::answer_previews() {
+  for (Client* const client : clients_) {
+    const auto goals = std::exchange(client->preview, std::nullopt);
+    if (!goals) continue;
+    ordered_json answer = estimate_ ? preview_.plan(estimate_->map_from_base, *goals)
+                                    : ordered_json{{"why", "the robot does not know where it is"}};
+    answer["type"] = "preview";
+    client->outbox->offer(preview_slot, message_of(answer));
+  }
+}
+
+}  // namespace lodestar

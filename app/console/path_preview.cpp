@@ -1,0 +1,42 @@
+#include "app/console/path_preview.hpp"
+
+#include "app/console/live_json.hpp"
+#include "app/navigation_setup.hpp"
+#include "control/travel_time.hpp"
+
+namespace lodestar {
+
+using nlohmann::ordered_json;
+
+PathPreview::PathPreview(const Site& site)
+    : options_(navigation_options(site.robot)), planner_(site.map.map, options_.planner) {}
+
+ordered_json PathPreview::plan(const Pose2& start, const std::vector<Goal>& goals) const {
+  Path whole{{start.position_m}};
+  double time_s = 0.0;
+  std::size_t turns = 0;
+  std::optional<double> heading_rad = start.yaw_rad;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const Vec2 from = whole.waypoints_m.back();
+    const Goal& goal = goals[i];
+    const PlanResult result =
+        planner_.plan(from, goal.position_m, {.start_rad = heading_rad, .goal_rad = goal.heading_rad});
+    if (const auto* failure = std::get_if<PlanFailure>(&result)) {
+      ordered_json refused{{"why", to_string(*failure)}, {"goal", i}, {"nearest", nullptr}};
+      const std::optional<Vec2> nearest = planner_.nearest_reachable(from, goal.position_m);
+      if (nearest) refused["nearest"] = {nearest->x(), nearest->y()};
+      return refused;
+    }
+    const Path& path = std::get<Plan>(result).path;
+    const std::vector<Vec2>& points = path.waypoints_m;
+    time_s += ideal_travel_time_s(path, heading_rad, goal.heading_rad, options_.drive);
+    turns += points.size() > 2 ? points.size() - 2 : 0;
+    whole.waypoints_m.insert(whole.waypoints_m.end(), points.begin() + 1, points.end());
+    const Vec2 last_leg = points.back() - points[points.size() - 2];
+    heading_rad = goal.heading_rad ? *goal.heading_rad : std::atan2(last_leg.y(), last_leg.x());
+  }
+  return {
+      {"points", points_json(whole)}, {"length_m", length_m(whole)}, {"time_s", time_s}, {"turns", turns}};
+}
+
+}  // namespace lodestar

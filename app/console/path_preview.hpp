@@ -1,0 +1,26 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/navigation.hpp"
+#include "app/site.hpp"
+
+namespace lodestar {
+
+/// What the robot would drive, planned as the navigator plans, before it is told to.
+class PathPreview {
+ public:
+  explicit PathPreview(const Site& site);
+
+  /// From a pose through all goals: {"points", "length_m", "time_s", "turns"}, or {"why", "goal", "nearest"}:
+  /// the reason in words, the number (from 0) of the goal that cannot be reached, and the place nearest to it
+  /// that can, if any.
+  [[nodiscard]] nlohmann::ordered_json plan(const Pose2& start, const std::vector<Goal>& goals) const;
+
+ private:
+  NavigationOptions options_;
+  GridPlanner planner_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/goal.hpp"
+
+namespace lodestar {
+
+/// A goal that people call by a name.
+struct Place {
+  std::string name;
+  Goal goal;
+};
+
+/// Places in the order in which they are driven to.
+struct Route {
+  std::string name;
+  std::vector<std::string> places;
+};
+
+/// routes.yaml of a site folder:
+///
+///     format: lodestar-routes
+///     version: 1
+///     places:
+///       - {name: "desk", x_m: 1.2, y_m: 3.4, yaw_deg: 90}
+///     routes:
+///       - {name: "round", places: ["desk", "door"]}
+struct Routes {
+  std::vector<Place> places;
+  std::vector<Route> routes;
+};
+
+/// Strict: throws InputError with file and line, also for a name that stands twice or a route over no or an
+/// unknown place. JSON of the same shape is read as well. `file` is only named in complaints.
+Routes parse_routes(const std::string& text, const std::filesystem::path& file);
+
+/// Of a file; none when it is not there.
+Routes load_routes(const std::filesystem::path& file);
+
+/// One place or route a line.
+std::string routes_text(const Routes& routes);
+
+nlohmann::ordered_json routes_json(const Routes& routes);
+
+}  // namespace lodestar

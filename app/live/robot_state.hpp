@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/goal.hpp"
+#include "app/mission.hpp"
+#include "drivers/base_driver.hpp"
+#include "localization/marker_trust.hpp"
+#include "maps/frame.hpp"
+#include "maps/motion.hpp"
+
+namespace lodestar {
+
+/// Something that happened, in words for people.
+struct Event {
+  std::uint64_t number = 0;  ///< 1, 2, ... since the start
+  Stamp stamp;
+  std::string words;
+};
+
+/// What a robot that drives is about, at one step: everything that people at the console are shown.
+struct RobotState {
+  Stamp now;
+  std::optional<PoseEstimate> estimate;
+  std::optional<StopReason> stop;  ///< why it may not move, if so
+  BodyVelocity commanded;
+  std::optional<BodyVelocity> measured;
+  MissionPhase phase = MissionPhase::idle;
+  std::vector<Goal> goals;  ///< of the present drive
+  std::size_t current = 0;  ///< among them
+  std::shared_ptr<const Path> path;
+  BaseState base = BaseState::waiting_for_base;
+  std::optional<BaseFault> fault;
+  std::optional<double> battery_v;
+
+  std::vector<int> markers;        ///< of the newest fix
+  double confidence = 0.0;         ///< of its optimal marker
+  std::optional<Stamp> last_seen;  ///< when that frame was taken
+  std::vector<DistrustedMarker> distrusted;
+  std::optional<Frame> frame;  ///< the newest
+
+  std::optional<double> error_m;  ///< by the truth, which only a simulation is told
+  std::vector<Event> events;      ///< the latest, oldest first
+};
+
+}  // namespace lodestar

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "app/console/live_channel.hpp"
+#include "app/site.hpp"
+#include "app/viewers/foxglove_hub.hpp"
+
+namespace lodestar {
+
+/// The robot of the console, for Foxglove and other viewers: the channels of drive_channels(), but for /fix,
+/// which only run.mcap has.
+class FoxgloveView : public LiveChannel {
+ public:
+  explicit FoxgloveView(const Site& site);
+
+  [[nodiscard]] std::vector<SocketProtocol> protocols() override { return hub_.protocols(); }
+  [[nodiscard]] bool is_watched() const override { return hub_.has_viewers(); }
+  void pump(Stamp now, const RobotState* fresh) override;
+
+ private:
+  void show(const RobotState& state);
+
+  MarkerRegistry registry_;
+  double robot_radius_m_;
+  FoxgloveHub hub_;
+  std::shared_ptr<const Path> path_;
+  std::vector<int> distrusted_;
+  std::uint64_t last_event_ = 0;
+};
+
+}  // namespace lodestar

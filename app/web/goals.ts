@@ -1,0 +1,53 @@
+// Where to, as set on the map or typed: one goal or several, each with a heading or without.
+import { degrees } from './geometry.js';
+import type { Point } from './geometry.js';
+import { headOf } from './robot_paint.js';
+import type { View } from './view.js';
+
+export interface Goal extends Point { yawDeg: number | null }
+
+const nearPx = 12;
+const round = (value: number): number => Math.round(value * 1000) / 1000;
+
+export const goalJson = (goal: Goal): number[] => goal.yawDeg === null ? [goal.x, goal.y] : [goal.x, goal.y, goal.yawDeg];
+
+/** A drag begins on a goal (moves it) or at the end of its arrow (turns it). */
+export class Goals {
+  list: Goal[] = [];
+  onChange: () => void = () => {};
+  private held: { index: number; turns: boolean } | null = null;
+
+  constructor(private readonly view: View) {}
+
+  set(list: Goal[]): void {
+    this.list = list;
+    this.onChange();
+  }
+
+  click(at: Point, also: boolean): void {
+    const goal = { x: round(at.x), y: round(at.y), yawDeg: null };
+    this.set(also ? [...this.list, goal] : [goal]);
+  }
+
+  press(screen: Point): boolean {
+    const near = (p: Point) => Math.hypot(p.x - screen.x, p.y - screen.y) < nearPx;
+    const index = this.list.findIndex((goal) => near(this.view.toScreen(goal)) || near(this.arrowEnd(goal)));
+    if (index < 0) return false;
+    this.held = { index, turns: !near(this.view.toScreen(this.list[index]!)) };
+    return true;
+  }
+
+  drag(screen: Point): void {
+    if (!this.held) return;
+    const { index, turns } = this.held;
+    const goal = this.list[index]!;
+    const at = this.view.toMap(screen);
+    const yawDeg = Math.round(degrees(Math.atan2(at.y - goal.y, at.x - goal.x)));
+    this.set(this.list.with(index, turns ? { ...goal, yawDeg } : { ...goal, x: round(at.x), y: round(at.y) }));
+  }
+
+  release(): void { this.held = null; }
+
+  /** Where the arrow of a goal ends, on the screen; that of one without a heading points to the right. */
+  arrowEnd(goal: Goal): Point { return headOf(this.view, this.view.toScreen(goal), goal.yawDeg ?? 0); }
+}

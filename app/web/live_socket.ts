@@ -1,0 +1,87 @@
+// The connection to the robot, `lodestar.v1`: it comes back by itself, and tells when it has gone.
+
+export interface Estimate {
+  x_m: number; y_m: number; yaw_deg: number;
+  covariance_m2: [number, number, number];  // xx, xy, yy
+  sigma_yaw_deg: number;
+}
+
+export interface Velocity { forward_mps: number; turn_degps: number }
+
+export interface State {
+  time_s: number; pose: Estimate | null; commanded: Velocity; measured: Velocity | null;
+  phase: string; moving: boolean; paused: boolean; goals: number[][]; current: number;
+  stop: string | null; base: string; base_ready: boolean; fault: string | null; battery_v: number | null;
+  markers: number[]; confidence: number; seen_s: number | null; distrusted: number[];
+  error_m: number | null; events: { number: number; time_s: number; words: string }[];
+  driver: number | null; viewers: number;
+}
+
+export interface Hello { client: number; role: 'view' | 'edit' | 'drive'; robot: boolean; lease_s: number }
+
+export interface Preview {
+  points?: [number, number][]; length_m?: number; time_s?: number; turns?: number;
+  why?: string; goal?: number; nearest?: [number, number] | null;
+}
+
+export interface SeenMarker { id: number; confidence: number; o_px: [number, number]; x_px: [number, number]; y_px: [number, number]; dots_px: [number, number][] }
+export interface Picture { time_s: number; width_px: number; height_px: number; markers: SeenMarker[]; jpeg: Blob }
+
+type Message = ({ type: 'hello' } & Hello) | ({ type: 'state' } & State) | { type: 'path'; points: [number, number][] }
+  | ({ type: 'preview' } & Preview) | { type: 'refused'; what: string; why: string };
+
+export interface Listener {
+  onHello(hello: Hello): void;
+  onState(state: State): void;
+  onPath(points: [number, number][]): void;
+  onPreview(preview: Preview): void;
+  onRefused(what: string, why: string): void;
+  onPicture(picture: Picture): void;
+  onGone(): void;
+}
+
+const againAfterMs = 1000;
+
+export class LiveSocket {
+  private socket: WebSocket | null = null;
+
+  constructor(private readonly listener: Listener) { this.connect(); }
+
+  /** False when nobody is there to hear it. */
+  send(message: Record<string, unknown>): boolean {
+    if (this.socket?.readyState !== WebSocket.OPEN) return false;
+    this.socket.send(JSON.stringify(message));
+    return true;
+  }
+
+  private connect(): void {
+    const socket = new WebSocket(`ws://${location.host}/api/socket`, 'lodestar.v1');
+    socket.binaryType = 'arraybuffer';
+    socket.onmessage = (e: MessageEvent<string | ArrayBuffer>) => this.take(e.data);
+    socket.onclose = () => {
+      this.socket = null;
+      this.listener.onGone();
+      setTimeout(() => this.connect(), againAfterMs);
+    };
+    this.socket = socket;
+  }
+
+  private take(data: string | ArrayBuffer): void {
+    if (typeof data !== 'string') return this.listener.onPicture(pictureOf(data));
+    const message = JSON.parse(data) as Message;
+    switch (message.type) {
+      case 'hello': return this.listener.onHello(message);
+      case 'state': return this.listener.onState(message);
+      case 'path': return this.listener.onPath(message.points);
+      case 'preview': return this.listener.onPreview(message);
+      case 'refused': return this.listener.onRefused(message.what, message.why);
+    }
+  }
+}
+
+/** The length of a head in JSON, the head, and a JPEG. */
+function pictureOf(data: ArrayBuffer): Picture {
+  const length = new DataView(data).getUint32(0, true);
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Omit<Picture, 'jpeg'>;
+  return { ...head, jpeg: new Blob([new Uint8Array(data, 4 + length)], { type: 'image/jpeg' }) };
+}
