@@ -84,6 +84,7 @@ class SimulatedDrive {
     if (!recording_) return simulation_.scorer().forget();
 
     record_step(record_, input, step.navigation);
+    record_pictures(record_, input, options_.pictures_hz);
     record_event(record_, mission_, step.event, simulation_.now());
     judge(record_, simulation_.scorer(), mission_, step.event);
     if (options_.progress) options_.progress(share_done(record_, mission_, step.navigation.estimate));

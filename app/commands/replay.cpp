@@ -31,6 +31,7 @@ struct ReplayArguments {
   std::string camera;
   std::string planner = "fastest";
   std::vector<std::string> goals;
+  std::optional<double> pictures_hz;
   bool realtime = false;
   bool quiet = false;
   bool json = false;
@@ -50,6 +51,7 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
                         .seed = arguments.seed,
                         .goals = site.goals,
                         .planner = planner_kind(arguments.planner).value(),
+                        .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                         .realtime = arguments.realtime};
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
@@ -245,6 +247,10 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                    "X,Y[,DEG] in metres and degrees; repeat for more; the site's when left out")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--pictures", arguments->pictures_hz,
+                   "Camera pictures a second to keep in the run folder; 2 with --serve, else none")
+      ->check(CLI::Range(0.0, 100.0));
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
   CLI::Option* serve = command->add_flag("--serve", arguments->serve,
                                          "Show it in a browser, and wait there for more goals until Ctrl-C");

@@ -35,6 +35,7 @@ struct RunArguments {
   std::string interface;
   std::uint64_t seed = 1;
   std::string output;
+  double pictures_hz = 2.0;
   bool serve = false;
   std::string runs = "runs";
   ConsoleServiceOptions console;
@@ -112,6 +113,7 @@ ExitCode run_command(const RunArguments& arguments) {
   OperatorInput input;
   RunOptions options{.camera = site.default_camera,
                      .goals = {},
+                     .pictures_hz = arguments.pictures_hz,
                      .hold_on_base_fault = true,
                      .operator_wish = [&input] { return wish_of(input); },
                      .tell = [](const std::string& words) { fmt::print(stderr, "{}\n", words); }};
@@ -156,6 +158,10 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
   add_console_options(*command, arguments->console.access);
   command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
   command->add_option("--seed", arguments->seed, "Of a simulated camera")->capture_default_str();
+  command
+      ->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in the run folder")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Leave a run folder");
   return {{command, [arguments] { return run_command(*arguments); }}};
 }

@@ -11,15 +11,19 @@ namespace lodestar {
 
 /// The console's documents over HTTP, by fixed names and never by a path of the client's:
 ///
-///   GET  /, /app.js, ...          the page
-///   GET  /api/site                name, robot, start, goals, what the camera covers
-///   GET  /api/map                 size, resolution, place;  /api/map/cells  one byte a cell, bottom row
-///   first GET  /api/markers             the registry; PUT saves it, with If-Match: 412 when someone else
-///   saved GET  /api/markers/history     numbers of former states;  /api/markers/history/N  one of them POST
-///   /api/markers/check       what is wrong with a draft POST /api/markers/export      {format, registry} ->
-///   {text};  /import  {name, text} -> a registry POST /api/markers/print       {ids, paper} -> a PDF GET
-///   /api/routes              places and routes; PUT saves them, with If-Match GET  /api/runs names of runs;
-///   /api/runs/NAME  one of them
+///   GET  /, /app.js, ...        the page
+///   GET  /api/site              name, robot, start, goals, what the camera covers
+///   GET  /api/map               size, resolution, place
+///   GET  /api/map/cells         one byte a cell, bottom row first
+///   GET  /api/markers           the registry; PUT saves it, with If-Match: 412 when others did
+///   GET  /api/markers/history   numbers of former states; .../N one of them
+///   POST /api/markers/check     what is wrong with a draft
+///   POST /api/markers/export    {format, registry} -> {text}
+///   POST /api/markers/import    {name, text} -> a registry
+///   POST /api/markers/print     {ids, paper} -> a PDF
+///   GET  /api/routes            places and routes; PUT saves them, with If-Match
+///   GET  /api/runs              names of runs; .../NAME one of them
+///   GET  /api/runs/NAME/pictures/T.jpg
 ///
 /// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
 class Console {

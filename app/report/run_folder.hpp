@@ -8,7 +8,8 @@
 
 namespace lodestar {
 
-/// Leaves a run in a folder: summary.json, map.png, estimate.tum, truth.tum, can.log, report.html. The same
+/// Leaves a run in a folder: summary.json, map.png, estimate.tum, truth.tum, steps.csv, fixes.csv, can.log,
+/// report.html, and in pictures/ the kept frames, named by their stamp in seconds (12.350.jpg). The same
 /// record gives the same bytes. Throws InputError when the folder cannot be written.
 void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
                       const MarkerRegistry& registry);

@@ -1,5 +1,7 @@
 #include "app/report/run_recorder.hpp"
 
+#include <opencv2/imgcodecs.hpp>
+
 namespace lodestar {
 
 void record_step(RunRecord& record, const SensorInput& input, const NavigationStep& step) {
@@ -18,6 +20,19 @@ void record_step(RunRecord& record, const SensorInput& input, const NavigationSt
   record.steps.push_back({.estimate = *step.estimate,
                           .commanded = step.command,
                           .measured = input.base.measured.value_or(BodyVelocity{})});
+}
+
+void record_pictures(RunRecord& record, const SensorInput& input, double pictures_hz) {
+  constexpr int jpeg_quality = 75;
+  if (pictures_hz <= 0.0) return;
+  for (const Frame& frame : input.frames) {
+    const bool is_due = record.pictures.empty() ||
+                        frame.stamp - record.pictures.back().stamp >= from_seconds(0.99 / pictures_hz);
+    std::vector<unsigned char> jpeg;
+    if (!is_due || frame.gray.empty()) continue;
+    if (!cv::imencode(".jpg", frame.gray, jpeg, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality})) continue;
+    record.pictures.push_back({.stamp = frame.stamp, .jpeg = {jpeg.begin(), jpeg.end()}});
+  }
 }
 
 void record_event(RunRecord& record, const Mission& mission, MissionEvent event, Stamp now) {

@@ -8,6 +8,9 @@ namespace lodestar {
 
 void record_step(RunRecord& record, const SensorInput& input, const NavigationStep& step);
 
+/// Keeps so many of the camera's frames a second.
+void record_pictures(RunRecord& record, const SensorInput& input, double pictures_hz);
+
 /// What has come of the present goal.
 void record_event(RunRecord& record, const Mission& mission, MissionEvent event, Stamp now);
 

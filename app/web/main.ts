@@ -280,6 +280,7 @@ class Console {
     this.pointer.guest = mode === 'live' ? this.live : null;
     this.live.show(mode === 'live');
     if (before !== mode) this.stage.showCoverage = mode === 'edit';
+    this.refreshTools();
     this.stage.paintRaster();
     this.stage.redraw();
     if (mode === 'replay') attempt(() => this.replay.open());
