@@ -111,7 +111,7 @@ describe('driving', () => {
       await page.locator(button).click();
       await page.getByLabel('Name').fill(name);
       await page.getByRole('button', { name: 'Keep', exact: true }).click();
-      await page.locator('#state', { hasText: 'Saved the places' }).waitFor();
+      await page.locator('#places', { hasText: name }).waitFor();
     };
     await page.evaluate(() => window.lodestar.console.live.goals.set([{ x: 2.2, y: 4.3, yawDeg: 90 }]));
     await keep('#place-keep', 'by the door');
@@ -228,7 +228,7 @@ describe('seeing', () => {
     assert.ok(existsSync(join(robot.runs, 'run', 'steps.csv')));
     await page.locator('#tool-replay').click();
     await until(page, () => window.lodestar.console.replay.run !== null);
-    await page.getByLabel('Run').selectOption('run');
+    await page.getByLabel('Run', { exact: true }).selectOption('run');
     await until(page, () => window.lodestar.console.replay.run.name === 'run');
     await page.getByLabel('Time').fill('2.5');
     await page.locator('#replay-words', { hasText: /^2\.5 of/ }).waitFor();
