@@ -70,7 +70,6 @@ class SimulatedDrive {
         simulation_(world_.map, world_.registry, world_.camera, simulation_options(site, options.seed)),
         base_(simulation_.can()),
         mission_(world_, replay_navigation(site, options), options.goals) {
-    begin_record();
     simulation_.on_can_frame([this](const StampedCanFrame& frame) { take(frame); });
   }
 
@@ -165,6 +164,7 @@ class Pace {
 RunRecord replay(const Site& site, const ReplayOptions& options) {
   SimulatedDrive drive(site, options);
   Pace pace;
+  drive.begin_record();
   while (!drive.mission().finished()) {
     drive.step();
     if (options.realtime) pace.keep();
