@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/mission.hpp"
+#include "app/report/run_record.hpp"
 
 namespace lodestar {
 
@@ -12,6 +13,7 @@ struct DriveMoment {
   const SensorInput& input;
   const MissionStep& step;
   const Mission& mission;
+  const KeptPicture* picture = nullptr;  ///< that the record keeps of this step, if any
 };
 
 /// Called after each step, once its command is on the way.

@@ -70,7 +70,6 @@ class SimulatedDrive {
         simulation_(world_.map, world_.registry, world_.camera, simulation_options(site, options.seed)),
         base_(simulation_.can()),
         mission_(world_, replay_navigation(site, options), options.goals) {
-    begin_record();
     simulation_.on_can_frame([this](const StampedCanFrame& frame) { take(frame); });
   }
 
@@ -84,9 +83,11 @@ class SimulatedDrive {
     if (!recording_) return simulation_.scorer().forget();
 
     record_step(record_, input, step.navigation);
+    const KeptPicture* const picture = record_pictures(record_, input, options_.pictures_hz);
     record_event(record_, mission_, step.event, simulation_.now());
     judge(record_, simulation_.scorer(), mission_, step.event);
-    if (options_.watch) options_.watch({.input = input, .step = step, .mission = mission_});
+    if (options_.watch)
+      options_.watch({.input = input, .step = step, .mission = mission_, .picture = picture});
     if (options_.progress) options_.progress(share_done(record_, mission_, step.navigation.estimate));
   }
 
@@ -165,6 +166,7 @@ class Pace {
 RunRecord replay(const Site& site, const ReplayOptions& options) {
   SimulatedDrive drive(site, options);
   Pace pace;
+  drive.begin_record();
   while (!drive.mission().finished()) {
     drive.step();
     if (options.realtime) pace.keep();

@@ -16,6 +16,7 @@ struct ReplayOptions {
   std::uint64_t seed = 1;
   std::vector<Goal> goals;
   PlannerKind planner = PlannerKind::fastest;
+  double pictures_hz = 0.0;              ///< camera frames to keep in the record
   bool realtime = false;                 ///< no faster than the world's own time
   std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
   DriveWatcher watch;                    ///< called at every step, if there

@@ -52,7 +52,7 @@ bool obey(OperatorWish wish, BaseDriver& base, const RunOptions& options) {
 /// The record of one drive, while there is one.
 class Recording {
  public:
-  Recording(const Site& site, const std::string& camera) : site_(site), camera_(camera) {}
+  Recording(const Site& site, const RunOptions& options) : site_(site), options_(options) {}
 
   void begin(const std::vector<Goal>& goals) {
     if (on_) return;
@@ -60,7 +60,7 @@ class Recording {
     start_ = monotonic_now();
     record_ = {};
     record_.site = site_.name;
-    record_.camera = camera_;
+    record_.camera = options_.camera;
     record_.robot_radius_m = site_.robot.radius_m;
     for (const Goal& goal : goals) record_.goals.push_back({.goal = goal});
   }
@@ -72,7 +72,10 @@ class Recording {
   void take(const SensorInput& input, const Mission& mission, const MissionStep& step) {
     if (!on_) return;
     record_step(record_, input, step.navigation);
+    const KeptPicture* const picture = record_pictures(record_, input, options_.pictures_hz);
     record_event(record_, mission, step.event, input.now);
+    if (options_.watch)
+      options_.watch({.input = input, .step = step, .mission = mission, .picture = picture});
   }
 
   RunRecord end(const Mission& mission) {
@@ -86,7 +89,7 @@ class Recording {
 
  private:
   const Site& site_;
-  const std::string& camera_;
+  const RunOptions& options_;
   bool on_ = false;
   Stamp start_;
   RunRecord record_;
@@ -105,7 +108,7 @@ void attend(const RunOptions& options, Mission& mission, BaseDriver& base, Recor
 
 RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> protocol, Camera& camera,
               const RunOptions& options) {
-  Recording recording(site, options.camera);
+  Recording recording(site, options);
   if (!options.goals.empty()) recording.begin(options.goals);
   RecordedBus recorded(bus, [&recording](const StampedCanFrame& frame) { recording.take(frame); });
   BaseDriver base(recorded, std::move(protocol));
@@ -125,7 +128,6 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
 
     watcher.see(input.base);
     recording.take(input, mission, step);
-    if (options.watch && recording.is_on()) options.watch({.input = input, .step = step, .mission = mission});
     if (options.attendant != nullptr) options.attendant->show(input, step, mission);
     if (const std::string words = in_words(mission, step.event); !words.empty()) options.tell(words);
   }

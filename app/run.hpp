@@ -21,6 +21,7 @@ enum class OperatorWish { none, resume, stop };
 struct RunOptions {
   std::string camera;  ///< a profile of the site
   std::vector<Goal> goals;
+  double pictures_hz = 0.0;                      ///< camera frames to keep in the record
   bool hold_on_base_fault = true;                ///< wait for resume; else the goal fails
   std::function<OperatorWish()> operator_wish;   ///< asked at every step
   std::function<void(const std::string&)> tell;  ///< what happens, in words for people

@@ -8,12 +8,8 @@
 
 namespace lodestar {
 
-KeptRuns::KeptRuns(std::filesystem::path first, const Site& site, const std::string& camera,
-                   double pictures_hz)
-    : first_(std::move(first)),
-      site_(site),
-      world_(known_world(site, camera)),
-      messages_(message_options(site.robot, pictures_hz)) {}
+KeptRuns::KeptRuns(std::filesystem::path first, const Site& site, const std::string& camera)
+    : first_(std::move(first)), site_(site), world_(known_world(site, camera)) {}
 
 KeptRuns::~KeptRuns() {
   if (writing_.valid()) writing_.wait();
@@ -26,7 +22,7 @@ std::filesystem::path KeptRuns::next() const {
 void KeptRuns::watch(const DriveMoment& moment) {
   if (mcap_refused_) return;
   try {
-    if (!mcap_) mcap_.emplace(next(), world_, messages_);
+    if (!mcap_) mcap_.emplace(next(), world_, site_.robot.radius_m);
     mcap_->watch(moment);
   } catch (const InputError& error) {
     mcap_refused_ = true;

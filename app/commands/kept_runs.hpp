@@ -13,8 +13,7 @@ namespace lodestar {
 /// NAME-2, NAME-3 beside it.
 class KeptRuns {
  public:
-  /// `pictures_hz`: of the camera, to keep in run.mcap.
-  KeptRuns(std::filesystem::path first, const Site& site, const std::string& camera, double pictures_hz);
+  KeptRuns(std::filesystem::path first, const Site& site, const std::string& camera);
   ~KeptRuns();
   KeptRuns(const KeptRuns&) = delete;
   KeptRuns& operator=(const KeptRuns&) = delete;
@@ -35,7 +34,6 @@ class KeptRuns {
   std::filesystem::path first_;
   const Site& site_;
   KnownWorld world_;
-  DriveMessageOptions messages_;
   std::optional<RunMcap> mcap_;  ///< of the present drive
   bool mcap_refused_ = false;
   int count_ = 0;

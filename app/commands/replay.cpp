@@ -33,11 +33,11 @@ struct ReplayArguments {
   std::string camera;
   std::string planner = "fastest";
   std::vector<std::string> goals;
+  std::optional<double> pictures_hz;
   bool realtime = false;
   bool quiet = false;
   bool json = false;
   std::string output;
-  double pictures_hz = 0.0;
   bool serve = false;
   ConsoleServiceOptions console;
 };
@@ -53,6 +53,7 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
                         .seed = arguments.seed,
                         .goals = site.goals,
                         .planner = planner_kind(arguments.planner).value(),
+                        .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                         .realtime = arguments.realtime};
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
@@ -174,8 +175,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
   {
     Progress progress("replay", arguments.quiet);
     options.progress = [&progress](double share) { progress.show(share); };
-    RunMcap mcap(folder, known_world(site, options.camera),
-                 message_options(site.robot, arguments.pictures_hz));
+    RunMcap mcap(folder, known_world(site, options.camera), site.robot.radius_m);
     options.watch = [&mcap](const DriveMoment& moment) { mcap.watch(moment); };
     record = replay(site, options);
     mcap.add_truth(record);
@@ -204,7 +204,7 @@ ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArgu
   LiveLink link;
   ConsoleService service(console, &link);
   Attendant attendant(link, [](const std::string& words) { fmt::print(stderr, "{}\n", words); });
-  KeptRuns runs(folder, site, options.camera, arguments.pictures_hz);
+  KeptRuns runs(folder, site, options.camera);
   options.watch = [&runs](const DriveMoment& moment) { runs.watch(moment); };
   bool all_arrived = true;
 
@@ -253,9 +253,11 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                    "X,Y[,DEG] in metres and degrees; repeat for more; the site's when left out")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
-  command->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in run.mcap")
+  command
+      ->add_option("--pictures", arguments->pictures_hz,
+                   "Camera pictures a second to keep in the run folder; 2 with --serve, else none")
       ->check(CLI::Range(0.0, 100.0));
+  command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
   CLI::Option* serve = command->add_flag("--serve", arguments->serve,
                                          "Show it in a browser, and wait there for more goals until Ctrl-C");
   serve->excludes(command->get_option("--runs"));

@@ -37,7 +37,7 @@ struct RunArguments {
   std::string interface;
   std::uint64_t seed = 1;
   std::string output;
-  double pictures_hz = 0.0;
+  double pictures_hz = 2.0;
   bool serve = false;
   std::string runs = "runs";
   ConsoleServiceOptions console;
@@ -75,7 +75,7 @@ class ServedRun {
   ServedRun(const Site& site, const RunArguments& arguments, RunOptions& options)
       : service_(console_options(site, arguments), &link_),
         runs_(arguments.output.empty() ? fs::path(arguments.runs) / site.name : fs::path(arguments.output),
-              site, options.camera, arguments.pictures_hz) {
+              site, options.camera) {
     options.watch = [this](const DriveMoment& moment) { runs_.watch(moment); };
     options.attendant = &attendant_;
     options.hold_on_base_fault = true;
@@ -116,6 +116,7 @@ ExitCode run_command(const RunArguments& arguments) {
   OperatorInput input;
   RunOptions options{.camera = site.default_camera,
                      .goals = {},
+                     .pictures_hz = arguments.pictures_hz,
                      .hold_on_base_fault = true,
                      .operator_wish = [&input] { return wish_of(input); },
                      .tell = [](const std::string& words) { fmt::print(stderr, "{}\n", words); }};
@@ -132,8 +133,7 @@ ExitCode run_command(const RunArguments& arguments) {
   if (arguments.serve) served.emplace(site, arguments, options);
   std::optional<RunMcap> mcap;
   if (!arguments.output.empty() && !served) {
-    mcap.emplace(arguments.output, known_world(site, options.camera),
-                 message_options(site.robot, arguments.pictures_hz));
+    mcap.emplace(arguments.output, known_world(site, options.camera), site.robot.radius_m);
     options.watch = [&mcap](const DriveMoment& moment) { mcap->watch(moment); };
   }
   RunRecord record = run(site, bus, std::move(protocol), *camera, options);
@@ -168,8 +168,10 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
   add_console_options(*command, arguments->console.access);
   command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
   command->add_option("--seed", arguments->seed, "Of a simulated camera")->capture_default_str();
-  command->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in run.mcap")
-      ->check(CLI::Range(0.0, 100.0));
+  command
+      ->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in the run folder")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Leave a run folder");
   return {{command, [arguments] { return run_command(*arguments); }}};
 }

@@ -1,6 +1,7 @@
 #include "app/console/console.hpp"
 
 #include <charconv>
+#include <cstring>
 #include <fmt/format.h>
 
 #include "app/console/page.hpp"
@@ -238,7 +239,14 @@ HttpResponse Console::history(const std::string& target) const {
 HttpResponse Console::runs(const std::string& target) const {
   const std::string rest = target.substr(std::string(runs_path).size());
   if (rest.empty()) return document(runs_.names());
+  const std::size_t picture = rest.find("/pictures/");
   try {
+    if (picture != std::string::npos) {
+      const std::optional<std::string> jpeg = runs_.picture(decoded(rest.substr(1, picture - 1)),
+                                                            rest.substr(picture + std::strlen("/pictures/")));
+      if (!jpeg) return refusal(404, "found no such picture");
+      return {.content_type = "image/jpeg", .body = *jpeg, .etag = etag_of(*jpeg)};
+    }
     const std::optional<ordered_json> run = runs_.run(decoded(rest.substr(1)));
     return run ? document(*run) : refusal(404, "found no such run");
   } catch (const InputError& error) {

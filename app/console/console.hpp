@@ -28,6 +28,7 @@ namespace lodestar {
 ///   POST /api/markers/print        {ids, paper} -> a PDF
 ///   GET  /api/routes               places and routes; PUT saves them, with If-Match
 ///   GET  /api/runs                 names of runs;  /api/runs/NAME  one of them
+///   GET  /api/runs/NAME/pictures/T.jpg
 ///
 /// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
 class Console {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include "app/console/document_history.hpp"
@@ -15,11 +16,30 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t most_poses = 20'000;
+constexpr std::size_t most_rows = 20'000;
 
 bool is_run(const fs::directory_entry& entry) {
   return !entry.is_symlink() && entry.is_directory() && fs::is_regular_file(entry.path() / "summary.json") &&
          fs::is_regular_file(entry.path() / "estimate.tum");
+}
+
+/// Names of a run's pictures, in the order of their stamps.
+std::vector<std::string> pictures_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "pictures", none)) {
+    const bool is_picture =
+        !entry.is_symlink() && entry.is_regular_file() && entry.path().extension() == ".jpg";
+    if (is_picture) names.push_back(entry.path().filename().string());
+  }
+  std::ranges::sort(names, {}, [](const std::string& name) { return std::strtod(name.c_str(), nullptr); });
+  return names;
+}
+
+/// So that no more than `most` of the lines are kept.
+std::size_t stride_of(const std::string& text, std::size_t most) {
+  const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+  return (lines + most - 1) / most;
 }
 
 double rounded(double value, double per_unit) {
@@ -29,8 +49,7 @@ double rounded(double value, double per_unit) {
 }  // namespace
 
 ordered_json trajectory_json(const std::string& tum, const fs::path& file, std::size_t most) {
-  const auto lines = static_cast<std::size_t>(std::ranges::count(tum, '\n')) + 1;
-  const std::size_t stride = (lines + most - 1) / most;
+  const std::size_t stride = stride_of(tum, most);
   ordered_json rows = ordered_json::array();
   std::istringstream stream(tum);
   int line = 0;
@@ -49,6 +68,25 @@ ordered_json trajectory_json(const std::string& tum, const fs::path& file, std::
   return rows;
 }
 
+ordered_json numbers_json(const std::string& csv, const fs::path& file, std::size_t most) {
+  const std::size_t stride = stride_of(csv, most);
+  ordered_json rows = ordered_json::array();
+  std::istringstream stream(csv);
+  std::string text;
+  std::getline(stream, text);  // the head
+  for (int line = 2; std::getline(stream, text); ++line) {
+    if (text.empty() || static_cast<std::size_t>(line) % stride != 0) continue;
+    ordered_json row = ordered_json::array();
+    std::istringstream words(text);
+    char comma = ',';  // or a plus, between IDs
+    for (double value = 0.0; (comma == ',' || comma == '+') && words >> value; words >> comma)
+      row.push_back(value);
+    if (row.empty()) throw InputError(file, line, "'" + text.substr(0, 80) + "'", "numbers");
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 std::vector<std::string> RunArchive::names() const {
   std::vector<std::string> names;
   std::error_code none;
@@ -59,20 +97,39 @@ std::vector<std::string> RunArchive::names() const {
   return names;
 }
 
-std::optional<ordered_json> RunArchive::run(const std::string& name) const {
+std::optional<fs::path> RunArchive::folder_of(const std::string& name) const {
   const std::vector<std::string> all = names();
   const auto found = std::ranges::find(all, name);
   if (found == all.end()) return std::nullopt;
-  const fs::path folder = folder_ / *found;
-  const ordered_json summary = ordered_json::parse(read_document(folder / "summary.json"), nullptr, false);
-  if (summary.is_discarded()) throw InputError(folder / "summary.json", 0, "broken JSON", "a summary");
-  ordered_json run{{"name", *found}, {"summary", summary}};
-  for (const char* which : {"estimate", "truth"}) {
-    const fs::path file = folder / (std::string(which) + ".tum");
-    run[which] = fs::is_regular_file(file) ? trajectory_json(read_document(file), file, most_poses)
-                                           : ordered_json::array();
-  }
+  return folder_ / *found;
+}
+
+std::optional<ordered_json> RunArchive::run(const std::string& name) const {
+  const std::optional<fs::path> folder = folder_of(name);
+  if (!folder) return std::nullopt;
+  const ordered_json summary = ordered_json::parse(read_document(*folder / "summary.json"), nullptr, false);
+  if (summary.is_discarded()) throw InputError(*folder / "summary.json", 0, "broken JSON", "a summary");
+  ordered_json run{{"name", name}, {"summary", summary}};
+  const auto add = [&](const char* which, const char* extension, auto read) {
+    const fs::path file = *folder / (std::string(which) + extension);
+    run[which] =
+        fs::is_regular_file(file) ? read(read_document(file), file, most_rows) : ordered_json::array();
+  };
+  add("estimate", ".tum", trajectory_json);
+  add("truth", ".tum", trajectory_json);
+  add("steps", ".csv", numbers_json);
+  add("fixes", ".csv", numbers_json);
+  run["pictures"] = pictures_in(*folder);
   return run;
+}
+
+std::optional<std::string> RunArchive::picture(const std::string& name, const std::string& picture) const {
+  const std::optional<fs::path> folder = folder_of(name);
+  if (!folder) return std::nullopt;
+  const std::vector<std::string> all = pictures_in(*folder);
+  const auto found = std::ranges::find(all, picture);
+  if (found == all.end()) return std::nullopt;
+  return read_document(*folder / "pictures" / *found);
 }
 
 }  // namespace lodestar

@@ -17,12 +17,19 @@ class RunArchive {
   /// Names of all runs, in order; none when the folder is not there. Links to elsewhere are left out.
   [[nodiscard]] std::vector<std::string> names() const;
 
-  /// {"name", "summary", "estimate", "truth"}: the summary as it was written, and the trajectories as rows of
-  /// seconds, x, y (metres) and yaw (degrees), in the map. Nothing for a name that is not there. Throws
-  /// InputError for a run that cannot be read.
+  /// {"name", "summary", "estimate", "truth", "steps", "fixes", "pictures"}: the summary as it was written;
+  /// the trajectories as rows of seconds, x, y (metres) and yaw (degrees), in the map; the numbers of
+  /// steps.csv and fixes.csv; names of the pictures. Nothing for a name that is not there. Throws InputError
+  /// for a run that cannot be read.
   [[nodiscard]] std::optional<nlohmann::ordered_json> run(const std::string& name) const;
 
+  /// A picture by its name among run()["pictures"], as JPEG; nothing when there is none.
+  [[nodiscard]] std::optional<std::string> picture(const std::string& name, const std::string& picture) const;
+
  private:
+  /// Of a run that is there.
+  [[nodiscard]] std::optional<std::filesystem::path> folder_of(const std::string& name) const;
+
   std::filesystem::path folder_;
 };
 
@@ -30,5 +37,10 @@ class RunArchive {
 /// one that is no pose.
 nlohmann::ordered_json trajectory_json(const std::string& tum, const std::filesystem::path& file,
                                        std::size_t most);
+
+/// The numbers of each row of a table with a head, also those that a plus joins; rows as above. Throws
+/// InputError with the line for a row that does not begin with a number.
+nlohmann::ordered_json numbers_json(const std::string& csv, const std::filesystem::path& file,
+                                    std::size_t most);
 
 }  // namespace lodestar

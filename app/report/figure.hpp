@@ -19,6 +19,7 @@ cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const
 
 /// The bytes of a PNG file.
 std::string png_bytes(const cv::Mat& picture);
+std::string jpeg_bytes(const cv::Mat& picture);
 
 /// Throws InputError when the file cannot be written.
 void write_png(const std::filesystem::path& file, const cv::Mat& picture);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
@@ -38,6 +39,41 @@ std::string truth_tum(const RunRecord& record) {
   return text;
 }
 
+std::string steps_csv(const RunRecord& record) {
+  std::string text =
+      "stamp_s,x_m,y_m,yaw_deg,sigma_m,sigma_yaw_deg,commanded_mps,commanded_degps,driven_mps,driven_degps\n";
+  for (const StepRecord& step : record.steps) {
+    const Pose2& pose = step.estimate.map_from_base;
+    const Eigen::Matrix3d& covariance = step.estimate.covariance;
+    text += fmt::format("{:.4f},{:.5f},{:.5f},{:.3f},{:.6f},{:.4f},{:.4f},{:.3f},{:.4f},{:.3f}\n",
+                        seconds(step.estimate.stamp), pose.position_m.x(), pose.position_m.y(),
+                        degrees(pose.yaw_rad), larger_sigma(covariance.topLeftCorner<2, 2>()),
+                        degrees(std::sqrt(covariance(2, 2))), step.commanded.forward_mps,
+                        degrees(step.commanded.turn_radps), step.measured.forward_mps,
+                        degrees(step.measured.turn_radps));
+  }
+  return text;
+}
+
+std::string fixes_csv(const RunRecord& record) {
+  std::string text = "stamp_s,x_m,y_m,yaw_deg,confidence,accepted,ids\n";
+  for (const FixRecord& fix : record.fixes) {
+    const Pose2& pose = fix.map_from_base;
+    text += fmt::format("{:.4f},{:.5f},{:.5f},{:.3f},{:.4f},{},{}\n", seconds(fix.stamp), pose.position_m.x(),
+                        pose.position_m.y(), degrees(pose.yaw_rad), fix.confidence, fix.accepted ? 1 : 0,
+                        fmt::join(fix.ids, "+"));
+  }
+  return text;
+}
+
+void write_pictures(const std::filesystem::path& folder, const RunRecord& record) {
+  if (record.pictures.empty()) return;
+  make_run_folder(folder);
+  for (const KeptPicture& picture : record.pictures) {
+    write_file_atomically(folder / fmt::format("{:.3f}.jpg", seconds(picture.stamp)), picture.jpeg);
+  }
+}
+
 std::string can_log(const RunRecord& record) {
   std::string text;
   for (const StampedCanFrame& frame : record.can_frames) text += candump_line(frame) + "\n";
@@ -61,6 +97,9 @@ void write_run_folder(const std::filesystem::path& folder, const RunRecord& reco
   write_file_atomically(folder / "map.png", picture);
   write_file_atomically(folder / "estimate.tum", estimate_tum(record));
   write_file_atomically(folder / "truth.tum", truth_tum(record));
+  write_file_atomically(folder / "steps.csv", steps_csv(record));
+  write_file_atomically(folder / "fixes.csv", fixes_csv(record));
+  write_pictures(folder / "pictures", record);
   write_file_atomically(folder / "can.log", can_log(record));
   write_file_atomically(folder / "report.html", report_html(record, picture));
 }

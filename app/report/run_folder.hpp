@@ -8,10 +8,11 @@
 
 namespace lodestar {
 
-/// Makes the folder. Throws InputError when it cannot be made.
+/// Makes the folder, and those above it. Throws InputError when it cannot be made.
 void make_run_folder(const std::filesystem::path& folder);
 
-/// Leaves a run in a folder: summary.json, map.png, estimate.tum, truth.tum, can.log, report.html. The same
+/// Leaves a run in a folder: summary.json, map.png, estimate.tum, truth.tum, steps.csv, fixes.csv, can.log,
+/// report.html, and in pictures/ the kept frames, named by their stamp in seconds (12.350.jpg). The same
 /// record gives the same bytes. Throws InputError when the folder cannot be written.
 void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
                       const MarkerRegistry& registry);

@@ -32,6 +32,12 @@ struct FixRecord {
   bool accepted = false;  ///< by the pose filter
 };
 
+/// A camera frame worth keeping, as JPEG.
+struct KeptPicture {
+  Stamp stamp;  ///< capture
+  std::string jpeg;
+};
+
 /// How one goal ended.
 struct GoalRecord {
   Goal goal;
@@ -53,6 +59,7 @@ struct RunRecord {
   std::vector<GoalRecord> goals;
   std::vector<StepRecord> steps;
   std::vector<FixRecord> fixes;
+  std::vector<KeptPicture> pictures;         ///< a few a second, where wanted
   std::vector<DistrustedMarker> distrusted;  ///< at the end
   std::vector<StampedCanFrame> can_frames;
   std::vector<TruePose> truth;

@@ -19,11 +19,6 @@ Pose2 between(const TruePose& before, const TruePose& after, Stamp stamp) {
           wrap_angle(before.map_from_base.yaw_rad + share * turn)};
 }
 
-double larger_sigma(const Eigen::Matrix2d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
-}
-
 double nees_of(const PoseEstimate& estimate, const Pose2& truth) {
   Vec3 error;
   error << truth.position_m - estimate.map_from_base.position_m,
@@ -90,6 +85,11 @@ double mean_confidence(const RunRecord& record) {
 }
 
 }  // namespace
+
+double larger_sigma(const Eigen::Matrix2d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
+}
 
 bool RunRecord::arrived() const {
   return std::ranges::all_of(goals, &GoalRecord::arrived);

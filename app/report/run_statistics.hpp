@@ -21,6 +21,9 @@ struct EstimateError {
 /// One for each step within the time of the recorded truth, which is interpolated to the estimate's stamp.
 std::vector<EstimateError> estimate_errors(const RunRecord& record);
 
+/// The root of the larger variance of a position in the plane.
+double larger_sigma(const Eigen::Matrix2d& covariance);
+
 /// Over all steps; nothing where there are none.
 std::optional<double> mean_nees(const std::vector<EstimateError>& errors);
 

@@ -28,6 +28,7 @@ enum DriveChannel : std::size_t {
 };
 
 constexpr double mm_per_m = 1000.0;
+constexpr Duration message_period = std::chrono::milliseconds(50);  ///< of poses, at most
 
 Message message(DriveChannel channel, Stamp stamp, const MessageJson& json) {
   return {.channel = channel, .stamp = stamp, .json = json.dump()};
@@ -152,8 +153,8 @@ Message words_message(Stamp stamp, LogLevel level, const std::string& words) {
   return message(log, stamp, log_message(stamp, level, words));
 }
 
-Message camera_message(const Frame& frame) {
-  return message(camera, frame.stamp, picture_message(frame.stamp, frame.gray));
+Message camera_message(Stamp stamp, const std::string& jpeg) {
+  return message(camera, stamp, picture_message(stamp, jpeg));
 }
 
 Message error_message(const PoseEstimate& estimate, double error_m) {
@@ -170,14 +171,8 @@ std::vector<int> ids_of(const std::vector<DistrustedMarker>& distrusted) {
   return ids;
 }
 
-DriveMessageOptions message_options(const Robot& robot, double pictures_hz) {
-  DriveMessageOptions options{.robot_radius_m = robot.radius_m};
-  if (pictures_hz > 0.0) options.picture_period = from_seconds(1.0 / pictures_hz);
-  return options;
-}
-
-DriveMessages::DriveMessages(const KnownWorld& world, const DriveMessageOptions& options)
-    : world_(world), options_(options) {}
+DriveMessages::DriveMessages(const KnownWorld& world, double robot_radius_m)
+    : world_(world), robot_radius_m_(robot_radius_m) {}
 
 std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
   const Stamp now = moment.input.now;
@@ -194,13 +189,14 @@ std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
   }
   if (moment.step.event == MissionEvent::path_planned)
     messages.push_back(planned_message(now, moment.mission.path()));
-  say_picture(moment, messages);
+  if (moment.picture != nullptr)
+    messages.push_back(camera_message(moment.picture->stamp, moment.picture->jpeg));
   return messages;
 }
 
 void DriveMessages::say_estimate(const DriveMoment& moment, std::vector<Message>& messages) {
   const NavigationStep& step = moment.step.navigation;
-  if (!step.estimate || !is_due(last_pose_, step.estimate->stamp, options_.pose_period)) return;
+  if (!step.estimate || !is_due(last_pose_, step.estimate->stamp, message_period)) return;
   last_pose_ = step.estimate->stamp;
   const BaseFeedback& base = moment.input.base;
   for (Message& said : estimate_messages({.estimate = *step.estimate,
@@ -209,7 +205,7 @@ void DriveMessages::say_estimate(const DriveMoment& moment, std::vector<Message>
                                           .base = base.state,
                                           .fault = base.fault,
                                           .stop = step.stop},
-                                         options_.robot_radius_m))
+                                         robot_radius_m_))
     messages.push_back(std::move(said));
 }
 
@@ -233,27 +229,18 @@ void DriveMessages::say_base(const DriveMoment& moment, std::vector<Message>& me
   messages.push_back(words_message(moment.input.now, bad ? LogLevel::error : LogLevel::info, words));
 }
 
-void DriveMessages::say_picture(const DriveMoment& moment, std::vector<Message>& messages) {
-  if (!options_.picture_period || moment.input.frames.empty()) return;
-  const Frame& frame = moment.input.frames.back();
-  if (!is_due(last_picture_, frame.stamp, *options_.picture_period)) return;
-  messages.push_back(camera_message(frame));
-  last_picture_ = frame.stamp;
-}
-
 std::vector<Message> truth_messages(const RunRecord& record) {
-  constexpr Duration period = std::chrono::milliseconds(50);
   std::vector<Message> messages;
   std::optional<Stamp> last;
   for (const TruePose& at : record.truth) {
-    if (!is_due(last, at.stamp, period)) continue;
+    if (!is_due(last, at.stamp, message_period)) continue;
     messages.push_back(message(truth, at.stamp, pose_message(at.stamp, lifted(at.map_from_base))));
     last = at.stamp;
   }
   last.reset();
   for (const EstimateError& off : estimate_errors(record)) {
     const Stamp stamp(from_seconds(off.time_s));
-    if (!is_due(last, stamp, period)) continue;
+    if (!is_due(last, stamp, message_period)) continue;
     messages.push_back(message(error, stamp,
                                {{"timestamp", time_json(stamp)},
                                 {"position_mm", short_number(mm_per_m * off.position_m)},

@@ -43,7 +43,8 @@ std::vector<Message> estimate_messages(const EstimateMoment& moment, double robo
 Message planned_message(Stamp stamp, const Path& path);
 Message ceiling_message(Stamp stamp, const MarkerRegistry& registry, const std::vector<int>& distrusted);
 Message words_message(Stamp stamp, LogLevel level, const std::string& words);
-Message camera_message(const Frame& frame);
+/// `jpeg`: the picture, encoded.
+Message camera_message(Stamp stamp, const std::string& jpeg);
 /// How far the estimate is off in place; the heading's error is not known.
 Message error_message(const PoseEstimate& estimate, double error_m);
 
@@ -52,19 +53,10 @@ std::vector<Message> truth_messages(const RunRecord& record);
 
 std::vector<int> ids_of(const std::vector<DistrustedMarker>& markers);
 
-struct DriveMessageOptions {
-  Duration pose_period = std::chrono::milliseconds(50);  ///< of estimates, at most
-  std::optional<Duration> picture_period;                ///< nothing: no pictures
-  double robot_radius_m = 0.0;
-};
-
-/// For this robot; pictures so many times a second, 0 for none.
-DriveMessageOptions message_options(const Robot& robot, double pictures_hz);
-
 /// Puts a drive into messages, moment by moment.
 class DriveMessages {
  public:
-  DriveMessages(const KnownWorld& world, const DriveMessageOptions& options);
+  DriveMessages(const KnownWorld& world, double robot_radius_m);
 
   /// What there is to say of this moment; of the first one also all that does not change.
   std::vector<Message> of(const DriveMoment& moment);
@@ -73,13 +65,11 @@ class DriveMessages {
   void say_estimate(const DriveMoment& moment, std::vector<Message>& messages);
   void say_distrust(const DriveMoment& moment, std::vector<Message>& messages);
   void say_base(const DriveMoment& moment, std::vector<Message>& messages);
-  void say_picture(const DriveMoment& moment, std::vector<Message>& messages);
 
   KnownWorld world_;
-  DriveMessageOptions options_;
+  double robot_radius_m_;
   bool has_begun_ = false;
   std::optional<Stamp> last_pose_;
-  std::optional<Stamp> last_picture_;
   std::string base_said_;
   std::vector<int> distrusted_;
 };

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
 #include "app/base64.hpp"
 #include "maps/marker.hpp"
@@ -192,14 +191,10 @@ Json calibration_message(Stamp stamp, const CameraModel& camera) {
           {"P", {fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0}}};
 }
 
-Json picture_message(Stamp stamp, const cv::Mat& gray) {
-  constexpr int quality = 60;  // dots stay round; the sensor's noise is not worth its bytes
-  std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", gray, jpeg, {cv::IMWRITE_JPEG_QUALITY, quality});
-  const std::string bytes(jpeg.begin(), jpeg.end());
+Json picture_message(Stamp stamp, const std::string& jpeg) {
   return {{"timestamp", time_json(stamp)},
           {"frame_id", camera_frame},
-          {"data", base64(bytes)},
+          {"data", base64(jpeg)},
           {"format", "jpeg"}};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <opencv2/core/mat.hpp>
 #include <string>
 
 #include "app/viewers/channel.hpp"
@@ -29,8 +28,7 @@ MessageJson markers_message(Stamp stamp, const MarkerRegistry& registry, const s
 /// The footprint, and the ellipse of three standard deviations about the estimated place.
 MessageJson robot_message(const PoseEstimate& estimate, double radius_m);
 MessageJson calibration_message(Stamp stamp, const CameraModel& camera);
-/// The picture as JPEG.
-MessageJson picture_message(Stamp stamp, const cv::Mat& gray);
+MessageJson picture_message(Stamp stamp, const std::string& jpeg);
 
 enum class LogLevel { info = 2, warning = 3, error = 4 };
 MessageJson log_message(Stamp stamp, LogLevel level, const std::string& words);

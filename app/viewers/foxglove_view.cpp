@@ -1,6 +1,7 @@
 #include "app/viewers/foxglove_view.hpp"
 
 #include "app/navigation_setup.hpp"
+#include "app/report/figure.hpp"
 #include "app/viewers/drive_messages.hpp"
 
 namespace lodestar {
@@ -40,7 +41,8 @@ void FoxgloveView::show(const RobotState& state) {
     if (event.number > last_event_) publish({words_message(event.stamp, LogLevel::info, event.words)});
   }
   if (!state.events.empty()) last_event_ = state.events.back().number;
-  if (state.frame && hub_.is_heard(camera_channel)) publish({camera_message(*state.frame)});
+  if (state.frame && hub_.is_heard(camera_channel))
+    publish({camera_message(state.frame->stamp, jpeg_bytes(state.frame->gray))});
 }
 
 }  // namespace lodestar

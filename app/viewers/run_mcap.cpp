@@ -4,9 +4,8 @@
 
 namespace lodestar {
 
-RunMcap::RunMcap(const std::filesystem::path& folder, const KnownWorld& world,
-                 const DriveMessageOptions& options)
-    : messages_(world, options) {
+RunMcap::RunMcap(const std::filesystem::path& folder, const KnownWorld& world, double robot_radius_m)
+    : messages_(world, robot_radius_m) {
   make_run_folder(folder);
   file_ = std::make_unique<McapFile>(folder / "run.mcap", drive_channels());
 }

@@ -14,7 +14,7 @@ namespace lodestar {
 class RunMcap {
  public:
   /// Makes the folder. Throws InputError when that or the file cannot be made.
-  RunMcap(const std::filesystem::path& folder, const KnownWorld& world, const DriveMessageOptions& options);
+  RunMcap(const std::filesystem::path& folder, const KnownWorld& world, double robot_radius_m);
 
   void watch(const DriveMoment& moment);
 

@@ -26,7 +26,7 @@ export class Actions {
   private addAll(middles: Point[]): void {
     const picker = this.picker();
     const z = this.usualHeight();
-    const round = (value: number) => Math.round(value * 100) / 100;
+    const round = (value: number) => Math.round(value * 1000) / 1000;
     this.editor.add(middles.map((middle) => this.editor.fromMap(
       this.editor.fresh(picker.next(), round(middle.x - sideM / 2), round(middle.y + sideM / 2), z, 0))));
   }

@@ -96,6 +96,7 @@ export const putRoutes = async (routes: Routes, etag: string): Promise<TaggedRou
 
 /** Seconds, x and y in metres, yaw in degrees. */
 export type Row = [number, number, number, number];
-export interface Run { name: string; summary: Record<string, unknown>; estimate: Row[]; truth: Row[] }
+export interface Run { name: string; summary: Record<string, unknown>; estimate: Row[]; truth: Row[]; steps: number[][]; fixes: number[][]; pictures: string[] }
 export const getRuns = (): Promise<string[]> => json(request('GET', '/api/runs'));
+export const pictureOfRun = (run: string, picture: string): string => `/api/runs/${encodeURIComponent(run)}/pictures/${encodeURIComponent(picture)}`;
 export const getRun = (name: string): Promise<Run> => json(request('GET', `/api/runs/${encodeURIComponent(name)}`));

@@ -31,11 +31,12 @@ export class CameraPicture {
 }
 
 function drawMarker(c: CanvasRenderingContext2D, marker: Picture['markers'][number]): void {
+  const pitchPx = Math.hypot(marker.x_px[0] - marker.o_px[0], marker.x_px[1] - marker.o_px[1]) / 3;
   c.lineWidth = 2;
   c.strokeStyle = '#38b6ff';
   for (const [u, v] of marker.dots_px) {
     c.beginPath();
-    c.arc(u, v, 7, 0, 2 * Math.PI);
+    c.arc(u, v, Math.max(3, 0.42 * pitchPx), 0, 2 * Math.PI);
     c.stroke();
   }
   drawLine(c, marker.o_px, marker.x_px, '#ff5a5a');

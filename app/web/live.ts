@@ -1,7 +1,7 @@
 // The live view: what the robot is about, and where it is to go.
 import type { Site } from './api.js';
 import { CameraPicture } from './camera_picture.js';
-import { button, byId, el, plural } from './dom.js';
+import { button, byId, el } from './dom.js';
 import { Goals, goalJson } from './goals.js';
 import type { Goal } from './goals.js';
 import { LiveSocket } from './live_socket.js';
@@ -265,6 +265,6 @@ export class Live implements Guest, Listener {
     if (!this.hello) return 'No connection yet';
     if (!this.hello.robot) return 'No robot is here: start the console with lodestar replay --serve, or lodestar run --serve';
     if (!state) return 'Waiting for the robot';
-    return `${state.phase}${state.moving && state.goals.length > 1 ? `, goal ${state.current + 1} of ${plural(state.goals.length, 'goal')}` : ''}`;
+    return `${state.phase}${state.moving && state.goals.length > 1 ? `, goal ${state.current + 1} of ${state.goals.length}` : ''}`;
   }
 }

@@ -114,7 +114,7 @@ class Console {
   private dragged(): void {
     this.coverage.update(this.editor.shown());
     this.stage.paintRaster();
-    this.stage.redraw();
+    this.stage.redrawDragged();
     this.panel.showSelection();
   }
 
@@ -291,6 +291,7 @@ class Console {
     this.pointer.guest = mode === 'live' ? this.live : null;
     this.live.show(mode === 'live');
     if (before !== mode) this.layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
+    this.refreshTools();
     this.stage.paintRaster();
     this.stage.redraw();
     if (mode === 'replay') attempt(() => this.replay.open());

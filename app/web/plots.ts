@@ -14,7 +14,7 @@ export class Plot {
   private readonly words = el('figcaption');
   private readonly box = el('div', { class: 'plot' });
 
-  constructor(parent: HTMLElement, private readonly title: string, private readonly lines: Line[], private readonly heightPx = 92) {
+  constructor(parent: HTMLElement, private readonly title: string, private readonly lines: Line[], private readonly heightPx = 100) {
     this.data = [[], ...lines.map(() => [])];
     parent.append(el('figure', { role: 'group', 'aria-label': title }, this.words, this.box));
     new ResizeObserver(() => this.fit()).observe(this.box);
@@ -47,7 +47,7 @@ export class Plot {
       width: Math.max(50, this.box.clientWidth), height: this.heightPx, legend: { show: false }, padding: [6, 8, 0, 0],
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
       scales: { x: { time: false }, y: { range: (_, low, high) => [Math.min(0, low), high > 0 ? high * 1.08 : 1] } },
-      axes: [{ ...axis, size: 22, space: 50 }, { ...axis, size: 40, space: 26 }],
+      axes: [{ ...axis, size: 30, gap: 2, space: 50 }, { ...axis, size: 40, space: 26 }],
       series: [{}, ...this.lines.map((line) => ({ stroke: colourOf(line.colour), width: 1.5, points: { show: false }, ...(line.dash ? { dash: [4, 3] } : {}) }))],
     }, this.data, this.box);
     this.plot.over.addEventListener('click', (e) => { if (this.plot) this.onPick?.(this.plot.posToVal(e.offsetX, 'x')); });

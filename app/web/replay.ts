@@ -1,27 +1,14 @@
-// A run folder on the map: its track, the robot at a time, and a bar to scrub through it.
-import { getRun, getRuns } from './api.js';
+// A run folder on the map: its track, the robot at a time, plots and camera pictures, and a bar to scrub through it.
+import { getRun, getRuns, pictureOfRun } from './api.js';
 import type { Row, Run } from './api.js';
 import { button, byId, el } from './dom.js';
-import { wrapDeg } from './geometry.js';
+import { DrivePlots } from './plots.js';
+import { poseAt } from './poses.js';
+import { drawRobot, drawWay, inkNow } from './robot_paint.js';
+import { columnsOf, lastNotAfter } from './run_plots.js';
 import type { Stage } from './stage.js';
 
-const speeds = ['1', '2', '5', '10', '50'];
-
-/** The pose at a time, between the rows before and after it; the first or the last one beyond the ends. */
-export function poseAt(rows: Row[], time: number): Row | null {
-  if (rows.length === 0) return null;
-  let low = 0;
-  let high = rows.length - 1;
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (rows[middle]![0] <= time) low = middle;
-    else high = middle - 1;
-  }
-  const a = rows[low]!;
-  const b = rows[Math.min(low + 1, rows.length - 1)]!;
-  const share = b[0] > a[0] ? Math.min(1, Math.max(0, (time - a[0]) / (b[0] - a[0]))) : 0;
-  return [time, a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2]), wrapDeg(a[3] + share * wrapDeg(b[3] - a[3]))];
-}
+const speeds = ['0.2', '1', '2', '5', '10', '50'];
 
 export class Replay {
   time = 0;
@@ -29,17 +16,24 @@ export class Replay {
   onClose: () => void = () => {};
   private playing = false;
   private lastFrame = 0;
+  private plots: DrivePlots | null = null;
+  private columns: (number | null)[][] = [[]];
+  private shownPicture = '';
   private readonly runs = el('select', { 'aria-label': 'Run' });
   private readonly slider = el('input', { type: 'range', min: '0', step: '0.01', value: '0', 'aria-label': 'Time' });
   private readonly speed = el('select', { 'aria-label': 'Speed' }, ...speeds.map((s) => el('option', { value: s }, `${s} ×`)));
-  private readonly play = button('Play', 'Play or pause', () => this.toggle());
+  private readonly play = button('Play', 'Play or pause (space bar)', () => this.toggle());
   private readonly words = el('output', { id: 'replay-words' });
+  private readonly picture = el('img', { id: 'replay-picture', alt: 'Camera picture of that time', hidden: '' });
 
   constructor(private readonly stage: Stage, private readonly robotRadiusM: number, private readonly fail: (error: unknown) => void) {
     byId('replay').append(this.runs, this.play, this.slider, this.speed, this.words,
       button('Close', 'Leave the replay', () => this.onClose()));
+    stage.element.append(this.picture);
+    this.speed.value = '1';
     this.runs.addEventListener('change', () => { this.load(this.runs.value).catch(this.fail); });
     this.slider.addEventListener('input', () => this.goTo(this.slider.valueAsNumber));
+    addEventListener('keydown', (e) => this.key(e));
     stage.painters.push((c) => this.paint(c));
   }
 
@@ -49,7 +43,8 @@ export class Replay {
     if (names.length === 0) return 'No run folders: start the server with --runs FOLDER, as replay -o leaves them';
     this.runs.replaceChildren(...names.map((name) => el('option', { value: name }, name)));
     this.runs.value = names.at(-1)!;
-    byId('replay').hidden = false;
+    byId('replay').hidden = byId('replay-plots').hidden = false;
+    this.plots ??= new DrivePlots(byId('replay-plots'), (time) => this.goTo(time));
     await this.load(this.runs.value);
     return '';
   }
@@ -57,7 +52,7 @@ export class Replay {
   leave(): void {
     this.run = null;
     this.playing = false;
-    byId('replay').hidden = true;
+    byId('replay').hidden = byId('replay-plots').hidden = this.picture.hidden = true;
     this.stage.redraw();
   }
 
@@ -65,16 +60,31 @@ export class Replay {
     this.time = Math.min(this.end(), Math.max(0, time));
     this.slider.value = String(this.time);
     this.words.textContent = this.report();
-    this.stage.redraw();
+    this.plots?.tell(lastNotAfter(this.columns[0]!, this.time), true);
+    this.showPicture();
+    this.stage.redrawOverlay();
   }
 
   private async load(name: string): Promise<void> {
     this.run = await getRun(name);
     this.slider.max = String(this.end());
+    this.columns = columnsOf(this.run);
+    this.plots?.set(this.columns);
     this.goTo(0);
   }
 
   private end(): number { return Math.max(this.run?.estimate.at(-1)?.[0] ?? 0, this.run?.truth.at(-1)?.[0] ?? 0); }
+
+  private key(e: KeyboardEvent): void {
+    const onControl = e.target instanceof HTMLElement && e.target.closest('button, input, select, dialog') !== null;
+    if (!this.run || onControl) return;
+    const step = e.shiftKey ? 5 : 0.5;
+    if (e.key === ' ') this.toggle();
+    else if (e.key === 'ArrowLeft') this.goTo(this.time - step);
+    else if (e.key === 'ArrowRight') this.goTo(this.time + step);
+    else return;
+    e.preventDefault();
+  }
 
   private toggle(): void {
     this.playing = !this.playing;
@@ -92,6 +102,18 @@ export class Replay {
     else requestAnimationFrame((next) => this.advance(next));
   }
 
+  /** The last picture that had been taken by then. */
+  private showPicture(): void {
+    const names = this.run?.pictures ?? [];
+    const at = lastNotAfter(names.map((name) => parseFloat(name)), this.time);
+    this.picture.hidden = names.length === 0;
+    const name = names[at];
+    if (!name || !this.run || name === this.shownPicture) return;
+    this.shownPicture = name;
+    this.picture.src = pictureOfRun(this.run.name, name);
+    this.picture.dataset['time'] = String(parseFloat(name));
+  }
+
   private report(): string {
     const estimate = poseAt(this.run?.estimate ?? [], this.time);
     const truth = poseAt(this.run?.truth ?? [], this.time);
@@ -103,29 +125,12 @@ export class Replay {
 
   private paint(c: CanvasRenderingContext2D): void {
     if (!this.run) return;
-    c.lineWidth = 2;
-    c.strokeStyle = '#c33cc0';
-    this.paintTrack(c, this.run.estimate);
+    const colours = inkNow();
+    const { view } = this.stage;
+    const points = (rows: Row[]) => rows.map(([, x, y]) => ({ x, y }));
+    drawWay(c, view, points(this.run.truth), colours.truth, 1.5, [4, 4]);
+    drawWay(c, view, points(this.run.estimate), colours.track, 2);
     const pose = poseAt(this.run.estimate, this.time);
-    if (!pose) return;
-    const at = this.stage.view.toScreen({ x: pose[1], y: pose[2] });
-    const radius = Math.max(6, this.robotRadiusM * this.stage.view.pixelsPerM);
-    const angle = this.stage.view.angleOf(pose[3]);
-    c.fillStyle = 'rgb(195 60 192 / 45%)';
-    c.beginPath();
-    c.arc(at.x, at.y, radius, 0, 2 * Math.PI);
-    c.fill();
-    c.moveTo(at.x, at.y);
-    c.lineTo(at.x + radius * Math.cos(angle), at.y + radius * Math.sin(angle));
-    c.stroke();
-  }
-
-  private paintTrack(c: CanvasRenderingContext2D, rows: Row[]): void {
-    c.beginPath();
-    for (const row of rows) {
-      const p = this.stage.view.toScreen({ x: row[1], y: row[2] });
-      c.lineTo(p.x, p.y);
-    }
-    c.stroke();
+    if (pose) drawRobot(c, view, { x: pose[1], y: pose[2], yawDeg: pose[3] }, this.robotRadiusM, colours.robot);
   }
 }

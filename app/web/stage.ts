@@ -31,6 +31,7 @@ export class Stage {
   private readonly raster = document.createElement('canvas');
   private tints: { none: number[]; one: number[]; more: number[] } = { none: [], one: [], more: [] };
   private wanted = false;
+  private ceilingWanted = false;
   private overlayWanted = false;
 
   constructor(readonly element: HTMLElement, readonly view: View, readonly editor: Editor,
@@ -76,14 +77,22 @@ export class Stage {
 
   /** Draws everything with the next frame. */
   redraw(): void {
+    this.ceilingWanted = true;
+    this.redrawDragged();
+  }
+
+  /** The same while something is dragged: of very many markers only those that move, over where all were. */
+  redrawDragged(): void {
+    this.ceilingWanted ||= this.editor.markers.size < manyMarkers;
     if (this.wanted) return;
     this.wanted = true;
     requestAnimationFrame(() => {
       this.wanted = false;
       this.shiftLayers({ x: 0, y: 0 });
       this.drawFloor();
-      this.drawCeiling();
+      if (this.ceilingWanted) this.drawCeiling();
       this.drawOverlay();
+      this.ceilingWanted = false;
     });
   }
 
@@ -216,6 +225,7 @@ export class Stage {
       c.setLineDash([]);
       c.globalAlpha = 1;
     }
+    if (this.editor.markers.size >= manyMarkers) this.drawMoving(c);
     const handle = this.rotateHandle();
     if (handle) {
       const pivot = view.toScreen(this.editor.pivot(chosen));
@@ -233,6 +243,12 @@ export class Stage {
       const { a, b } = this.marquee;
       c.strokeRect(Math.min(a.x, b.x), Math.min(a.y, b.y), Math.abs(a.x - b.x), Math.abs(a.y - b.y));
     }
+  }
+
+  /** What is dragged, when the ceiling is not drawn anew for it. */
+  private drawMoving(c: CanvasRenderingContext2D): void {
+    const { view, colours } = this;
+    for (const marker of this.editor.preview.values()) drawFromAbove(c, marker, view, colours.chosen, colours.dot, true);
   }
 
   private drawPins(c: CanvasRenderingContext2D): void {

@@ -1,7 +1,7 @@
 // What the page uses of uPlot.
 declare module 'uplot' {
   interface Series { label?: string; stroke?: string; width?: number; dash?: number[]; spanGaps?: boolean; points?: { show: boolean } }
-  interface Axis { stroke?: string; grid?: { stroke: string; width: number }; ticks?: { stroke: string; width: number }; size?: number; font?: string; space?: number }
+  interface Axis { stroke?: string; grid?: { stroke: string; width: number }; ticks?: { stroke: string; width: number }; size?: number; gap?: number; font?: string; space?: number }
   interface Scale { time?: boolean; range?: (plot: uPlot, min: number, max: number) => [number, number] }
   interface Options {
     width: number; height: number; series: Series[]; axes?: Axis[]; scales?: Record<string, Scale>;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <octomap/OcTree.h>
 #include <sstream>
 
 #include "app/console/registry_edit.hpp"
@@ -71,6 +72,51 @@ TEST_F(ConsoleTest, changes_the_line_of_the_moved_marker_and_no_other) {
       EXPECT_THAT(after[i], HasSubstr("x_m: 2.5, y_m: 2.456"));
     }
   }
+}
+
+TEST_F(ConsoleTest, tells_the_usual_routes_from_place_to_place) {
+  const json routes = json::parse(get("/api/site").body)["routes"];
+  ASSERT_EQ(routes.size(), 2U);  // the lab's drive goes to E and back to S
+  EXPECT_EQ(routes[0].front(), json({1.2, 5.6}));
+  EXPECT_EQ(routes[0].back(), json({13.9, 2.0}));
+  EXPECT_EQ(routes[1].back(), json({1.2, 5.6}));
+}
+
+TEST_F(ConsoleTest, expects_small_deviations_below_markers_and_tells_where_none_is_seen) {
+  json registry = json::parse(get("/api/markers").body);
+  registry["markers"] =
+      json::array({{{"id", 447}, {"x_m", 9.0}, {"y_m", 3.65}, {"z_m", 2.6}, {"yaw_deg", 0}}});
+  const json found = json::parse(post("/api/markers/deviations", registry).body);
+  const int stride = found["stride"];
+  const int columns = found["columns"];
+  const auto at = [&](double x_m, double y_m) {
+    const auto cell = [&](double metres) { return static_cast<int>(metres / 0.05) / stride; };
+    return found["sigma_mm"][static_cast<std::size_t>(cell(y_m) * columns + cell(x_m))];
+  };
+  ASSERT_TRUE(at(9.05, 3.6).is_number());
+  EXPECT_GT(at(9.05, 3.6), 0.1);
+  EXPECT_LT(at(9.05, 3.6), 20.0);
+  EXPECT_TRUE(at(1.2, 5.6).is_null());
+}
+
+TEST_F(ConsoleTest, gives_heights_only_where_there_is_an_octomap) {
+  EXPECT_TRUE(json::parse(get("/api/map").body)["heights"].is_null());
+  EXPECT_EQ(get("/api/map/heights").status, 404);
+  console_.reset();
+  octomap::OcTree tree(0.1);
+  tree.updateNode(octomap::point3d(5.05F, 4.05F, 1.55F), true);
+  tree.updateInnerOccupancy();
+  tree.writeBinary((site_ / "lab.bt").string());
+  std::ofstream(site_ / "site.yaml", std::ios::app) << "octomap: lab.bt\n";
+
+  const json heights = json::parse(get("/api/map").body)["heights"];
+  const std::string bytes = get("/api/map/heights").body;
+  EXPECT_EQ(bytes.size(), 4U * 306U * 150U);
+  EXPECT_GE(heights["step_m"], 0.1);
+  const std::size_t cell = 4U * (81U * 306U + 101U);  // at 5.05, 4.05 m
+  EXPECT_NE(bytes.substr(cell, 4), std::string(4, '\0'));
+  EXPECT_EQ(std::ranges::count_if(bytes, [](char byte) { return byte != '\0'; }),
+            4);  // its voxel covers four cells
 }
 
 TEST_F(ConsoleTest, takes_markers_away_and_adds_them) {

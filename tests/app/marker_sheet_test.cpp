@@ -40,6 +40,42 @@ std::vector<Ring> circles_in_pdf(const std::string& pdf) {
   return rings;
 }
 
+struct Stroke {
+  Vec2 from_mm;
+  Vec2 to_mm;
+  double width_mm = 0.0;
+};
+
+/// The straight lines of a PDF: `W w X Y m X Y l S` on a row each.
+std::vector<Stroke> strokes_in_pdf(const std::string& pdf) {
+  std::vector<Stroke> strokes;
+  double scale = 0.0;
+  std::istringstream stream(pdf);
+  for (std::string row; std::getline(stream, row);) {
+    std::istringstream words(row);
+    if (row.ends_with(" cm")) {
+      words >> scale;
+      scale *= mm_per_point;
+    }
+    if (!row.ends_with(" l S")) continue;
+    Stroke stroke;
+    std::string op;
+    words >> stroke.width_mm >> op >> stroke.from_mm.x() >> stroke.from_mm.y() >> op >> stroke.to_mm.x() >>
+        stroke.to_mm.y();
+    strokes.push_back({scale * stroke.from_mm, scale * stroke.to_mm, scale * stroke.width_mm});
+  }
+  return strokes;
+}
+
+/// How many strokes are this line, in whichever direction.
+std::ptrdiff_t count_of(const std::vector<Stroke>& strokes, const Vec2& a, const Vec2& b) {
+  constexpr double same_mm = 0.01;
+  const auto at = [](const Vec2& p, const Vec2& q) { return (p - q).norm() < same_mm; };
+  return std::ranges::count_if(strokes, [&](const Stroke& stroke) {
+    return (at(stroke.from_mm, a) && at(stroke.to_mm, b)) || (at(stroke.from_mm, b) && at(stroke.to_mm, a));
+  });
+}
+
 /// The number in quotation marks after a word, from a place of a text on.
 double number_after(const std::string& text, const std::string& word, std::size_t from) {
   return std::stod(text.substr(text.find(word + "=\"", from) + word.size() + 2));
@@ -96,6 +132,49 @@ TEST(MarkerSheet, has_a_ruler_of_100_mm_and_keeps_to_the_page) {
       }
     }
     EXPECT_DOUBLE_EQ(longest_thin, 100.0);
+  }
+}
+
+/// The PDF of one sheet, its lines, and where dot O is on the paper: the sheet is centred.
+class SheetInPdf : public testing::TestWithParam<const char*> {
+ protected:
+  static constexpr int id = 447;
+  PaperSize paper = *paper_named(GetParam());
+  std::vector<Stroke> strokes = strokes_in_pdf(pdf_text({draw_marker_sheet(id, paper)}));
+  Vec2 o_mm{0.5 * paper.width_mm - 60.0, 0.5 * paper.height_mm - 60.0};
+};
+INSTANTIATE_TEST_SUITE_P(Papers, SheetInPdf, testing::Values("A4", "A3"));
+
+TEST_P(SheetInPdf, has_a_ruler_of_ten_centimetres_with_a_tick_at_each) {
+  EXPECT_EQ(count_of(strokes, o_mm + Vec2(0.0, -50.0), o_mm + Vec2(100.0, -50.0)), 1);
+  for (int cm = 0; cm <= 10; ++cm) {
+    const Vec2 foot = o_mm + Vec2(10.0 * cm, -50.0);
+    EXPECT_EQ(count_of(strokes, foot, foot + Vec2(0.0, cm % 5 == 0 ? 6.0 : 3.0)), 1) << cm;
+  }
+}
+
+TEST_P(SheetInPdf, has_cut_marks_at_the_corners_of_a_square_of_160_mm) {
+  for (const double right : {-1.0, 1.0}) {
+    for (const double top : {-1.0, 1.0}) {
+      const Vec2 corner = o_mm + Vec2(60.0 + 80.0 * right, 60.0 + 80.0 * top);
+      EXPECT_EQ(count_of(strokes, corner + Vec2(2.0 * right, 0.0), corner + Vec2(10.0 * right, 0.0)), 1);
+      EXPECT_EQ(count_of(strokes, corner + Vec2(0.0, 2.0 * top), corner + Vec2(0.0, 10.0 * top)), 1);
+    }
+  }
+}
+
+TEST_P(SheetInPdf, has_an_arrow_from_o_to_x_that_points_to_x) {
+  const Vec2 tip = o_mm + Vec2(120.0, -16.0);
+  EXPECT_EQ(count_of(strokes, o_mm + Vec2(0.0, -16.0), tip), 1);
+  EXPECT_EQ(count_of(strokes, tip, tip + Vec2(-4.0, 2.0)), 1);
+  EXPECT_EQ(count_of(strokes, tip, tip + Vec2(-4.0, -2.0)), 1);
+}
+
+TEST_P(SheetInPdf, has_a_cross_to_drill_by_in_the_middle_of_each_dot) {
+  for (const GridCell& cell : dots_of(id)) {
+    const Vec2 middle = o_mm + 1000.0 * cell_in_marker(cell);
+    EXPECT_EQ(count_of(strokes, middle - Vec2(3.0, 0.0), middle + Vec2(3.0, 0.0)), 1);
+    EXPECT_EQ(count_of(strokes, middle - Vec2(0.0, 3.0), middle + Vec2(0.0, 3.0)), 1);
   }
 }
 

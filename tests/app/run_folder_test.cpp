@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array file_names{"summary.json", "map.png", "estimate.tum",
-                                "truth.tum",    "can.log", "report.html"};
+constexpr std::array file_names{"summary.json", "map.png",   "estimate.tum", "truth.tum",
+                                "steps.csv",    "fixes.csv", "can.log",      "report.html"};
 
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -1,7 +1,7 @@
 // The console's port as Foxglove's own client sees it.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { packages, serve } from './programs.mjs';
+import { packages, serve, serveRobot } from './programs.mjs';
 import { complaints, officialSchema } from './schemas.mjs';
 
 const { FoxgloveClient } = packages('@foxglove/ws-protocol');
@@ -31,6 +31,43 @@ async function connect(url, subprotocol, options = {}) {
   };
   return { client, socket, info, channels, channel, hear };
 }
+
+describe('Foxglove and a robot that drives', () => {
+  let server;
+  before(async () => { server = await serveRobot(); });
+  after(() => server?.stop());
+
+  test('poses, numbers, words and pictures come as it goes', async () => {
+    const { client, channel, hear } = await connect(server.url, 'foxglove.sdk.v1');
+    for (const topic of ['/tf', '/pose', '/robot', '/path', '/log', '/camera']) {
+      const json = await hear(topic);
+      assert.deepEqual(complaints(officialSchema(channel(topic).schemaName), json), [], topic);
+    }
+    const id = client.subscribe(channel('/drive').id);
+    const times = [];
+    client.on('message', (m) => { if (m.subscriptionId === id) times.push(m.timestamp); });
+    await within(event(client, 'message', () => times.length >= 10), 20_000);
+    assert.ok(times.every((time, i) => i === 0 || time > times[i - 1]));
+    const before = times.length;
+    client.unsubscribe(id);
+    await hear('/map');  // the server has read all of that
+    const after = times.length;
+    await new Promise((done) => setTimeout(done, 400));
+    assert.equal(times.length, after, `${before}`);
+    client.close();
+  });
+
+  test('a viewer that never reads stops nobody', async () => {
+    const slow = new WebSocket(server.url.replace('http', 'ws'), ['foxglove.sdk.v1']);
+    await within(event(slow, 'open'));
+    for (let i = 0; i < 12; ++i) slow.send(JSON.stringify({ op: 'subscribe', subscriptions: [{ id: i, channelId: i }] }));
+    slow._socket.pause();
+    const { client, hear } = await connect(server.url, 'foxglove.sdk.v1');
+    for (const topic of ['/pose', '/drive', '/robot']) await hear(topic);
+    client.close();
+    slow.terminate();
+  });
+});
 
 describe('Foxglove', () => {
   let server;

@@ -9,15 +9,21 @@ export const packages = createRequire(join(resolve(process.env.LODESTAR_WEB_PACK
 export const source = resolve(process.env.LODESTAR_SOURCE_DIR ?? '../..');
 export const binary = process.env.LODESTAR_BINARY ?? join(source, 'build/release/lodestar');
 
-/** A server over a copy of the lab, on a port of its own. */
-export async function serve(...options) {
+/** A console over a copy of the lab, on a port of its own. */
+export const serve = (...options) => start((site, folder) => ['serve', site, '--runs', join(folder, 'runs'), ...options]);
+
+/** The same with a simulated robot that has nothing to do at first but to drive half a metre ahead. */
+export const serveRobot = (...options) => start((site, folder) =>
+  ['replay', site, '--serve', '--goal', '1.7,5.6', '-o', join(folder, 'runs', 'run'), ...options], 'ignore');
+
+async function start(command, words = 'inherit') {
   const folder = mkdtempSync(join(tmpdir(), 'lodestar-web-'));
   const site = join(folder, 'site');
   cpSync(join(source, 'sites/lab'), site, { recursive: true });
-  const server = spawn(binary, ['serve', site, '--port', '0', '--runs', join(folder, 'runs'), ...options], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const server = spawn(binary, [...command(site, folder), '--port', '0'], { stdio: ['ignore', 'pipe', words] });
   const url = await new Promise((found, failed) => {
     server.stdout.on('data', (bytes) => found(String(bytes).trim()));
-    server.on('exit', (code) => failed(new Error(`lodestar serve ended with ${code}`)));
+    server.on('exit', (code) => failed(new Error(`lodestar ended with ${code}`)));
   });
   const stop = () => {
     server.kill('SIGTERM');

@@ -1,0 +1,40 @@
+// What the plots of a run show: its steps, fixes and errors on one time line.
+import type { Row, Run } from './api.js';
+import { poseAt } from './poses.js';
+
+const mostRows = 1500;
+const seenForS = 0.5;
+
+/** Rows of time, 3 sigma (mm), error (mm), commanded, driven (m/s), confidence, markers: as DrivePlots has them. */
+export function columnsOf(run: Run): (number | null)[][] {
+  const columns: (number | null)[][] = Array.from({ length: 7 }, () => []);
+  const stride = Math.max(1, Math.ceil(run.steps.length / mostRows));
+  let fix = -1;
+  for (let i = 0; i < run.steps.length; i += stride) {
+    const [time, x, y, , sigma, , commanded, , driven] = run.steps[i]! as [number, number, number, number, number, number, number, number, number];
+    while (fix + 1 < run.fixes.length && run.fixes[fix + 1]![0]! <= time) ++fix;
+    const seen = fix >= 0 && time - run.fixes[fix]![0]! < seenForS ? run.fixes[fix]! : null;
+    const error = errorAt(run.truth, time, x, y);
+    const row = [time, 3000 * sigma, error, commanded, driven, seen?.[4] ?? null, seen ? seen.length - 6 : 0];
+    columns.forEach((column, at) => column.push(row[at]!));
+  }
+  return columns;
+}
+
+function errorAt(truth: Row[], time: number, x: number, y: number): number | null {
+  if (truth.length === 0 || time < truth[0]![0] || time > truth.at(-1)![0]) return null;
+  const pose = poseAt(truth, time)!;
+  return 1000 * Math.hypot(pose[1] - x, pose[2] - y);
+}
+
+/** The index of the last value that is not greater; 0 before the first. */
+export function lastNotAfter(values: (number | null)[], value: number): number {
+  let low = 0;
+  let high = values.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (values[middle]! <= value) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}

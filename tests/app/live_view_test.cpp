@@ -1,0 +1,237 @@
+#include "app/console/live_view.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/console/live_json.hpp"
+#include "app/console/routes.hpp"
+#include "maps/input_error.hpp"
+
+// Clients without sockets: what they send, what waits for them, and what the robot is told.
+namespace lodestar {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Site lab() {
+  return load_site(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab");
+}
+
+Stamp at(double time_s) {
+  return Stamp{} + from_seconds(time_s);
+}
+
+/// A robot that knows where it is.
+RobotState standing(double x_m, double y_m) {
+  RobotState state;
+  state.estimate = PoseEstimate{.map_from_base = {Vec2(x_m, y_m), 0.0},
+                                .covariance = Eigen::Vector3d(4e-6, 1e-6, 1e-4).asDiagonal()};
+  state.base = BaseState::ready;
+  return state;
+}
+
+/// One client of a view.
+class Client {
+ public:
+  explicit Client(LiveView& view, Role role = Role::drive) : session_(view.protocol().open(role, outbox_)) {}
+
+  void send(const json& message) const { session_->receive(message.dump(), false); }
+  void send_text(const std::string& text) const { session_->receive(text, false); }
+
+  /// The newest message of a type among those that wait; null when there is none. All are taken.
+  json newest(const std::string& type) {
+    json found;
+    while (const std::optional<SocketMessage> message = outbox_.take()) {
+      if (message->binary) continue;
+      json content = json::parse(*message->bytes);
+      if (content["type"] == type) found = std::move(content);
+    }
+    return found;
+  }
+
+ private:
+  Outbox outbox_;  // outlives the session
+  std::unique_ptr<SocketSession> session_;
+};
+
+const json a_goal = json::parse("[[9.4, 1.2]]");
+
+TEST(LiveView, says_hello_and_shows_the_newest_state_to_all) {
+  const Site site = lab();
+  LiveLink link;
+  LiveView view(site, &link);
+  Client first(view);
+  Client second(view, Role::view);
+  EXPECT_EQ(first.newest("hello")["role"], "drive");
+  EXPECT_EQ(second.newest("hello")["role"], "view");
+  RobotState state = standing(1.2, 5.6);
+  state.path = std::make_shared<const Path>(Path{{Vec2(1.2, 5.6), Vec2(2.0, 5.0)}});
+  for (const double x_m : {1.2, 1.3, 1.4}) {
+    state.estimate->map_from_base.position_m.x() = x_m;
+    view.pump(at(x_m), &state);
+  }
+  EXPECT_EQ(first.newest("state")["pose"]["x_m"], 1.4);
+  const json path = second.newest("path");
+  EXPECT_EQ(path["points"], json::parse("[[1.2, 5.6], [2.0, 5.0]]"));
+  Client late(view);  // sees at once what the others have seen
+  EXPECT_EQ(late.newest("state")["pose"]["x_m"], 1.4);
+}
+
+TEST(LiveView, lets_one_drive_at_a_time_and_everyone_stop) {
+  const Site site = lab();
+  LiveLink link;
+  LiveView view(site, &link);
+  Client first(view);
+  Client second(view);
+  Client viewer(view, Role::view);
+
+  first.send({{"type", "go"}, {"goals", a_goal}});
+  EXPECT_THAT(first.newest("refused")["why"], HasSubstr("at the wheel"));
+  first.send({{"type", "take"}});
+  second.send({{"type", "take"}});
+  EXPECT_THAT(second.newest("refused")["why"], HasSubstr("client 1"));
+  viewer.send({{"type", "take"}});
+  EXPECT_THAT(viewer.newest("refused")["why"], HasSubstr("token to drive"));
+  EXPECT_THAT(link.take_orders(), IsEmpty());
+
+  first.send({{"type", "go"}, {"goals", a_goal}});
+  const std::vector<Order> orders = link.take_orders();
+  ASSERT_EQ(orders.size(), 1U);
+  EXPECT_EQ(std::get<GoOrder>(orders.front().what).goals.front().position_m, Vec2(9.4, 1.2));
+  EXPECT_FALSE(link.take_stop());
+  viewer.send({{"type", "stop"}});
+  EXPECT_TRUE(link.take_stop());
+  EXPECT_FALSE(link.take_stop());
+
+  first.send({{"type", "release"}});
+  second.send({{"type", "take"}});
+  EXPECT_TRUE(second.newest("refused").is_null());
+}
+
+TEST(LiveView, a_stop_finds_its_way_when_no_order_does) {
+  const Site site = lab();
+  LiveLink link;
+  LiveView view(site, &link);
+  Client client(view);
+  client.send({{"type", "take"}});
+  for (int i = 0; i < 40; ++i) client.send({{"type", "pause"}});
+  EXPECT_THAT(client.newest("refused")["why"], HasSubstr("has not taken the orders"));
+  client.send({{"type", "stop"}});
+  EXPECT_TRUE(link.take_stop());
+}
+
+TEST(LiveView, previews_the_way_or_says_why_there_is_none) {
+  const Site site = lab();
+  LiveLink link;
+  LiveView view(site, &link);
+  Client client(view);
+  client.send({{"type", "preview"}, {"goals", a_goal}});
+  view.pump(at(1.0), nullptr);
+  EXPECT_THAT(client.newest("preview")["why"], HasSubstr("does not know where it is"));
+
+  const RobotState state = standing(1.2, 5.6);
+  view.pump(at(2.0), &state);
+  client.send({{"type", "preview"}, {"goals", json::parse("[[9.4, 1.2], [1.2, 5.6, 90]]")}});
+  view.pump(at(2.1), nullptr);
+  const json way = client.newest("preview");
+  EXPECT_GT(way["length_m"], 2 * 9.3);
+  EXPECT_EQ(way["points"].back(), json::parse("[1.2, 5.6]"));
+  client.send({{"type", "preview"}, {"goals", json::parse("[[2.0, 5.6], [3.3, 6.2]]")}});
+  view.pump(at(2.2), nullptr);
+  const json none = client.newest("preview");
+  EXPECT_EQ(none["goal"], 1);
+  EXPECT_THAT(none["why"], HasSubstr("goal"));
+  EXPECT_LT((Vec2(none["nearest"][0], none["nearest"][1]) - Vec2(3.3, 6.2)).norm(), 1.5);
+}
+
+TEST(LiveView, refuses_what_is_no_order_in_words_and_ends_with_what_is_no_message) {
+  const Site site = lab();
+  LiveLink link;
+  LiveView view(site, &link);
+  Client client(view);
+  client.send({{"type", "take"}});
+  for (const char* goals :
+       {"[]", "[[1]]", "[[1, 2, 3, 4]]", "[[1e300, 2]]", "[[null, 2]]", "{}", "[[1, 2, 1e9]]", "7"}) {
+    client.send({{"type", "go"}, {"goals", json::parse(goals)}});
+    EXPECT_FALSE(client.newest("refused").is_null()) << goals;
+  }
+  client.send({{"type", "fly"}});
+  EXPECT_EQ(client.newest("refused")["why"], "found an unknown word");
+  EXPECT_THAT(link.take_orders(), IsEmpty());
+  for (const char* text :
+       {"", "[", "[]", "7", "{}", "{\"type\": 7}", "{\"type\": \"go\"}", "{\"type\": \"camera\"}"}) {
+    EXPECT_THROW(client.send_text(text), std::exception) << text;
+  }
+}
+
+TEST(LiveView, without_a_robot_obeys_nobody) {
+  const Site site = lab();
+  LiveView view(site, nullptr);
+  Client client(view);
+  EXPECT_EQ(client.newest("hello")["robot"], false);
+  client.send({{"type", "stop"}});
+  EXPECT_THAT(client.newest("refused")["why"], HasSubstr("no robot"));
+}
+
+TEST(Lease, is_held_by_one_and_runs_out) {
+  Lease lease(std::chrono::seconds(1));
+  EXPECT_EQ(lease.holder(at(5.0)), std::nullopt);
+  EXPECT_TRUE(lease.take(1, at(5.0)));
+  EXPECT_FALSE(lease.take(2, at(5.9)));
+  EXPECT_TRUE(lease.hold(1, at(5.9)));
+  EXPECT_FALSE(lease.hold(2, at(6.0)));
+  EXPECT_EQ(lease.holder(at(6.8)), 1);
+  EXPECT_EQ(lease.holder(at(6.9)), std::nullopt);
+  EXPECT_FALSE(lease.hold(1, at(7.0)));  // too late: it must be taken anew
+  EXPECT_TRUE(lease.take(2, at(7.0)));
+  lease.release(1);
+  EXPECT_EQ(lease.holder(at(7.1)), 2);
+  lease.release(2);
+  EXPECT_EQ(lease.holder(at(7.1)), std::nullopt);
+}
+
+TEST(LiveLink, gives_the_newest_state_once_and_only_when_wanted) {
+  LiveLink link;
+  EXPECT_FALSE(link.wants_state());
+  link.want_state();
+  EXPECT_TRUE(link.wants_state());
+  link.publish(standing(1.0, 1.0));
+  EXPECT_FALSE(link.wants_state());
+  link.publish(standing(2.0, 1.0));
+  EXPECT_EQ(link.newest()->estimate->map_from_base.position_m.x(), 2.0);
+  EXPECT_FALSE(link.newest().has_value());
+}
+
+TEST(Routes, are_read_strictly_and_written_as_they_are_read) {
+  const std::string text =
+      "format: lodestar-routes\nversion: 1\nplaces:\n  - {name: \"desk: \\\"A\\\"\", x_m: 1.25, y_m: -2, "
+      "yaw_deg: 90}\n"
+      "  - {name: \"door\", x_m: 0.1, y_m: 2}\nroutes:\n  - {name: \"round\", places: [\"door\", \"desk: "
+      "\\\"A\\\"\"]}\n";
+  const Routes routes = parse_routes(text, "routes.yaml");
+  EXPECT_EQ(routes.places.front().name, "desk: \"A\"");
+  EXPECT_EQ(routes_text(routes), text);
+  EXPECT_EQ(routes_text(parse_routes(routes_json(routes).dump(), "sent")), text);
+  EXPECT_EQ(routes_text(parse_routes(routes_text({}), "none")), routes_text({}));
+
+  const auto complaint = [&](const std::string& from, const std::string& to) -> std::string {
+    std::string wrong = text;
+    wrong.replace(wrong.find(from), from.size(), to);
+    try {
+      (void)parse_routes(wrong, "routes.yaml");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaint("[\"door\"", "[\"gate\""), HasSubstr("routes.yaml:7"));
+  EXPECT_THAT(complaint("\"door\", x_m: 0.1", "\"desk: \\\"A\\\"\", x_m: 0.1"), HasSubstr("twice"));
+  EXPECT_THAT(complaint("x_m: 0.1", "x: 0.1"), HasSubstr("routes.yaml:5"));
+  EXPECT_THAT(complaint("y_m: -2", "y_m: .inf"), HasSubstr("routes.yaml:4"));
+  EXPECT_THAT(complaint("lodestar-routes", "lodestar-markers"), HasSubstr("lodestar-routes"));
+}
+
+}  // namespace
+}  // namespace lodestar
