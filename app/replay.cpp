@@ -109,6 +109,7 @@ class SimulatedDrive {
 
   RunRecord end_record() {
     recording_ = false;
+    if (!mission_.finished()) record_.goals[mission_.current()].failure = "stopped by the operator";
     const Scorer& scorer = simulation_.scorer();
     record_.truth = scorer.track();
     record_.path_distances_m = scorer.path_distances_m();

@@ -215,7 +215,7 @@ ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArgu
       site, options, attendant, [] { return !Interruption::asked(); },
       [&](RunRecord record) {
         all_arrived = all_arrived && record.arrived();
-        record.repeat = repeat_command(arguments.site, options);
+        if (runs.count() == 0) record.repeat = repeat_command(arguments.site, options);
         runs.keep(std::move(record));
       });
   return all_arrived ? done : job_failed;

@@ -32,17 +32,17 @@ export class DrivePanel {
     const rows: [string, string, boolean?][] = [];
     const pose = state.pose;
     rows.push(['Pose', pose ? `${pose.x_m.toFixed(3)}, ${pose.y_m.toFixed(3)} m, ${pose.yaw_deg.toFixed(1)}°` : 'not known', !pose]);
-    if (pose) rows.push(['Sure within (3σ)', `${(1000 * ellipseOf(pose.covariance_m2, 3).long).toFixed(1)} mm, ${(3 * pose.sigma_yaw_deg).toFixed(2)}°`]);
-    if (state.error_m !== null) rows.push(['Off by the truth', `${(1000 * state.error_m).toFixed(1)} mm`]);
+    if (pose) rows.push(['Sure to 3σ', `${(1000 * ellipseOf(pose.covariance_m2, 3).long).toFixed(1)} mm, ${(3 * pose.sigma_yaw_deg).toFixed(2)}°`]);
+    if (state.error_m !== null) rows.push(['Off by', `${(1000 * state.error_m).toFixed(1)} mm`]);
     const speed = state.measured ?? state.commanded;
     rows.push(['Speed', `${positive(speed.forward_mps.toFixed(2))} m/s, ${positive(speed.turn_degps.toFixed(0))} °/s`]);
     const age = state.seen_s === null ? null : state.time_s - state.seen_s;
     rows.push(['Markers', age === null ? 'none seen yet' : `${state.markers.join(', ')}${age > 0.5 ? ` (${age.toFixed(1)} s ago)` : ''}`, age === null || age > 2]);
     if (state.distrusted.length > 0) rows.push(['Not trusted', state.distrusted.join(', '), true]);
-    rows.push(['May it move?', state.stop ?? (state.base_ready ? 'yes' : 'no'), state.stop !== null]);
+    rows.push(['May move', state.stop ?? (state.base_ready ? 'yes' : 'no'), state.stop !== null]);
     rows.push(['Base', state.fault ? `${state.base}: ${state.fault}` : state.base, !state.base_ready]);
     if (state.battery_v !== null) rows.push(['Battery', `${state.battery_v.toFixed(1)} V`]);
-    rows.push(['At the wheel', state.driver === null ? 'nobody' : this.live.atWheel ? 'you' : `client ${state.driver}`]);
+    rows.push(['Driver', state.driver === null ? 'nobody' : this.live.atWheel ? 'you' : `client ${state.driver}`]);
     byId('robot').replaceChildren(el('dl', {}, ...rows.flatMap(([name, words, bad]) =>
       [el('dt', {}, name), el('dd', bad ? { class: 'error' } : {}, words.replaceAll(/ (?=mm|m\b|m\/s|°|V)/g, '\u00a0'))])));
   }

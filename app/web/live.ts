@@ -75,6 +75,7 @@ export class Live implements Guest, Listener {
     this.hello = hello;
     this.wantsWheel = false;
     this.socket.send({ type: 'camera', on: this.shown });
+    if (hello.robot) document.body.dataset['robot'] = '';
     if (first && hello.robot) this.onRobot();
     this.panel.refresh();
   }

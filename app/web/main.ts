@@ -60,6 +60,7 @@ class Console {
   readonly routes: Point[][];
   readonly live: Live;
   mode: Mode = 'edit';
+  private readonly seen = new Set<Mode>();
   private readonly panel: Panel;
   private readonly commands: Command[];
   private base: Registry;
@@ -291,11 +292,27 @@ class Console {
     this.pointer.guest = mode === 'live' ? this.live : null;
     this.live.show(mode === 'live');
     if (before !== mode) this.layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
+    if (mode !== 'replay') this.fitAtFirst(mode);
     this.refreshTools();
     this.stage.paintRaster();
     this.stage.redraw();
-    if (mode === 'replay') attempt(() => this.replay.open());
+    if (mode === 'replay') attempt(() => this.openReplay());
     else if (before === 'replay') this.replay.leave();
+  }
+
+  private async openReplay(): Promise<string> {
+    const first = !this.seen.has('replay');
+    const words = await this.replay.open();
+    if (first && this.mode === 'replay') this.fitAtFirst('replay');
+    return words;
+  }
+
+  /** Each mode has room of another size for the map. */
+  private fitAtFirst(mode: Mode): void {
+    if (this.seen.has(mode)) return;
+    this.seen.add(mode);
+    this.stage.resize();
+    this.fit();
   }
 
   private refreshTools(): void {

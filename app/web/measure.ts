@@ -58,6 +58,11 @@ export class Measure {
     c.moveTo(a.x, a.y); c.lineTo(b.x, b.y);
     c.stroke();
     c.font = 'bold 13px system-ui, sans-serif';
-    if (this.to) c.fillText(this.words(), (a.x + b.x) / 2 + 10, (a.y + b.y) / 2 - 8);
+    if (!this.to) return;
+    const at = { x: (a.x + b.x) / 2 + 10, y: (a.y + b.y) / 2 - 8 };
+    c.lineWidth = 4;
+    c.strokeStyle = this.stage.colours.paper;
+    c.strokeText(this.words(), at.x, at.y);
+    c.fillText(this.words(), at.x, at.y);
   }
 }

@@ -16,7 +16,7 @@ export class Plot {
 
   constructor(parent: HTMLElement, private readonly title: string, private readonly lines: Line[], private readonly heightPx = 100) {
     this.data = [[], ...lines.map(() => [])];
-    parent.append(el('figure', { role: 'group', 'aria-label': title }, this.words, this.box));
+    parent.append(el('figure', {}, this.words, this.box));
     new ResizeObserver(() => this.fit()).observe(this.box);
     new MutationObserver(() => this.make()).observe(document.documentElement, { attributeFilter: ['data-theme'] });
     this.make();

@@ -6,6 +6,7 @@ import { DrivePlots } from './plots.js';
 import { poseAt } from './poses.js';
 import { drawRobot, drawWay, inkNow } from './robot_paint.js';
 import { columnsOf, lastNotAfter } from './run_plots.js';
+import { showSummary } from './run_summary.js';
 import type { Stage } from './stage.js';
 
 const speeds = ['0.2', '1', '2', '5', '10', '50'];
@@ -24,12 +25,13 @@ export class Replay {
   private readonly speed = el('select', { 'aria-label': 'Speed' }, ...speeds.map((s) => el('option', { value: s }, `${s} ×`)));
   private readonly play = button('Play', 'Play or pause (space bar)', () => this.toggle());
   private readonly words = el('output', { id: 'replay-words' });
+  private readonly noPicture = el('p', { class: 'faint' }, 'No pictures: lodestar replay --pictures 2 keeps two a second');
   private readonly picture = el('img', { id: 'replay-picture', alt: 'Camera picture of that time', hidden: '' });
 
   constructor(private readonly stage: Stage, private readonly robotRadiusM: number, private readonly fail: (error: unknown) => void) {
     byId('replay').append(this.runs, this.play, this.slider, this.speed, this.words,
       button('Close', 'Leave the replay', () => this.onClose()));
-    stage.element.append(this.picture);
+    byId('picture-box').append(this.picture, this.noPicture);
     this.speed.value = '1';
     this.runs.addEventListener('change', () => { this.load(this.runs.value).catch(this.fail); });
     this.slider.addEventListener('input', () => this.goTo(this.slider.valueAsNumber));
@@ -52,7 +54,7 @@ export class Replay {
   leave(): void {
     this.run = null;
     this.playing = false;
-    byId('replay').hidden = byId('replay-plots').hidden = this.picture.hidden = true;
+    byId('replay').hidden = byId('replay-plots').hidden = true;
     this.stage.redraw();
   }
 
@@ -70,6 +72,7 @@ export class Replay {
     this.slider.max = String(this.end());
     this.columns = columnsOf(this.run);
     this.plots?.set(this.columns);
+    showSummary(this.run);
     this.goTo(0);
   }
 
@@ -107,6 +110,7 @@ export class Replay {
     const names = this.run?.pictures ?? [];
     const at = lastNotAfter(names.map((name) => parseFloat(name)), this.time);
     this.picture.hidden = names.length === 0;
+    this.noPicture.hidden = names.length > 0;
     const name = names[at];
     if (!name || !this.run || name === this.shownPicture) return;
     this.shownPicture = name;

@@ -16,6 +16,12 @@ function* walk(leg: Point[]): Generator<Point> {
   }
 }
 
+const near = (a: Point, b: Point): boolean => Math.hypot(a.x - b.x, a.y - b.y) < 0.3;
+
+/** The same stretch, there or back? */
+const alike = (a: BlindStretch, b: BlindStretch): boolean =>
+  (near(a.from, b.from) && near(a.to, b.to)) || (near(a.from, b.to) && near(a.to, b.from));
+
 /** Stretches of the route longer than `mostM` from which no marker is sure to be seen. */
 export function blindStretches(routes: Point[][], coverage: Coverage, mostM: number): BlindStretch[] {
   const found: BlindStretch[] = [];
@@ -24,7 +30,8 @@ export function blindStretches(routes: Point[][], coverage: Coverage, mostM: num
     let last: Point | null = null;
     let lengthM = 0;
     const close = () => {
-      if (from && last && lengthM > mostM) found.push({ from, to: last, lengthM });
+      const stretch = from && last && lengthM > mostM ? { from, to: last, lengthM } : null;
+      if (stretch && !found.some((other) => alike(stretch, other))) found.push(stretch);
       from = null;
       lengthM = 0;
     };

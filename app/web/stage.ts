@@ -13,9 +13,9 @@ const badTint = [214, 60, 50], doubtTint = [232, 176, 40], goodTint = [46, 150, 
 const goodDeviationM = 0.005, badDeviationM = 0.02;
 const manyMarkers = 1500;  // from here on a pan moves the drawn layers, and draws them anew at its end
 
-interface Colours { free: number[]; wall: number[]; unknown: number[]; marker: string; dot: string; chosen: string; ink: string; route: string }
-const light: Colours = { free: [255, 255, 255], wall: [52, 60, 72], unknown: [205, 210, 217], marker: '#1c2430', dot: '#ffffff', chosen: '#0b5fce', ink: '#1c2430', route: '#7a3fb0' };
-const dark: Colours = { free: [40, 47, 58], wall: [150, 161, 176], unknown: [22, 27, 34], marker: '#0a0d12', dot: '#dfe6f0', chosen: '#7fb2ff', ink: '#e7ebf2', route: '#d9a8ff' };
+interface Colours { free: number[]; wall: number[]; unknown: number[]; marker: string; dot: string; chosen: string; ink: string; paper: string; route: string }
+const light: Colours = { free: [255, 255, 255], wall: [52, 60, 72], unknown: [205, 210, 217], marker: '#1c2430', dot: '#ffffff', chosen: '#0b5fce', ink: '#1c2430', paper: '#ffffff', route: '#7a3fb0' };
+const dark: Colours = { free: [40, 47, 58], wall: [150, 161, 176], unknown: [22, 27, 34], marker: '#0a0d12', dot: '#dfe6f0', chosen: '#7fb2ff', ink: '#e7ebf2', paper: '#12161d', route: '#d9a8ff' };
 
 export class Stage {
   /** Metres a cell; nothing yet, or not seen from there. */

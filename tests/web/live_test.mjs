@@ -228,7 +228,7 @@ describe('seeing', () => {
     assert.ok(existsSync(join(robot.runs, 'run', 'steps.csv')));
     await page.locator('#tool-replay').click();
     await until(page, () => window.lodestar.console.replay.run !== null);
-    await page.getByLabel('Run', { exact: true }).selectOption('run');
+    await page.locator('#replay').getByLabel('Run', { exact: true }).selectOption('run');
     await until(page, () => window.lodestar.console.replay.run.name === 'run');
     await page.getByLabel('Time').fill('2.5');
     await page.locator('#replay-words', { hasText: /^2\.5 of/ }).waitFor();

@@ -1,0 +1,22 @@
+// What came of a run, in words and numbers.
+import type { Run } from './api.js';
+import { byId, el } from './dom.js';
+
+interface GoalFacts { x_m: number; y_m: number; heading_deg: number | null; arrived: boolean; failure: string; travel_time_s: number; position_error_m: number | null }
+interface Facts { camera?: string; seed?: number; repeat?: string; contacts?: number; nees?: number | null; goals?: GoalFacts[] }
+
+export function showSummary(run: Run): void {
+  const facts = run.summary as Facts;
+  const rows: [string, string][] = [['Camera', facts.camera ?? '-'], ['Seed', String(facts.seed ?? '-')]];
+  if (run.truth.length > 0) rows.push(['Contacts', String(facts.contacts ?? '-')], ['NEES (3 is honest)', facts.nees?.toFixed(2) ?? '-']);
+  byId('run-facts').replaceChildren(el('dl', {}, ...rows.flatMap(([name, words]) => [el('dt', {}, name), el('dd', {}, words)])),
+    el('p', { class: 'faint' }, facts.repeat ?? ''));
+  byId('run-goals').replaceChildren(el('ul', { class: 'plain' }, ...(facts.goals ?? []).map(goalLine)));
+}
+
+function goalLine(goal: GoalFacts): HTMLElement {
+  const place = `${goal.x_m.toFixed(2)}, ${goal.y_m.toFixed(2)} m`;
+  if (!goal.arrived) return el('li', { class: 'error' }, `${place}: not reached: ${goal.failure || 'never started'}`);
+  const error = goal.position_error_m === null ? '' : `, ${(1000 * goal.position_error_m).toFixed(1)} mm off`;
+  return el('li', { class: 'fine' }, `${place}: reached after ${goal.travel_time_s.toFixed(1)} s${error}`);
+}
