@@ -84,7 +84,7 @@ ordered_json state_json(const RobotState& state) {
       {"events", ordered_json::array()}};
   for (const Goal& goal : state.goals) out["goals"].push_back(goal_json(goal));
   for (const DistrustedMarker& marker : state.distrusted) out["distrusted"].push_back(marker.id);
-  for (const Event& event : state.events) {
+  for (const DriveEvent& event : state.events) {
     out["events"].push_back(
         {{"number", event.number}, {"time_s", rounded(seconds(event.stamp))}, {"words", event.words}});
   }

@@ -35,7 +35,7 @@ class Attendant {
   std::function<void(const std::string&)> tell_;
   std::vector<Goal> next_goals_;  ///< when the robot has come to rest
   bool by_console_ = false;       ///< the present drive was asked for there
-  std::deque<Event> events_;
+  std::deque<DriveEvent> events_;
   std::uint64_t said_ = 0;
   std::optional<UsedFix> last_fix_;
   std::optional<Frame> last_frame_;

@@ -16,7 +16,7 @@
 namespace lodestar {
 
 /// Something that happened, in words for people.
-struct Event {
+struct DriveEvent {
   std::uint64_t number = 0;  ///< 1, 2, ... since the start
   Stamp stamp;
   std::string words;
@@ -44,7 +44,7 @@ struct RobotState {
   std::optional<Frame> frame;  ///< the newest
 
   std::optional<double> error_m;  ///< by the truth, which only a simulation is told
-  std::vector<Event> events;      ///< the latest, oldest first
+  std::vector<DriveEvent> events;      ///< the latest, oldest first
 };
 
 }  // namespace lodestar

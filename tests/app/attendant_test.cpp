@@ -26,7 +26,7 @@ struct Story {
   std::vector<RunRecord> kept;
 
   [[nodiscard]] bool said(const std::string& words) const {
-    return std::ranges::any_of(states.back().events, [&](const Event& event) {
+    return std::ranges::any_of(states.back().events, [&](const DriveEvent& event) {
       return event.words.find(words) != std::string::npos;
     });
   }
