@@ -37,7 +37,7 @@ void FoxgloveView::show(const RobotState& state) {
   const std::vector<int> distrusted = ids_of(state.distrusted);
   if (distrusted != distrusted_) publish({ceiling_message(state.now, registry_, distrusted)});
   distrusted_ = distrusted;
-  for (const Event& event : state.events) {
+  for (const DriveEvent& event : state.events) {
     if (event.number > last_event_) publish({words_message(event.stamp, LogLevel::info, event.words)});
   }
   if (!state.events.empty()) last_event_ = state.events.back().number;
