@@ -9,10 +9,12 @@
 namespace lodestar {
 
 /// Writes run folders while the robot goes on: the first as asked for, those of the drives after it as
-/// NAME-2, NAME-3 beside it.
+/// NAME-2, NAME-3 beside it, whichever name is still free.
 class KeptRuns {
  public:
-  KeptRuns(std::filesystem::path first, const Site& site) : first_(std::move(first)), site_(site) {}
+  /// `replaces_first`: the first folder is written over when it is there; else it too gets a free name.
+  KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site)
+      : first_(std::move(first)), replaces_first_(replaces_first), site_(site) {}
   ~KeptRuns();
   KeptRuns(const KeptRuns&) = delete;
   KeptRuns& operator=(const KeptRuns&) = delete;
@@ -25,7 +27,10 @@ class KeptRuns {
   [[nodiscard]] int count() const { return count_; }
 
  private:
+  [[nodiscard]] std::filesystem::path next_folder() const;
+
   std::filesystem::path first_;
+  bool replaces_first_;
   const Site& site_;
   int count_ = 0;
   std::future<void> writing_;

@@ -199,7 +199,7 @@ ExitCode replay_served(const Site& site, const ReplayOptions& options, const Rep
   LiveLink link;
   ConsoleService service(console, &link);
   Attendant attendant(link, [](const std::string& words) { fmt::print(stderr, "{}\n", words); });
-  KeptRuns runs(folder, site);
+  KeptRuns runs(folder, true, site);
   bool all_arrived = true;
 
   const Interruption interruption;

@@ -73,7 +73,7 @@ class ServedRun {
   ServedRun(const Site& site, const RunArguments& arguments, RunOptions& options)
       : service_(console_options(site, arguments), &link_),
         runs_(arguments.output.empty() ? fs::path(arguments.runs) / site.name : fs::path(arguments.output),
-              site) {
+              !arguments.output.empty(), site) {
     options.attendant = &attendant_;
     options.hold_on_base_fault = true;
     options.keep = [this](RunRecord record) { keep(std::move(record)); };
