@@ -156,6 +156,7 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
   command->add_option("--runs", arguments->runs, "With --serve: folder for run folders, unless -o names one")
       ->capture_default_str();
   add_console_options(*command, arguments->console.access);
+  add_lease_option(*command, arguments->console.live.lease);
   command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
   command->add_option("--seed", arguments->seed, "Of a simulated camera")->capture_default_str();
   command
