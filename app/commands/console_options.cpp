@@ -30,6 +30,14 @@ void add_console_options(CLI::App& command, AccessRules& access) {
       ->envname("LODESTAR_VIEW_TOKEN");
 }
 
+void add_lease_option(CLI::App& command, Duration& lease) {
+  command
+      .add_option_function<double>(
+          "--lease", [&lease](double lease_s) { lease = from_seconds(lease_s); },
+          "Seconds after which the robot pauses when its driver is silent; 1 when left out")
+      ->check(CLI::Range(0.3, 60.0));
+}
+
 void check_tokens(const AccessRules& access) {
   check_token("--token", access.token);
   check_token("--edit-token", access.edit_token);

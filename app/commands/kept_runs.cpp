@@ -8,21 +8,35 @@
 
 namespace lodestar {
 
-KeptRuns::KeptRuns(std::filesystem::path first, const Site& site, const std::string& camera)
-    : first_(std::move(first)), site_(site), world_(known_world(site, camera)) {}
+KeptRuns::KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site,
+                   const std::string& camera)
+    : first_(std::move(first)),
+      replaces_first_(replaces_first),
+      site_(site),
+      world_(known_world(site, camera)) {}
 
 KeptRuns::~KeptRuns() {
   if (writing_.valid()) writing_.wait();
 }
 
-std::filesystem::path KeptRuns::next() const {
-  return count_ == 0 ? first_ : std::filesystem::path(fmt::format("{}-{}", first_.string(), count_ + 1));
+std::filesystem::path KeptRuns::next_folder() const {
+  if (count_ == 0 && replaces_first_) return first_;
+  std::filesystem::path folder = first_;
+  for (int number = 2; std::filesystem::exists(folder); ++number) {
+    folder = fmt::format("{}-{}", first_.string(), number);
+  }
+  return folder;
+}
+
+const std::filesystem::path& KeptRuns::present_folder() {
+  if (!folder_) folder_ = next_folder();
+  return *folder_;
 }
 
 void KeptRuns::watch(const DriveMoment& moment) {
   if (mcap_refused_) return;
   try {
-    if (!mcap_) mcap_.emplace(next(), world_, site_.robot.radius_m);
+    if (!mcap_) mcap_.emplace(present_folder(), world_, site_.robot.radius_m);
     mcap_->watch(moment);
   } catch (const InputError& error) {
     mcap_refused_ = true;
@@ -35,7 +49,8 @@ void KeptRuns::keep(RunRecord record) {
   mcap_.reset();
   mcap_refused_ = false;
   if (writing_.valid()) writing_.wait();
-  const std::filesystem::path folder = next();
+  const std::filesystem::path folder = present_folder();
+  folder_.reset();
   ++count_;
   writing_ = std::async(std::launch::async, [this, folder, kept = std::move(record)] {
     try {

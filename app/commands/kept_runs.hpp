@@ -10,10 +10,11 @@
 namespace lodestar {
 
 /// Writes run folders while the robot goes on: the first as asked for, those of the drives after it as
-/// NAME-2, NAME-3 beside it.
+/// NAME-2, NAME-3 beside it, whichever name is still free.
 class KeptRuns {
  public:
-  KeptRuns(std::filesystem::path first, const Site& site, const std::string& camera);
+  /// `replaces_first`: the first folder is written over when it is there; else it too gets a free name.
+  KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site, const std::string& camera);
   ~KeptRuns();
   KeptRuns(const KeptRuns&) = delete;
   KeptRuns& operator=(const KeptRuns&) = delete;
@@ -29,12 +30,15 @@ class KeptRuns {
   [[nodiscard]] int count() const { return count_; }
 
  private:
-  [[nodiscard]] std::filesystem::path next() const;
+  [[nodiscard]] std::filesystem::path next_folder() const;
+  const std::filesystem::path& present_folder();
 
   std::filesystem::path first_;
+  bool replaces_first_;
   const Site& site_;
   KnownWorld world_;
-  std::optional<RunMcap> mcap_;  ///< of the present drive
+  std::optional<RunMcap> mcap_;                  ///< of the present drive
+  std::optional<std::filesystem::path> folder_;  ///< of the present drive, once it has one
   bool mcap_refused_ = false;
   int count_ = 0;
   std::future<void> writing_;

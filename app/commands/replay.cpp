@@ -204,7 +204,7 @@ ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArgu
   LiveLink link;
   ConsoleService service(console, &link);
   Attendant attendant(link, [](const std::string& words) { fmt::print(stderr, "{}\n", words); });
-  KeptRuns runs(folder, site, options.camera);
+  KeptRuns runs(folder, true, site, options.camera);
   options.watch = [&runs](const DriveMoment& moment) { runs.watch(moment); };
   bool all_arrived = true;
 
@@ -262,6 +262,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                                          "Show it in a browser, and wait there for more goals until Ctrl-C");
   serve->excludes(command->get_option("--runs"));
   add_console_options(*command, arguments->console.access);
+  add_lease_option(*command, arguments->console.live.lease);
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_flag("--json", arguments->json, "Results as JSON");
   command->add_option("-o,--output", arguments->output, "Run folder; runs/SITE-SEED when left out");

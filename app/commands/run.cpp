@@ -75,7 +75,7 @@ class ServedRun {
   ServedRun(const Site& site, const RunArguments& arguments, RunOptions& options)
       : service_(console_options(site, arguments), &link_),
         runs_(arguments.output.empty() ? fs::path(arguments.runs) / site.name : fs::path(arguments.output),
-              site, options.camera) {
+              !arguments.output.empty(), site, options.camera) {
     options.watch = [this](const DriveMoment& moment) { runs_.watch(moment); };
     options.attendant = &attendant_;
     options.hold_on_base_fault = true;
@@ -166,6 +166,7 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
   command->add_option("--runs", arguments->runs, "With --serve: folder for run folders, unless -o names one")
       ->capture_default_str();
   add_console_options(*command, arguments->console.access);
+  add_lease_option(*command, arguments->console.live.lease);
   command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
   command->add_option("--seed", arguments->seed, "Of a simulated camera")->capture_default_str();
   command

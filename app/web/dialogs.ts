@@ -57,7 +57,9 @@ export async function showHelp(commands: Command[]): Promise<void> {
   const mouse: [string, string][] = [
     ['Drag', 'a marker: move all chosen; the round handle: rotate; the floor: pan'],
     ['Shift+click', 'choose one more'], ['Shift+drag', 'choose all in a box'], ['Alt while dragging', 'no snapping'],
-    ['Wheel', 'zoom about the pointer'], ['Right drag', 'pan, wherever it begins']];
+    ['Wheel', 'zoom about the pointer'], ['Right drag', 'pan, wherever it begins'],
+    ['Live: click, Shift+click', 'a goal, one goal more; the end of its arrow: drag for a heading'], ['Live: space bar', 'stop the robot'],
+    ['Replay: arrows, space bar', 'half a second on or back (Shift: five), play or pause']];
   const keys = commands.filter((c) => c.key).map((c): [string, string] => [c.key!, c.title]);
   const list = el('dl', {}, ...[...mouse, ...keys].flatMap(([key, words]) => [el('dt', {}, key), el('dd', {}, words)]));
   await ask('Mouse and keys', [list, el('p', {}, 'A marker is given by the middle of its dot O (orange) and the direction from O ' +

@@ -42,7 +42,7 @@ async function clickMap(page, x, y, ...keys) {
 }
 
 const previewed = (page) => page.locator('#preview-words', { hasText: /about \d+ s/ }).waitFor();
-const event = (page, words) => until(page, (w) => window.lodestar.console.live.state.events.some((e) => e.words.includes(w)), words);
+const event = (page, words) => until(page, (w) => window.lodestar.console.live.state?.events.some((e) => e.words.includes(w)), words);
 
 async function leave(page) {
   assert.deepEqual(page.complaints, []);

@@ -14,7 +14,8 @@ export const serve = (...options) => start((site, folder) => ['serve', site, '--
 
 /** The same with a simulated robot that has nothing to do at first but to drive half a metre ahead. */
 export const serveRobot = (...options) => start((site, folder) =>
-  ['replay', site, '--serve', '--goal', '1.7,5.6', '-o', join(folder, 'runs', 'run'), ...options], 'ignore');
+  ['replay', site, '--serve', '--goal', '1.7,5.6', '-o', join(folder, 'runs', 'run'),
+    '--lease', '3', ...options], 'ignore');  // a page may take its time where the machine is busy
 
 async function start(command, words = 'inherit') {
   const folder = mkdtempSync(join(tmpdir(), 'lodestar-web-'));
@@ -27,7 +28,7 @@ async function start(command, words = 'inherit') {
   });
   const stop = () => {
     server.kill('SIGTERM');
-    rmSync(folder, { recursive: true, force: true });
+    rmSync(folder, { recursive: true, force: true, maxRetries: 50, retryDelay: 100 });  // it may still write its run
   };
   return { url, site, runs: join(folder, 'runs'), stop, markersFile: () => readFileSync(join(site, 'markers.yaml'), 'utf8') };
 }
