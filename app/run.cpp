@@ -46,10 +46,16 @@ std::string in_words(const Mission& mission, MissionEvent event) {
   return "";
 }
 
+/// More frames than a camera sends in a period wait for the next one: to catch up must not hold commands up.
 SensorInput sense(Camera& camera, BaseDriver& base) {
+  constexpr std::size_t most_frames = 2;
   const Stamp now = monotonic_now();
   SensorInput input{.now = now, .frames = {}, .base = base.poll(now)};
-  while (std::optional<Frame> frame = camera.poll()) input.frames.push_back(std::move(*frame));
+  while (input.frames.size() < most_frames) {
+    std::optional<Frame> frame = camera.poll();
+    if (!frame) break;
+    input.frames.push_back(std::move(*frame));
+  }
   return input;
 }
 

@@ -136,8 +136,11 @@ SocketCanBus::SocketCanBus(std::string interface, const SocketCanOptions& option
 }
 
 bool SocketCanBus::send(const CanFrame& frame) {
-  const bool older_waits = std::ranges::any_of(waiting_, [&](const Waiting& w) { return w.id == frame.id; });
-  if (!is_valid(frame) || bound_index_ == 0 || older_waits) {
+  const auto older_waits = [&] {
+    return std::ranges::any_of(waiting_, [&](const Waiting& w) { return w.id == frame.id; });
+  };
+  if (older_waits()) read_all();  // its confirmation may have arrived already
+  if (!is_valid(frame) || bound_index_ == 0 || older_waits()) {
     refuse();
     return false;
   }
@@ -157,7 +160,18 @@ bool SocketCanBus::send(const CanFrame& frame) {
 }
 
 std::optional<StampedCanFrame> SocketCanBus::poll() {
-  check_interface();
+  if (arrived_.empty()) {
+    check_interface();
+    read_all();
+  }
+  if (arrived_.empty()) return std::nullopt;
+  const StampedCanFrame oldest = arrived_.front();
+  arrived_.pop_front();
+  return oldest;
+}
+
+/// Takes in all that the kernel has for us; frames of others wait in `arrived_`.
+void SocketCanBus::read_all() {
   while (true) {
     const auto message = receive(socket_.get());
     if (!message) {
@@ -165,7 +179,8 @@ std::optional<StampedCanFrame> SocketCanBus::poll() {
       take_in_failure(error);
       const bool more_may_come = error == EINTR || error == EBADMSG || error == ENETDOWN || error == ENODEV;
       if (more_may_come) continue;
-      return std::nullopt;
+      waits_long_ = !waiting_.empty() && monotonic_now() - waiting_.front().sent > options_.stalled_after;
+      return;
     }
     if (message->lost) counts_.lost = *message->lost;
     const can_frame& frame = message->frame;
@@ -176,16 +191,14 @@ std::optional<StampedCanFrame> SocketCanBus::poll() {
     } else if ((frame.can_id & format_bits) == 0) {
       ++counts_.received;
       newest_ = std::max(newest_, message->stamp);  // in the order of the bus, whatever the clocks do
-      return StampedCanFrame{newest_, frame_from(frame)};
+      arrived_.push_back({newest_, frame_from(frame)});
     }
   }
 }
 
 BusHealth SocketCanBus::health() const {
   const bool carries = state_ == BusState::up || state_ == BusState::error_passive;
-  const bool waits_long =
-      !waiting_.empty() && monotonic_now() - waiting_.front().sent > options_.stalled_after;
-  const bool is_stalled = waits_long || refused_in_a_row_ >= options_.stalled_after_refusals;
+  const bool is_stalled = waits_long_ || refused_in_a_row_ >= options_.stalled_after_refusals;
   return {carries && is_stalled ? BusState::stalled : state_, counts_};
 }
 

@@ -44,6 +44,7 @@ class SocketCanBus final : public CanBus {
   };
 
   void check_interface();
+  void read_all();
   void bind_to(unsigned index);
   void take_in_failure(int error);
   void take_in_error_frame(const can_frame& frame);
@@ -58,11 +59,13 @@ class SocketCanBus final : public CanBus {
   BusState state_ = BusState::missing;
   BusCounts counts_;
   std::optional<Stamp> checked_;
-  Stamp newest_;                    ///< of the frames received
-  std::optional<Stamp> disturbed_;  ///< last word of the controller about being passive
+  Stamp newest_;                         ///< of the frames received
+  std::deque<StampedCanFrame> arrived_;  ///< not yet polled
+  std::optional<Stamp> disturbed_;       ///< last word of the controller about being passive
   int refused_in_a_row_ = 0;
   Stamp refused_;                ///< the newest of them
   std::deque<Waiting> waiting_;  ///< handed over, not yet confirmed
+  bool waits_long_ = false;      ///< for the oldest of them, when all that had arrived was read
 };
 
 }  // namespace lodestar

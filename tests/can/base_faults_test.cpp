@@ -8,8 +8,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kernel_slack = 50ms;  ///< of User-Mode Linux
-
 bool says_emergency_stop(const CanFrame& frame) {
   const auto state = agilex::decode_system_state(frame);
   return state && state->vehicle == VehicleState::emergency_stop;
@@ -31,19 +29,14 @@ class BaseFaults : public CanLab {
     start_base(fault.empty() ? "" : "--fault " + fault);
     start_run("--goal " + goal);
   }
-
-  /// From then on, and after that bound, nobody commands motion.
-  void expect_no_motion(Stamp since, Duration bound) {
-    EXPECT_FALSE(witness->wait_for(is_moving_command, since + bound + kernel_slack, 800ms));
-  }
 };
 
 TEST_F(BaseFaults, an_emergency_stop_is_latched_and_not_ended_by_its_release) {
   drive("estop@1+0.5", "2.4,5.6");
   const auto pressed = witness->wait_for(says_emergency_stop, Stamp{}, 20s);
   ASSERT_TRUE(pressed);
-  expect_no_motion(pressed->stamp, 40ms);
-  EXPECT_TRUE(wait_for_words("the emergency stop is pressed", 1s));
+  expect_no_motion_after(40ms, pressed->stamp);
+  expect_said_within(40ms, "the emergency stop is pressed", pressed->stamp);
   measure("emergency stop", pressed->stamp);
   EXPECT_EQ(resume_until_the_end(40s), 0);
 }
@@ -53,20 +46,21 @@ TEST_F(BaseFaults, the_remote_control_is_not_fought) {
   const auto taken = witness->wait_for(says_remote, Stamp{}, 20s);
   ASSERT_TRUE(taken);
   sleep_until(taken->stamp + 900ms);
-  const Stamp settled = taken->stamp + 40ms + kernel_slack;
-  EXPECT_TRUE(witness->heard(is_motion_command, settled).empty()) << "somebody else drives";
-  EXPECT_TRUE(wait_for_words("not in CAN mode", 1s));
+  const auto commands = witness->heard(is_motion_command, taken->stamp);
+  if (!commands.empty()) expect_within(40ms, taken->stamp, commands.back().stamp, "the last command");
+  const Stamp silent = monotonic_now();
+  expect_said_within(40ms, "not in CAN mode", taken->stamp);
   measure("remote control takes over", taken->stamp);
   run->signal(SIGKILL);
   sleep_until(monotonic_now() + 300ms);
-  EXPECT_TRUE(witness->heard(is_motion_command, settled).empty()) << "not even by the guard";
+  EXPECT_TRUE(witness->heard(is_motion_command, silent).empty()) << "not even by the guard";
 }
 
 TEST_F(BaseFaults, a_fault_bit_stops) {
   drive("fault-bits@1.5");
   const auto seen = witness->wait_for(says_fault_bits, Stamp{}, 20s);
   ASSERT_TRUE(seen);
-  expect_no_motion(seen->stamp, 40ms);
+  expect_no_motion_after(40ms, seen->stamp);
   measure("fault bit", seen->stamp);
 }
 
@@ -78,7 +72,7 @@ TEST_F(BaseFaults, a_silent_base_is_noticed_within_100_ms) {
   const auto moving = witness->heard(is_moving_command, Stamp{});
   ASSERT_FALSE(heard.empty());
   ASSERT_FALSE(moving.empty());
-  EXPECT_LE(moving.back().stamp - heard.back().stamp, 120ms + kernel_slack);
+  expect_within(120ms, heard.back().stamp, moving.back().stamp, "the last moving command");
   EXPECT_TRUE(is_zero_command(witness->heard(is_motion_command, Stamp{}).back().frame)) << "send zero anyway";
   measure("base silent", heard.back().stamp);
 }
@@ -102,7 +96,7 @@ TEST_F(BaseFaults, a_second_master_is_noticed_within_40_ms) {
       [](const CanFrame& frame) { return frame.id == agilex::motion_command_id && frame.data[1] == 0x23; },
       before, 1s);
   ASSERT_TRUE(foreign);
-  expect_no_motion(foreign->stamp, 40ms);
+  expect_no_motion_after(40ms, foreign->stamp);
   EXPECT_TRUE(wait_for_words("somebody else sends motion commands", 1s));
   measure("second master", foreign->stamp);
 }
@@ -113,8 +107,8 @@ TEST_F(BaseFaults, odd_frames_and_a_flood_of_others_do_nothing) {
   ASSERT_TRUE(
       shell("for f in 211#00 211# 221#01 311#0102030405 241#FFFFFFFFFFFFFFFF 7FF#00 20000004#00 211##1FF "
             "00000211#0101010101010101 211#R; do cansend vcan0 $f; done 2>/dev/null; true"));
-  Process flood({"cangen", "vcan0", "-g", "4", "-I", "5AA", "-L", "8"}, "flood.log");
-  EXPECT_EQ(run->wait(40s), 0);
+  Process flood({"cangen", "vcan0", "-g", "4", "-I", "5AA", "-L", "8"});
+  EXPECT_EQ(wait_for_the_end(40s), 0);
   EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
 }
 
