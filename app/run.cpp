@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/camera_watch.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/report/run_recorder.hpp"
@@ -81,6 +82,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
   RecordedBus recorded(bus, [&record](const StampedCanFrame& frame) { record.can_frames.push_back(frame); });
   BaseDriver base(recorded, std::move(protocol));
   BaseWatcher watcher(options);
+  CameraWatch camera_watch;
   Mission mission(known_world(site, options.camera), navigation_options(site.robot), options.goals,
                   {.hold_on_base_fault = options.hold_on_base_fault});
 
@@ -94,6 +96,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     base.command(step.navigation.command);
 
     watcher.see(input.base);
+    if (const auto words = camera_watch.see(input.now, input.frames.size())) options.tell(*words);
     record_step(record, input, step.navigation);
     record_event(record, mission, step.event, input.now);
     if (const std::string words = in_words(mission, step.event); !words.empty()) options.tell(words);

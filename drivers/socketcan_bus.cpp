@@ -39,11 +39,12 @@ void set_option(int socket, int level, int name, const Value& value) {
   throw InputError(fmt::format("socketcan: option {} was refused ({})", name, std::strerror(errno)));
 }
 
-/// Exactly these identifiers, in the short format, as data frames.
-void set_filters(int socket, const std::vector<std::uint32_t>& identifiers) {
+/// Exactly these identifiers, in the short format, as data frames, and as requests for them where wanted.
+void set_filters(int socket, const SocketCanOptions& options) {
+  const canid_t format_mask = options.takes_remote_requests ? CAN_EFF_FLAG : format_bits;
   std::vector<can_filter> filters;
-  for (const std::uint32_t id : identifiers) filters.push_back({id, CAN_SFF_MASK | format_bits});
-  if (filters.empty()) filters.push_back({plain_data_frame, format_bits});
+  for (const std::uint32_t id : options.identifiers) filters.push_back({id, CAN_SFF_MASK | format_mask});
+  if (filters.empty()) filters.push_back({plain_data_frame, format_mask});
   const auto size = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
   if (::setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), size) == 0) return;
   throw InputError(fmt::format("socketcan: the filters were refused ({})", std::strerror(errno)));
@@ -111,8 +112,11 @@ std::optional<Message> receive(int socket) {
   return message;
 }
 
+/// A remote request carries no data, whatever its length says.
 CanFrame frame_from(const can_frame& raw) {
-  CanFrame frame{raw.can_id & CAN_SFF_MASK, std::min<std::uint8_t>(raw.can_dlc, 8), {}};
+  const bool is_request = (raw.can_id & CAN_RTR_FLAG) != 0;
+  const std::uint8_t length = is_request ? 0 : std::min<std::uint8_t>(raw.can_dlc, 8);
+  CanFrame frame{raw.can_id & CAN_SFF_MASK, length, {}};
   std::copy_n(raw.data, frame.length, frame.data.begin());
   return frame;
 }
@@ -172,6 +176,7 @@ std::optional<StampedCanFrame> SocketCanBus::poll() {
 
 /// Takes in all that the kernel has for us; frames of others wait in `arrived_`.
 void SocketCanBus::read_all() {
+  const canid_t unwanted = options_.takes_remote_requests ? CAN_EFF_FLAG : format_bits;
   while (true) {
     const auto message = receive(socket_.get());
     if (!message) {
@@ -188,7 +193,7 @@ void SocketCanBus::read_all() {
       take_in_error_frame(frame);
     } else if (message->is_own) {
       confirm(frame.can_id & CAN_SFF_MASK);
-    } else if ((frame.can_id & format_bits) == 0) {
+    } else if ((frame.can_id & unwanted) == 0) {
       ++counts_.received;
       newest_ = std::max(newest_, message->stamp);  // in the order of the bus, whatever the clocks do
       arrived_.push_back({newest_, frame_from(frame)});
@@ -232,7 +237,7 @@ void SocketCanBus::check_interface() {
 
 /// An interface that is removed takes the filters with it.
 void SocketCanBus::bind_to(unsigned index) {
-  set_filters(socket_.get(), options_.identifiers);
+  set_filters(socket_.get(), options_);
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(index);

@@ -14,7 +14,8 @@ namespace lodestar {
 struct SocketCanOptions {
   std::vector<std::uint32_t>
       identifiers;  ///< to hear, and those to be sent (else none is confirmed); all when empty
-  Duration check_period = std::chrono::milliseconds(200);   ///< of the interface: there, up, still the same?
+  bool takes_remote_requests = false;                      ///< as frames without data; else they are left out
+  Duration check_period = std::chrono::milliseconds(200);  ///< of the interface: there, up, still the same?
   Duration stalled_after = std::chrono::milliseconds(100);  ///< without the confirmation of a frame
   int stalled_after_refusals = 3;                           ///< in a row
   Duration forget_after =

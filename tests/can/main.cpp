@@ -15,8 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int most_attempts = 6;
-constexpr Duration long_pause = 40ms;  ///< two control periods
-constexpr double large_share = 0.15;   ///< of the test's time
+constexpr Duration long_pause = 30ms;  ///< more than a control period
+constexpr double large_share = 0.05;   ///< of the test's time
 
 class Disturbances final : public testing::EmptyTestEventListener {
  public:
