@@ -1,7 +1,9 @@
 #include "app/run.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <memory>
 
@@ -10,8 +12,11 @@
 #include "app/commands/command.hpp"
 #include "app/frames/camera_setup.hpp"
 #include "app/operator_input.hpp"
+#include "app/report/can_log.hpp"
 #include "app/report/run_folder.hpp"
 #include "drivers/guard.hpp"
+#include "drivers/recorded_bus.hpp"
+#include "maps/input_error.hpp"
 
 namespace lodestar {
 namespace {
@@ -58,6 +63,32 @@ void print_goals(const RunRecord& record) {
   }
 }
 
+void say(const std::string& words) {
+  fmt::print(stderr, "{}\n", words);
+}
+
+/// The folder that this drive leaves, made already: what it cannot hold shall be known before the drive.
+fs::path make_run_folder(const RunArguments& arguments, const Site& site) {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  const fs::path folder = arguments.output.empty()
+                              ? fs::path("runs") / fmt::format("{}-{:%Y%m%dT%H%M%SZ}", site.name, now)
+                              : fs::path(arguments.output);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    say(fmt::format("{}: cannot be made ({}); this drive is not kept", folder.string(), error.message()));
+  return folder;
+}
+
+/// A drive that is over does not fail for want of room on a disk.
+void keep(const RunRecord& record, const Site& site, const fs::path& folder) {
+  try {
+    write_run_folder(folder, record, site.map.map, site.registry);
+  } catch (const InputError& error) {
+    say(fmt::format("the run folder is not complete: {}", error.what()));
+  }
+}
+
 ExitCode run_command(const RunArguments& arguments) {
   const Site site = load_site(arguments.site);
   const BaseConnection connection = connection_of(site, arguments.interface);
@@ -66,7 +97,7 @@ ExitCode run_command(const RunArguments& arguments) {
                      .goals = {},
                      .hold_on_base_fault = true,
                      .operator_wish = [&input] { return wish_of(input); },
-                     .tell = [](const std::string& words) { fmt::print(stderr, "{}\n", words); }};
+                     .tell = say};
   for (const std::string& text : arguments.goals) options.goals.push_back(parse_goal("--goal", text));
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
@@ -76,8 +107,13 @@ ExitCode run_command(const RunArguments& arguments) {
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
-  const RunRecord record = run(site, bus, std::move(protocol), *camera, options);
-  if (!arguments.output.empty()) write_run_folder(arguments.output, record, site.map.map, site.registry);
+  const fs::path folder = make_run_folder(arguments, site);
+  const RunRecord record = [&] {
+    CanLog log(folder / "can.log", connection.interface, say);
+    RecordedBus logged(bus, [&log](const StampedCanFrame& frame) { log.take(frame); });
+    return run(site, logged, std::move(protocol), *camera, options);
+  }();
+  keep(record, site, folder);
   print_goals(record);
   return record.arrived() ? done : job_failed;
 }
@@ -98,7 +134,7 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
   command->add_option("--seed", arguments->seed, "Of a simulated camera")->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Leave a run folder");
+  command->add_option("-o,--output", arguments->output, "Run folder; runs/SITE-TIME when left out");
   return {{command, [arguments] { return run_command(*arguments); }}};
 }
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <csignal>
 
 #include "tests/can/lab.hpp"
@@ -28,6 +29,40 @@ class BaseFaults : public CanLab {
   void drive(const std::string& fault = "", const std::string& goal = "4.2,5.6") {
     start_base(fault.empty() ? "" : "--fault " + fault);
     start_run("--goal " + goal);
+  }
+
+  /// Since when the base says that it drives otherwise than it is told, by so much that it counts, until the
+  /// navigator has told it to stand.
+  std::optional<Stamp> strays_from_commands() const {
+    constexpr double counts_mps = 0.3;
+    std::optional<Stamp> since;
+    double commanded_mps = 0.0;
+    bool has_moved = false;
+    for (const StampedCanFrame& heard : witness->heard([](const CanFrame&) { return true; }, Stamp{})) {
+      if (const auto command = agilex::decode_motion_command(heard.frame)) {
+        if (has_moved && since && is_zero_command(heard.frame)) break;
+        commanded_mps = command->forward_mps;
+        has_moved = has_moved || commanded_mps > counts_mps;
+      } else if (const auto state = agilex::decode_motion_state(heard.frame)) {
+        const bool strays = std::abs(state->forward_mps - commanded_mps) > counts_mps;
+        if (!strays) since.reset();
+        if (strays && !since) since = heard.stamp;
+      }
+    }
+    return since;
+  }
+
+  /// The last reading of the odometer in which the left wheel had moved on, before the base stood.
+  std::optional<Stamp> left_wheel_last_counted() const {
+    std::optional<Stamp> last;
+    std::optional<agilex::Odometer> before;
+    for (const StampedCanFrame& heard : witness->heard([](const CanFrame&) { return true; }, Stamp{})) {
+      const auto odometer = agilex::decode_odometer(heard.frame);
+      if (!odometer) continue;
+      if (before && odometer->left_mm != before->left_mm) last = heard.stamp;
+      before = odometer;
+    }
+    return last;
   }
 };
 
@@ -79,12 +114,30 @@ TEST_F(BaseFaults, a_silent_base_is_noticed_within_100_ms) {
 
 TEST_F(BaseFaults, a_base_that_ignores_its_commands_is_noticed) {
   drive("ignores@1.5");
-  EXPECT_TRUE(wait_for_words("the base does not follow its commands", 20s));
+  ASSERT_TRUE(wait_for_words("the base does not follow its commands", 20s));
+  const auto strays = strays_from_commands();
+  ASSERT_TRUE(strays);
+  expect_said_within(250ms, "the base does not follow its commands", *strays);
+  measure("base ignores commands", *strays);
 }
 
 TEST_F(BaseFaults, a_runaway_base_is_noticed) {
   drive("runaway@1.5+1");
-  EXPECT_TRUE(wait_for_words("the base does not follow its commands", 20s));
+  ASSERT_TRUE(wait_for_words("the base does not follow its commands", 20s));
+  const auto strays = strays_from_commands();
+  ASSERT_TRUE(strays);
+  expect_said_within(250ms, "the base does not follow its commands", *strays);
+  measure("base runs away", *strays);
+}
+
+/// The wheel turns, its count does not: the base seems to drive a curve that nobody wants.
+TEST_F(BaseFaults, an_encoder_that_is_stuck_is_noticed_within_half_a_second) {
+  drive("stuck-encoder@1.5");
+  ASSERT_TRUE(wait_for_words("base: stopped by a fault", 20s));
+  const auto stuck = left_wheel_last_counted();
+  ASSERT_TRUE(stuck);
+  expect_no_motion_after(500ms, *stuck);
+  measure("encoder stuck", *stuck);
 }
 
 TEST_F(BaseFaults, a_second_master_is_noticed_within_40_ms) {
@@ -107,7 +160,7 @@ TEST_F(BaseFaults, odd_frames_and_a_flood_of_others_do_nothing) {
   ASSERT_TRUE(
       shell("for f in 211#00 211# 221#01 311#0102030405 241#FFFFFFFFFFFFFFFF 7FF#00 20000004#00 211##1FF "
             "00000211#0101010101010101 211#R; do cansend vcan0 $f; done 2>/dev/null; true"));
-  Process flood({"cangen", "vcan0", "-g", "4", "-I", "5AA", "-L", "8"});
+  Process flood({"cangen", "vcan0", "-g", "1", "-I", "5AA", "-L", "8"});
   EXPECT_EQ(wait_for_the_end(40s), 0);
   EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
 }

@@ -41,10 +41,30 @@ TEST_F(Cable, that_loses_a_third_of_the_frames_is_driven_through) {
   EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
 }
 
-TEST_F(Cable, that_delays_doubles_and_reorders_frames_is_driven_through) {
-  spoil("delay 30ms 5ms duplicate 20%");
+TEST_F(Cable, that_loses_frames_in_bursts_is_driven_through) {
+  spoil("loss gemodel 5% 30%");
   expect_to_arrive();
   EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
+}
+
+TEST_F(Cable, that_delays_doubles_and_reorders_frames_is_driven_through) {
+  spoil("delay 50ms 10ms duplicate 20%");
+  expect_to_arrive();
+  EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
+}
+
+/// No check sum watches here, so that whatever arrives may be wrong: identifier, length, content.
+TEST_F(Cable, that_spoils_what_the_base_says_breaks_nothing) {
+  start_base();
+  start_run("--goal 2.4,5.6");
+  wait_until_driving();
+  ASSERT_TRUE(shell("tc qdisc replace dev " + base_end + " root netem limit 1000 corrupt 20%"));
+  EXPECT_FALSE(run->wait(3s)) << "it ended by itself";
+  ASSERT_TRUE(shell("tc qdisc del dev " + base_end + " root"));
+  EXPECT_EQ(resume_until_the_end(40s), 0);
+  const Truth truth = end_base();
+  EXPECT_NEAR(truth.x_m, 2.4, 0.04);
+  EXPECT_EQ(truth.contacts, 0);
 }
 
 TEST_F(Cable, that_is_cut_is_noticed_within_100_ms) {
@@ -65,6 +85,7 @@ TEST_F(Cable, that_is_cut_is_noticed_within_100_ms) {
   expect_within(120ms, heard.back().stamp, zero->stamp, "the zero command");
   EXPECT_TRUE(navigator_side.heard(is_moving_command, zero->stamp).empty());
   expect_said_within(120ms, "base: stopped by a fault", heard.back().stamp);
+  measure("cable cut", heard.back().stamp);
 
   const Stamp back = monotonic_now();
   ASSERT_TRUE(shell("ip link set vxcan1 up"));

@@ -56,6 +56,18 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   EXPECT_FALSE(load_candump("run/can.log").empty());
 }
 
+/// Row by row, disks are what fails first; a drive does not depend on them.
+TEST_F(Mission, a_full_disk_ends_the_log_and_not_the_drive) {
+  ASSERT_TRUE(shell("mkdir -p /run/small && mount -t tmpfs -o size=64k tmpfs /run/small"));
+  start_base();
+  start_run("--goal 2.4,5.6 -o /run/small/run");
+  EXPECT_EQ(resume_until_the_end(40s), 0);
+  EXPECT_TRUE(run->said("can.log: cannot be written"));
+  EXPECT_TRUE(run->said("the run folder is not complete"));
+  EXPECT_NEAR(end_base().x_m, 2.4, 0.03);
+  ASSERT_TRUE(shell("umount /run/small"));
+}
+
 /// The same drive on the two axes of an ODrive.
 TEST_F(Mission, arrives_with_an_odrive) {
   ASSERT_TRUE(shell(
