@@ -18,9 +18,22 @@ constexpr int most_attempts = 6;
 constexpr Duration long_pause = 30ms;  ///< more than a control period
 constexpr double large_share = 0.05;   ///< of the test's time
 
+/// On a busy machine such moments come now and then; they are not waited for without end.
+void wait_for_a_quiet_moment() {
+  constexpr Duration look_back = 1s;
+  for (const Stamp end = monotonic_now() + 20s; monotonic_now() < end;) {
+    const Stamp now = monotonic_now();
+    if (pulse().lost(now - look_back, now) < look_back / 20) return;
+    sleep_until(now + 100ms);
+  }
+}
+
 class Disturbances final : public testing::EmptyTestEventListener {
  public:
-  void OnTestStart(const testing::TestInfo& /*test*/) override { began_ = monotonic_now(); }
+  void OnTestStart(const testing::TestInfo& /*test*/) override {
+    wait_for_a_quiet_moment();
+    began_ = monotonic_now();
+  }
 
   void OnTestEnd(const testing::TestInfo& test) override {
     const Stamp now = monotonic_now();
