@@ -54,9 +54,9 @@ Stamp stamp_of(const timespec& time) {
   return Stamp(std::chrono::seconds(time.tv_sec) + Duration(time.tv_nsec));
 }
 
-/// The kernel stamps on the clock that people set. Only the age of a stamp counts; one that cannot be, after
-/// the clock was set, is taken for fresh. Both clocks are read again when something came in between.
-Stamp on_monotonic_clock(const timespec& wall_stamp) {
+/// What the monotonic clock shows over the one that people set, on which the kernel stamps. Both are read
+/// again when something came in between.
+Duration monotonic_over_wall() {
   constexpr Duration at_once = std::chrono::microseconds(100);
   timespec wall_now{};
   Stamp now;
@@ -66,16 +66,14 @@ Stamp on_monotonic_clock(const timespec& wall_stamp) {
     now = monotonic_now();
     if (now - before < at_once) break;
   }
-  const Duration age = stamp_of(wall_now) - stamp_of(wall_stamp);
-  const bool is_possible = age >= Duration::zero() && age < std::chrono::seconds(1);
-  return is_possible ? now - age : now;
+  return now - stamp_of(wall_now);
 }
 
 /// One message of the socket, with what the kernel says about it.
 struct Message {
   can_frame frame{};
   bool is_own = false;
-  Stamp stamp;
+  std::optional<Stamp> wall_stamp;
   std::optional<std::uint32_t> lost;  ///< in total, since the socket was opened
 };
 
@@ -96,13 +94,12 @@ std::optional<Message> receive(int socket) {
     return std::nullopt;
   }
   message.is_own = (header.msg_flags & MSG_CONFIRM) != 0;
-  message.stamp = monotonic_now();
   for (cmsghdr* item = CMSG_FIRSTHDR(&header); item != nullptr; item = CMSG_NXTHDR(&header, item)) {
     if (item->cmsg_level != SOL_SOCKET) continue;
     if (item->cmsg_type == SO_TIMESTAMPING) {
       timespec software{};
       std::memcpy(&software, CMSG_DATA(item), sizeof(software));
-      message.stamp = on_monotonic_clock(software);
+      message.wall_stamp = stamp_of(software);
     } else if (item->cmsg_type == SO_RXQ_OVFL) {
       std::uint32_t lost = 0;
       std::memcpy(&lost, CMSG_DATA(item), sizeof(lost));
@@ -110,6 +107,16 @@ std::optional<Message> receive(int socket) {
     }
   }
   return message;
+}
+
+/// On the monotonic clock. A stamp that cannot be, after somebody set the clock, is taken for fresh.
+Stamp stamp_from(const std::optional<Stamp>& wall_stamp, std::optional<Duration>& over_wall) {
+  const Stamp now = monotonic_now();
+  if (!wall_stamp) return now;
+  if (!over_wall) over_wall = monotonic_over_wall();
+  const Stamp stamp = *wall_stamp + *over_wall;
+  const bool is_possible = stamp <= now && now - stamp < std::chrono::seconds(1);
+  return is_possible ? stamp : now;
 }
 
 /// A remote request carries no data, whatever its length says.
@@ -176,6 +183,7 @@ std::optional<StampedCanFrame> SocketCanBus::poll() {
 
 /// Takes in all that the kernel has for us; frames of others wait in `arrived_`.
 void SocketCanBus::read_all() {
+  std::optional<Duration> over_wall;
   const canid_t unwanted = options_.takes_remote_requests ? CAN_EFF_FLAG : format_bits;
   while (true) {
     const auto message = receive(socket_.get());
@@ -195,7 +203,8 @@ void SocketCanBus::read_all() {
       confirm(frame.can_id & CAN_SFF_MASK);
     } else if ((frame.can_id & unwanted) == 0) {
       ++counts_.received;
-      newest_ = std::max(newest_, message->stamp);  // in the order of the bus, whatever the clocks do
+      const Stamp stamp = stamp_from(message->wall_stamp, over_wall);
+      newest_ = std::max(newest_, stamp);  // in the order of the bus, whatever the clocks do
       arrived_.push_back({newest_, frame_from(frame)});
     }
   }
