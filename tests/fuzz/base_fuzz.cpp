@@ -15,9 +15,9 @@ constexpr BodyVelocity commanded{0.2, 0.1};
 class FedBus : public CanBus {
  public:
   explicit FedBus(const BaseProtocol& protocol) {
-    for (const auto& frames :
+    for (const auto& known :
          {protocol.command(commanded), protocol.stop(), protocol.enable(), protocol.clear_faults()}) {
-      meant_.insert(meant_.end(), frames.begin(), frames.end());
+      meant_.insert(meant_.end(), known.begin(), known.end());
     }
   }
 
