@@ -1,3 +1,5 @@
+#include <sstream>
+
 #include "tests/can/lab.hpp"
 
 // Why does it not move? The doctor looks, and says so.
@@ -19,12 +21,15 @@ class Doctor : public CanLab {
 
   /// The whole line of that finding, and the remedy in the next one, if any.
   [[nodiscard]] std::string finding(const std::string& what) const {
-    const std::size_t at = report.find("  " + what + " ");
-    if (at == std::string::npos) return "";
-    const std::size_t begin = report.rfind('\n', at) == std::string::npos ? 0 : report.rfind('\n', at) + 1;
-    const std::size_t end = report.find('\n', at);
-    const bool has_remedy = report.compare(end + 1, 4, "    ") == 0;
-    return report.substr(begin, (has_remedy ? report.find('\n', end + 1) : end) - begin);
+    std::istringstream lines(report);
+    std::string found;
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_remedy = line.starts_with("    ");
+      if (!found.empty()) return is_remedy ? found + line : found;
+      constexpr std::size_t after_verdict = 4;
+      if (!is_remedy && line.find(what + " ") == after_verdict) found = line;
+    }
+    return found;
   }
 
   void start_speaking_base(const std::string& options = "") {

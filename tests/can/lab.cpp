@@ -73,11 +73,14 @@ void CanLab::measure(const std::string& fault, Stamp since) const {
     return (odometer->left_mm + odometer->right_mm) / 2.0;
   };
   const auto noticed = run->said("base: stopped by a fault", since);
+  const auto ms_until = [since](Stamp event) {
+    return 1e3 * seconds(event - since - pulse().lost(since, event));
+  };
   std::ofstream csv("measured.csv", std::ios::app);
   csv << fault << ',';
-  if (noticed) csv << 1e3 * lodestar::seconds(*noticed - since);
-  csv << ',' << (moving.empty() ? 0.0 : 1e3 * lodestar::seconds(moving.back().stamp - since)) << ',';
-  if (!zero.empty()) csv << 1e3 * lodestar::seconds(zero.front().stamp - since);
+  if (noticed) csv << ms_until(*noticed);
+  csv << ',' << (moving.empty() ? 0.0 : ms_until(moving.back().stamp)) << ',';
+  if (!zero.empty()) csv << ms_until(zero.front().stamp);
   csv << ',';
   if (rest && !before.empty() && !after.empty()) csv << travel_mm(after.back()) - travel_mm(before.back());
   csv << '\n';
