@@ -72,6 +72,7 @@ void CanLab::measure(const std::string& fault, Stamp since) const {
     const auto odometer = agilex::decode_odometer(frame.frame);
     return (odometer->left_mm + odometer->right_mm) / 2.0;
   };
+  if (HasFailure()) return;
   const auto noticed = run->said("base: stopped by a fault", since);
   const auto ms_until = [since](Stamp event) {
     return 1e3 * seconds(event - since - pulse().lost(since, event));

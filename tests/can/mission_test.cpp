@@ -116,6 +116,17 @@ TEST_F(Mission, waits_for_an_interface_and_a_base_that_come_later) {
   EXPECT_EQ(resume_until_the_end(30s), 0);
 }
 
+TEST_F(Mission, is_refused_with_a_camera_that_is_not_there) {
+  ASSERT_TRUE(shell("cp -r " LODESTAR_SOURCE_DIR
+                    "/sites/lab filmed && sed -i 's|^camera:.*|camera: v4l2:/dev/video9|' filmed/site.yaml"));
+  site = "filmed";
+  start_base();
+  start_run("--goal 1.8,5.6");
+  EXPECT_EQ(run->wait(start_up), 2);
+  EXPECT_TRUE(run->said("/dev/video9: found a device that cannot be opened"));
+  EXPECT_TRUE(witness->heard(is_motion_command, Stamp{}).empty());
+}
+
 TEST_F(Mission, without_a_base_ends_in_failure) {
   start_run("--goal 1.8,5.6");
   EXPECT_EQ(run->wait(60s), 1);
