@@ -21,7 +21,7 @@ constexpr double large_share = 0.05;   ///< of the test's time
 /// On a busy machine such moments come now and then; they are not waited for without end.
 void wait_for_a_quiet_moment() {
   constexpr Duration look_back = 1s;
-  for (const Stamp end = monotonic_now() + 20s; monotonic_now() < end;) {
+  for (const Stamp end = monotonic_now() + 4s; monotonic_now() < end;) {
     const Stamp now = monotonic_now();
     if (pulse().lost(now - look_back, now) < look_back / 20) return;
     sleep_until(now + 100ms);
