@@ -99,30 +99,42 @@ std::vector<Finding> look_at_interface(const std::string& name) {
 
 /// What was heard and seen in a second.
 struct Heard {
-  std::map<std::uint32_t, int> counts;
+  struct Kind {
+    int count = 0;
+    Stamp newest;
+  };
+  std::map<std::uint32_t, Kind> kinds;  ///< by identifier
   std::optional<Stamp> newest;
   std::optional<SystemState> system;
   int other_masters = 0;
   int odd = 0;
+  std::string no_camera;  ///< why there is none
   int images = 0;
   std::set<int> markers;
 };
 
 Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& protocol) {
   SocketCanBus bus(connection.interface, {.identifiers = protocol.identifiers()});
-  const std::unique_ptr<Camera> camera = open_camera(site, connection, 1);
-  MarkerDetector detector(navigation_options(site.robot).detector);
   Heard heard;
+  std::unique_ptr<Camera> camera;
+  try {
+    camera = open_camera(site, connection, 1);
+  } catch (const InputError& error) {
+    heard.no_camera = error.what();
+  }
+  MarkerDetector detector(navigation_options(site.robot).detector);
   for (const Stamp end = monotonic_now() + listening; monotonic_now() < end;) {
     while (const auto received = bus.poll()) {
       const HeardFrame said = protocol.take_in(*received);
-      ++heard.counts[received->frame.id];
+      Heard::Kind& kind = heard.kinds[received->frame.id];
+      ++kind.count;
+      kind.newest = received->stamp;
       heard.odd += said.odd ? 1 : 0;
       heard.other_masters += said.command ? 1 : 0;
       if (said.from_base) heard.newest = received->stamp;
       if (said.system) heard.system = said.system;
     }
-    while (const auto frame = camera->poll()) {
+    while (const auto frame = camera ? camera->poll() : std::nullopt) {
       ++heard.images;
       for (const DetectedMarker& marker : detector.detect(frame->gray)) heard.markers.insert(marker.id);
     }
@@ -135,15 +147,15 @@ Finding look_at_frames(const Heard& heard) {
   if (!heard.newest) {
     return {.what = "base",
             .verdict = Verdict::bad,
-            .found = heard.counts.empty() ? "silent: no frame in a second"
-                                          : "none of the frames heard is the base's",
+            .found = heard.kinds.empty() ? "silent: no frame in a second"
+                                         : "none of the frames heard is the base's",
             .remedy = "switch the base on; check the plug, the bit rate and the protocol in site.yaml"};
   }
-  std::string counts;
-  for (const auto& [id, count] : heard.counts) counts += fmt::format(" {:03X} x {}", id, count);
-  Finding finding{.what = "base",
-                  .found = fmt::format("newest frame {:.0f} ms ago, heard in a second:{}",
-                                       1e3 * seconds(monotonic_now() - *heard.newest), counts)};
+  const Stamp now = monotonic_now();
+  std::string kinds;
+  for (const auto& [id, kind] : heard.kinds)
+    kinds += fmt::format(" {:03X} x {} ({:.0f} ms)", id, kind.count, 1e3 * seconds(now - kind.newest));
+  Finding finding{.what = "base", .found = "heard in a second (the newest so long ago):" + kinds};
   if (heard.odd > 0) {
     finding.verdict = Verdict::doubtful;
     finding.found += fmt::format("; {} frames are odd", heard.odd);
@@ -200,7 +212,7 @@ std::vector<Finding> look_at_images(const Site& site, const Heard& heard) {
   if (heard.images == 0) {
     return {{.what = "camera",
              .verdict = Verdict::bad,
-             .found = "no image in a second",
+             .found = heard.no_camera.empty() ? "no image in a second" : heard.no_camera,
              .remedy = site.camera == "simulated" ? "start the simulated world: lodestar base --can ..."
                                                   : "plug the camera in; check its device in site.yaml"}};
   }

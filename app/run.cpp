@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/camera_watch.hpp"
 #include "app/live/attendant.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
@@ -33,10 +34,16 @@ class BaseWatcher {
   std::string said_;
 };
 
+/// More frames than a camera sends in a period wait for the next one: to catch up must not hold commands up.
 SensorInput sense(Camera& camera, BaseDriver& base) {
+  constexpr std::size_t most_frames = 2;
   const Stamp now = monotonic_now();
   SensorInput input{.now = now, .frames = {}, .base = base.poll(now)};
-  while (std::optional<Frame> frame = camera.poll()) input.frames.push_back(std::move(*frame));
+  while (input.frames.size() < most_frames) {
+    std::optional<Frame> frame = camera.poll();
+    if (!frame) break;
+    input.frames.push_back(std::move(*frame));
+  }
   return input;
 }
 
@@ -113,6 +120,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
   RecordedBus recorded(bus, [&recording](const StampedCanFrame& frame) { recording.take(frame); });
   BaseDriver base(recorded, std::move(protocol));
   BaseWatcher watcher(options);
+  CameraWatch camera_watch;
   Mission mission(known_world(site, options.camera), navigation_options(site.robot), options.goals,
                   {.hold_on_base_fault = options.hold_on_base_fault});
 
@@ -127,6 +135,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     base.command(step.navigation.command);
 
     watcher.see(input.base);
+    if (const auto words = camera_watch.see(input.now, input.frames.size())) options.tell(*words);
     recording.take(input, mission, step);
     if (options.attendant != nullptr) options.attendant->show(input, step, mission);
     if (const std::string words = in_words(mission, step.event); !words.empty()) options.tell(words);

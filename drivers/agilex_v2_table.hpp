@@ -56,6 +56,27 @@ inline constexpr std::array battery{
     Signal{
         .name = "Temperature", .byte = 6, .bits = 16, .kind = signed_integer, .scale = 0.1, .unit = "degC"}};
 
+inline constexpr std::array battery_more{
+    Signal{.name = "Alarms1", .byte = 0}, Signal{.name = "Alarms2", .byte = 1},
+    Signal{.name = "Warnings1", .byte = 2}, Signal{.name = "Warnings2", .byte = 3}};
+inline constexpr std::array light{Signal{.name = "ByCommand", .byte = 0},  // or as the base likes
+                                  Signal{.name = "FrontMode", .byte = 1},  // off, on, breathing, custom
+                                  Signal{.name = "FrontBrightness", .byte = 2, .unit = "%"},
+                                  Signal{.name = "RearMode", .byte = 3},
+                                  Signal{.name = "RearBrightness", .byte = 4, .unit = "%"},
+                                  Signal{.name = "Counter", .byte = 7}};
+inline constexpr std::array version_question{Signal{.name = "Ask", .byte = 0}};
+inline constexpr std::array version_numbers{Signal{.name = "ControllerHardware", .byte = 0, .bits = 16},
+                                            Signal{.name = "DriverHardware", .byte = 2, .bits = 16},
+                                            Signal{.name = "ControllerSoftware", .byte = 4, .bits = 16},
+                                            Signal{.name = "DriverSoftware", .byte = 6, .bits = 16}};
+/// Eight letters; ten such frames are the whole text.
+inline constexpr std::array version_letters{
+    Signal{.name = "Letter1", .byte = 0}, Signal{.name = "Letter2", .byte = 1},
+    Signal{.name = "Letter3", .byte = 2}, Signal{.name = "Letter4", .byte = 3},
+    Signal{.name = "Letter5", .byte = 4}, Signal{.name = "Letter6", .byte = 5},
+    Signal{.name = "Letter7", .byte = 6}, Signal{.name = "Letter8", .byte = 7}};
+
 inline constexpr MessageSpec motion_command{.name = "MotionCommand",
                                             .id = 0x111,
                                             .sender = Sender::host,
@@ -74,6 +95,21 @@ inline constexpr MessageSpec clear_fault{.name = "ClearFaultCommand",
                                          .length = 1,
                                          .least_length = 1,
                                          .signals = cleared};
+inline constexpr MessageSpec light_command{
+    .name = "LightCommand", .id = 0x121, .sender = Sender::host, .signals = light};
+inline constexpr MessageSpec light_state{
+    .name = "LightState", .id = 0x231, .sender = Sender::base, .period = milliseconds(20), .signals = light};
+inline constexpr MessageSpec version_request{.name = "VersionRequest",
+                                             .id = 0x411,
+                                             .sender = Sender::host,
+                                             .length = 1,
+                                             .least_length = 1,
+                                             .signals = version_question};
+inline constexpr MessageSpec version_answer{
+    .name = "Version", .id = 0x41A, .sender = Sender::base, .signals = version_numbers};
+/// Asked for by a frame of one byte, 1, with the same identifier.
+inline constexpr MessageSpec version_text{
+    .name = "VersionText", .id = 0x4A1, .sender = Sender::base, .signals = version_letters};
 inline constexpr MessageSpec system_state{.name = "SystemState",
                                           .id = 0x211,
                                           .sender = Sender::base,
@@ -120,9 +156,16 @@ inline constexpr MessageSpec odometer_state{.name = "Odometer",
 inline constexpr MessageSpec battery_state{
     .name = "Battery", .id = 0x361, .sender = Sender::base, .period = milliseconds(500), .signals = battery};
 
-inline constexpr std::array messages{motion_command, control_mode, clear_fault,    system_state,
-                                     motion_state,   remote_state, motor1_fast,    motor2_fast,
-                                     motor1_slow,    motor2_slow,  odometer_state, battery_state};
+inline constexpr MessageSpec battery_extended{.name = "BatteryExtended",
+                                              .id = 0x362,
+                                              .sender = Sender::base,
+                                              .period = milliseconds(500),
+                                              .signals = battery_more};
+
+inline constexpr std::array messages{
+    motion_command, control_mode,   clear_fault,   light_command,    version_request, system_state,
+    motion_state,   light_state,    remote_state,  motor1_fast,      motor2_fast,     motor1_slow,
+    motor2_slow,    odometer_state, battery_state, battery_extended, version_answer,  version_text};
 
 }  // namespace tables
 

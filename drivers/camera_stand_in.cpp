@@ -6,6 +6,8 @@
 namespace lodestar {
 namespace {
 
+constexpr std::size_t buffers = 4;  ///< of a usual camera
+
 class CameraStandIn final : public Camera {
  public:
   CameraStandIn(const std::string& interface, const MarkerRegistry& registry, const CameraModel& camera,
@@ -17,6 +19,7 @@ class CameraStandIn final : public Camera {
       camera_.observe(pose->stamp, pose->map_from_base);
       has_begun_ = true;
     }
+    camera_.keep_newest(buffers);
     return has_begun_ ? camera_.poll() : std::nullopt;
   }
 

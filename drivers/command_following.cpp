@@ -17,12 +17,13 @@ bool is_between(double value, double a, double b, double tolerance) {
 
 void CommandFollowing::restart(Stamp now, const BodyVelocity& measured) {
   last_ = now;
-  last_good_ = now;
+  strayed_ = Duration::zero();
   slowest_ = measured;
 }
 
 bool CommandFollowing::strays(Stamp now, const BodyVelocity& commanded, const BodyVelocity& measured) {
-  const double elapsed_s = std::max(0.0, seconds(now - last_));
+  const Duration elapsed = std::clamp(now - last_, Duration::zero(), options_.longest_look);
+  const double elapsed_s = seconds(elapsed);
   slowest_.forward_mps = moved_towards(slowest_.forward_mps, commanded.forward_mps,
                                        options_.least_acceleration_mps2 * elapsed_s);
   slowest_.turn_radps = moved_towards(slowest_.turn_radps, commanded.turn_radps,
@@ -33,8 +34,8 @@ bool CommandFollowing::strays(Stamp now, const BodyVelocity& commanded, const Bo
                                   options_.max_forward_error_mps) &&
                        is_between(measured.turn_radps, slowest_.turn_radps, commanded.turn_radps,
                                   options_.max_turn_error_radps);
-  if (follows) last_good_ = now;
-  return now - last_good_ > options_.patience;
+  strayed_ = follows ? Duration::zero() : strayed_ + elapsed;
+  return strayed_ > options_.patience;
 }
 
 }  // namespace lodestar

@@ -12,6 +12,7 @@ struct CommandFollowingOptions {
   double least_acceleration_mps2 = 1.0;  ///< what any healthy base reaches, towards the command
   double least_turn_acceleration_radps2 = 3.0;
   Duration patience = std::chrono::milliseconds(200);
+  Duration longest_look = std::chrono::milliseconds(50);  ///< of the time between two looks, what counts
 };
 
 /// Does the base do as it is told? Beside the command runs the speed that the slowest healthy base would
@@ -29,13 +30,13 @@ class CommandFollowing {
   void restart(Stamp now, const BodyVelocity& measured);
 
   /// True when the measured velocity has been outside the band for longer than the patience. To be called at
-  /// a steady rate.
+  /// a steady rate: of a pause of the caller's own, in which nobody commanded or looked, little counts.
   [[nodiscard]] bool strays(Stamp now, const BodyVelocity& commanded, const BodyVelocity& measured);
 
  private:
   CommandFollowingOptions options_;
   Stamp last_;
-  Stamp last_good_;
+  Duration strayed_{};
   BodyVelocity slowest_;
 };
 

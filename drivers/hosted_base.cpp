@@ -50,9 +50,9 @@ std::vector<std::uint32_t> identifiers_of(const ProtocolTable& table) {
 std::unique_ptr<SimulatedFirmware> make_firmware(CanBus& bus, SimulatedMotion& motion,
                                                  const HostedBaseOptions& options) {
   if (options.protocol == HostedProtocol::odrive) return std::make_unique<SimulatedOdrive>(bus, motion);
-  SimulatedBaseOptions talkative = options.base;
-  talkative.tells_of_motors = true;
-  return std::make_unique<SimulatedBase>(bus, motion, talkative);
+  SimulatedBaseOptions complete = options.base;
+  complete.has_periphery = true;
+  return std::make_unique<SimulatedBase>(bus, motion, complete);
 }
 
 void set_fault(SimulatedFirmware& base, ScriptedFault fault, bool on) {
@@ -98,7 +98,8 @@ std::string dbc_of(HostedProtocol protocol) {
 struct HostedBase::World {
   explicit World(const HostedBaseOptions& chosen)
       : options(chosen),
-        bus(chosen.interface, {.identifiers = identifiers_of(table_of(chosen.protocol))}),
+        bus(chosen.interface,
+            {.identifiers = identifiers_of(table_of(chosen.protocol)), .takes_remote_requests = true}),
         motion(chosen.base, chosen.start, chosen.seed, surroundings_of(chosen)),
         base(make_firmware(bus, motion, chosen)),
         truth(chosen.world.empty() ? chosen.interface : chosen.world),

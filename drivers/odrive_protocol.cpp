@@ -12,6 +12,10 @@ namespace {
 
 namespace tables = odrive::tables;
 
+/// Of all that an ODrive says and takes, what the driver says or needs to hear.
+constexpr std::array spoken{tables::heartbeat,           tables::encoder_estimates,  tables::set_axis_state,
+                            tables::set_controller_mode, tables::set_input_velocity, tables::clear_errors};
+
 constexpr double mm_per_m = 1000.0;
 /// What both axes say belongs together only when it is about as old.
 constexpr Duration most_apart = std::chrono::milliseconds(300);
@@ -109,7 +113,7 @@ class OdriveProtocol final : public BaseProtocol {
   [[nodiscard]] std::vector<std::uint32_t> identifiers() const override {
     std::vector<std::uint32_t> all;
     for (const std::uint32_t offset : {offset_of(false), offset_of(true)}) {
-      for (const MessageSpec& message : tables::messages) all.push_back(message.id + offset);
+      for (const MessageSpec& message : spoken) all.push_back(message.id + offset);
     }
     return all;
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/agilex_v2_table.hpp"
 #include "drivers/simulated_motion.hpp"
 
 namespace lodestar {
@@ -18,17 +17,18 @@ std::int32_t counter_mm(double travel_m, std::int32_t start_mm) {
 }  // namespace
 
 SimulatedBase::SimulatedBase(CanBus& bus, SimulatedMotion& motion, const SimulatedBaseOptions& options)
-    : bus_(bus), motion_(motion), options_(options) {}
+    : bus_(bus), motion_(motion), options_(options), periphery_(bus, options.battery_v) {}
 
 void SimulatedBase::step(Stamp now) {
   while (const auto received = bus_.poll()) take_in(received->frame, now);
+  if (options_.has_periphery && !defects_.silent) periphery_.send_answer();
   drive_wheels(now);
   if (!next_feedback_) next_feedback_ = now;
   if (now < *next_feedback_) return;
   *next_feedback_ += options_.feedback_period;
   if (*next_feedback_ <= now)
     next_feedback_ = now + options_.feedback_period;  // held up: nothing to catch up
-  measure_speed();
+  measure_speed(now);
   send_feedback();
 }
 
@@ -63,6 +63,8 @@ void SimulatedBase::take_in(const CanFrame& frame, Stamp now) {
     command_.reset();
   } else if (agilex::is_clear_fault(frame)) {
     fault_bits_ = 0;
+  } else if (options_.has_periphery) {
+    periphery_.take_in(frame);
   }
 }
 
@@ -92,9 +94,10 @@ void SimulatedBase::drive_wheels(Stamp now) {
   motion_.set_wheel_targets(left_mps / excess, right_mps / excess);
 }
 
-/// Encoder steps over the last period, smoothed: one step in 20 ms is already 25 mm/s.
-void SimulatedBase::measure_speed() {
-  const double period_s = seconds(options_.feedback_period);
+/// Encoder steps since the last feedback, smoothed: one step in 20 ms is already 25 mm/s.
+void SimulatedBase::measure_speed(Stamp now) {
+  const double period_s = seconds(measured_at_ ? now - *measured_at_ : options_.feedback_period);
+  measured_at_ = now;
   const double left_m = defects_.left_encoder_stuck ? last_left_m_ : motion_.left_encoder_m();
   const double right_m = motion_.right_encoder_m();
   const double left_mps = (left_m - last_left_m_) / period_s;
@@ -118,27 +121,7 @@ void SimulatedBase::send_feedback() {
                                 agilex::encode_odometer(odometer)}) {
     if (!bus_.send(frame)) return;
   }
-  if (options_.tells_of_motors) send_motors_and_battery();
-}
-
-/// Motor speeds with every feedback, temperatures with each fifth, the battery twice a second.
-void SimulatedBase::send_motors_and_battery() {
-  constexpr double rim_m_per_turn = 0.5;
-  constexpr double seconds_per_minute = 60.0;
-  constexpr double room_degc = 25.0;
-  namespace tables = agilex::tables;
-  const double half_difference_mps = measured_.turn_radps * options_.track_width_m / 2.0;
-  const auto rpm = [](double rim_mps) { return rim_mps / rim_m_per_turn * seconds_per_minute; };
-  (void)bus_.send(encode(tables::motor1_fast, {rpm(measured_.forward_mps - half_difference_mps)}));
-  (void)bus_.send(encode(tables::motor2_fast, {rpm(measured_.forward_mps + half_difference_mps)}));
-  if (feedbacks_ % 5 == 0) {
-    (void)bus_.send(encode(tables::motor1_slow, {options_.battery_v, room_degc, room_degc}));
-    (void)bus_.send(encode(tables::motor2_slow, {options_.battery_v, room_degc, room_degc}));
-  }
-  if (feedbacks_ % 25 == 0) {
-    (void)bus_.send(encode(tables::battery_state, {80.0, 100.0, options_.battery_v, 0.0, room_degc}));
-  }
-  ++feedbacks_;
+  if (options_.has_periphery) periphery_.send_feedback(measured_, options_.track_width_m);
 }
 
 }  // namespace lodestar

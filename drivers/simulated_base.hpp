@@ -6,6 +6,7 @@
 #include "drivers/agilex_v2.hpp"
 #include "drivers/can_bus.hpp"
 #include "drivers/simulated_firmware.hpp"
+#include "drivers/simulated_periphery.hpp"
 #include "maps/motion.hpp"
 
 namespace lodestar {
@@ -28,7 +29,7 @@ struct SimulatedBaseOptions {
   Duration command_timeout = std::chrono::milliseconds(500);
   Duration feedback_period = std::chrono::milliseconds(20);
   Duration can_latency = std::chrono::milliseconds(1);
-  bool tells_of_motors = false;  ///< and of its battery: not for our driver, but for other clients
+  bool has_periphery = false;  ///< lights, battery ...: not for our driver, but for other clients
 };
 
 class SimulatedMotion;
@@ -50,11 +51,10 @@ class SimulatedBase final : public SimulatedFirmware {
   void take_in(const CanFrame& frame, Stamp now);
   void drive_wheels(Stamp now);
   void send_feedback();
-  void send_motors_and_battery();
   [[nodiscard]] agilex::VehicleState vehicle_state() const;
   [[nodiscard]] bool takes_commands() const;
   [[nodiscard]] BodyVelocity wanted_velocity(Stamp now) const;
-  void measure_speed();
+  void measure_speed(Stamp now);
 
   struct Command {
     Stamp stamp;
@@ -70,9 +70,10 @@ class SimulatedBase final : public SimulatedFirmware {
   std::uint8_t counter_ = 0;
   std::optional<Command> command_;
   std::optional<Stamp> next_feedback_;
-  int feedbacks_ = 0;  ///< sent so far
+  SimulatedPeriphery periphery_;
   double last_left_m_ = 0.0;
   double last_right_m_ = 0.0;
+  std::optional<Stamp> measured_at_;
   BodyVelocity measured_;
 };
 

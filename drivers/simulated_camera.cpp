@@ -71,6 +71,10 @@ std::optional<Frame> SimulatedCamera::poll() {
                                     exposure.number)};
 }
 
+void SimulatedCamera::keep_newest(std::size_t frames) {
+  while (on_their_way_.size() > frames) on_their_way_.pop_front();
+}
+
 Stamp SimulatedCamera::opening_of(std::uint64_t number) const {
   return Stamp(options_.period * static_cast<Duration::rep>(number));
 }

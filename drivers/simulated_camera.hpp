@@ -31,6 +31,10 @@ class SimulatedCamera : public Camera {
   /// A frame is formed when it is asked for, so one that nobody polls costs nothing.
   std::optional<Frame> poll() override;
 
+  /// Drops the oldest of the frames that were not polled until so many are left, as a device does that has no
+  /// more buffers.
+  void keep_newest(std::size_t frames);
+
  private:
   struct Observation {
     Stamp stamp;

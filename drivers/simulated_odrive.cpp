@@ -1,6 +1,7 @@
 #include "drivers/simulated_odrive.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "drivers/odrive_table.hpp"
@@ -25,11 +26,14 @@ SimulatedOdrive::SimulatedOdrive(CanBus& bus, SimulatedMotion& motion, const Sim
 
 void SimulatedOdrive::step(Stamp now) {
   while (const auto received = bus_.poll()) take_in(received->frame, now);
+  if (!answers_.empty() && bus_.send(answers_.front())) answers_.pop_front();
   for (Axis& axis : axes_) watch(axis, now);
   drive_wheels();
-  if (is_due(next_estimate_, now, options_.estimate_period))
-    send_estimates(seconds(options_.estimate_period));
-  if (is_due(next_heartbeat_, now, options_.heartbeat_period)) send_heartbeats();
+  if (is_due(next_estimate_, now, options_.estimate_period)) send_estimates(now);
+  if (is_due(next_heartbeat_, now, options_.heartbeat_period)) {
+    send_heartbeats();
+    send_health();
+  }
 }
 
 void SimulatedOdrive::take_in(const CanFrame& frame, Stamp now) {
@@ -44,10 +48,15 @@ void SimulatedOdrive::take_in(const CanFrame& frame, Stamp now) {
       const bool may_arm = axis.errors == 0 && !emergency_stop_;
       if ((*state)[0] == odrive::idle) axis.state = odrive::idle;
       if ((*state)[0] == odrive::closed_loop_control && may_arm) axis.state = odrive::closed_loop_control;
+    } else if (const auto mode = decode(tables::set_controller_mode, frame, offset)) {
+      axis.controls_velocity = (*mode)[0] == odrive::velocity_control;
     } else if (decode(tables::clear_errors, frame, offset)) {
       axis.errors = emergency_stop_ ? odrive::estop_requested : 0;
+      axis.disarm_reason = axis.errors;
     } else if (decode(tables::estop, frame, offset)) {
       disarm(odrive::estop_requested);
+    } else if (frame.length == 0 && !defects_.silent) {
+      answer(node, frame.id - offset);
     }
   }
 }
@@ -57,11 +66,13 @@ void SimulatedOdrive::watch(Axis& axis, Stamp now) const {
   if (axis.fed && now - *axis.fed <= *options_.watchdog) return;
   axis.state = odrive::idle;
   axis.errors |= odrive::watchdog_expired;
+  axis.disarm_reason = odrive::watchdog_expired;
 }
 
 void SimulatedOdrive::disarm(std::uint32_t error) {
   for (Axis& axis : axes_) {
     axis.errors |= error;
+    axis.disarm_reason = error;
     axis.state = odrive::idle;
   }
 }
@@ -94,7 +105,8 @@ void SimulatedOdrive::drive_wheels() {
   std::array<double, 2> wanted_mps{};
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double sign = i == 1 && options_.right_is_mirrored ? -1.0 : 1.0;
-    const bool obeys = axes_[i].state == odrive::closed_loop_control && !defects_.ignores_commands;
+    const bool obeys = axes_[i].state == odrive::closed_loop_control && axes_[i].controls_velocity &&
+                       !defects_.ignores_commands;
     wanted_mps[i] = obeys ? sign * axes_[i].wanted_rps * m_per_rev() : 0.0;
     if (defects_.runs_away) wanted_mps[i] = options_.max_wheel_mps;
     wanted_mps[i] = std::clamp(wanted_mps[i], -options_.max_wheel_mps, options_.max_wheel_mps);
@@ -102,8 +114,10 @@ void SimulatedOdrive::drive_wheels() {
   motion_.set_wheel_targets(wanted_mps[0], wanted_mps[1]);
 }
 
-void SimulatedOdrive::send_estimates(double elapsed_s) {
+void SimulatedOdrive::send_estimates(Stamp now) {
   constexpr double smoothing_s = 0.02;
+  const double elapsed_s = seconds(estimated_at_ ? now - *estimated_at_ : options_.estimate_period);
+  estimated_at_ = now;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     Axis& axis = axes_[i];
     const double rolled_m = i == 0 ? motion_.left_encoder_m() : motion_.right_encoder_m();
@@ -113,17 +127,67 @@ void SimulatedOdrive::send_estimates(double elapsed_s) {
     axis.last_m = now_m;
     if (defects_.silent) continue;
     const double sign = i == 1 && options_.right_is_mirrored ? -1.0 : 1.0;
-    (void)bus_.send(encode(tables::encoder_estimates, {sign * now_m / m_per_rev(), sign * axis.speed_rps},
-                           static_cast<std::uint32_t>(i) * odrive::node_step));
+    axis.position_rev = sign * now_m / m_per_rev();
+    axis.velocity_rps = sign * axis.speed_rps;
+    (void)bus_.send(*frame_of(static_cast<std::uint32_t>(i), tables::encoder_estimates.id));
   }
 }
 
 void SimulatedOdrive::send_heartbeats() {
   if (defects_.silent) return;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    (void)bus_.send(encode(tables::heartbeat,
-                           {static_cast<double>(axes_[i].errors), static_cast<double>(axes_[i].state)},
-                           static_cast<std::uint32_t>(i) * odrive::node_step));
+  for (std::uint32_t node = 0; node < axes_.size(); ++node)
+    (void)bus_.send(*frame_of(node, tables::heartbeat.id));
+}
+
+void SimulatedOdrive::send_health() {
+  if (defects_.silent) return;
+  for (std::uint32_t node = 0; node < axes_.size(); ++node) {
+    for (const MessageSpec& message : {tables::error, tables::currents, tables::temperatures,
+                                       tables::bus_voltage_current, tables::torques, tables::powers}) {
+      (void)bus_.send(*frame_of(node, message.id));
+    }
+  }
+}
+
+void SimulatedOdrive::answer(std::uint32_t node, std::uint32_t command) {
+  constexpr std::size_t most_waiting = 64;
+  const auto frame = frame_of(node, command);
+  if (frame && answers_.size() < most_waiting) answers_.push_back(*frame);
+}
+
+/// What the axis says of itself under this command; nothing for what is no question. A wheel that turns
+/// overcomes a plain friction.
+std::optional<CanFrame> SimulatedOdrive::frame_of(std::uint32_t node, std::uint32_t command) const {
+  constexpr double friction_nm = 0.2;
+  constexpr double nm_per_a = 0.4;
+  constexpr double room_degc = 25.0;
+  const Axis& axis = axes_.at(node);
+  const double torque_nm = axis.velocity_rps == 0.0 ? 0.0 : std::copysign(friction_nm, axis.velocity_rps);
+  const double power_w = torque_nm * 2.0 * std::numbers::pi * axis.velocity_rps;
+  const auto said = [&](const MessageSpec& message, const SignalValues& values) {
+    return encode(message, values, node * odrive::node_step);
+  };
+  switch (command) {
+    case tables::version.id:
+      return said(tables::version, {2, 4, 4, 58, 0, 6, 9, 0});
+    case tables::heartbeat.id:
+      return said(tables::heartbeat, {static_cast<double>(axis.errors), static_cast<double>(axis.state)});
+    case tables::error.id:
+      return said(tables::error, {static_cast<double>(axis.errors), static_cast<double>(axis.disarm_reason)});
+    case tables::encoder_estimates.id:
+      return said(tables::encoder_estimates, {axis.position_rev, axis.velocity_rps});
+    case tables::currents.id:
+      return said(tables::currents, {torque_nm / nm_per_a, torque_nm / nm_per_a});
+    case tables::temperatures.id:
+      return said(tables::temperatures, {room_degc, room_degc});
+    case tables::bus_voltage_current.id:
+      return said(tables::bus_voltage_current, {options_.supply_v, power_w / options_.supply_v});
+    case tables::torques.id:
+      return said(tables::torques, {torque_nm, torque_nm});
+    case tables::powers.id:
+      return said(tables::powers, {power_w, power_w});
+    default:
+      return std::nullopt;
   }
 }
 

@@ -39,11 +39,12 @@ void set_option(int socket, int level, int name, const Value& value) {
   throw InputError(fmt::format("socketcan: option {} was refused ({})", name, std::strerror(errno)));
 }
 
-/// Exactly these identifiers, in the short format, as data frames.
-void set_filters(int socket, const std::vector<std::uint32_t>& identifiers) {
+/// Exactly these identifiers, in the short format, as data frames, and as requests for them where wanted.
+void set_filters(int socket, const SocketCanOptions& options) {
+  const canid_t format_mask = options.takes_remote_requests ? CAN_EFF_FLAG : format_bits;
   std::vector<can_filter> filters;
-  for (const std::uint32_t id : identifiers) filters.push_back({id, CAN_SFF_MASK | format_bits});
-  if (filters.empty()) filters.push_back({plain_data_frame, format_bits});
+  for (const std::uint32_t id : options.identifiers) filters.push_back({id, CAN_SFF_MASK | format_mask});
+  if (filters.empty()) filters.push_back({plain_data_frame, format_mask});
   const auto size = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
   if (::setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), size) == 0) return;
   throw InputError(fmt::format("socketcan: the filters were refused ({})", std::strerror(errno)));
@@ -53,9 +54,9 @@ Stamp stamp_of(const timespec& time) {
   return Stamp(std::chrono::seconds(time.tv_sec) + Duration(time.tv_nsec));
 }
 
-/// The kernel stamps on the clock that people set. Only the age of a stamp counts; one that cannot be, after
-/// the clock was set, is taken for fresh. Both clocks are read again when something came in between.
-Stamp on_monotonic_clock(const timespec& wall_stamp) {
+/// What the monotonic clock shows over the one that people set, on which the kernel stamps. Both are read
+/// again when something came in between.
+Duration monotonic_over_wall() {
   constexpr Duration at_once = std::chrono::microseconds(100);
   timespec wall_now{};
   Stamp now;
@@ -65,16 +66,14 @@ Stamp on_monotonic_clock(const timespec& wall_stamp) {
     now = monotonic_now();
     if (now - before < at_once) break;
   }
-  const Duration age = stamp_of(wall_now) - stamp_of(wall_stamp);
-  const bool is_possible = age >= Duration::zero() && age < std::chrono::seconds(1);
-  return is_possible ? now - age : now;
+  return now - stamp_of(wall_now);
 }
 
 /// One message of the socket, with what the kernel says about it.
 struct Message {
   can_frame frame{};
   bool is_own = false;
-  Stamp stamp;
+  std::optional<Stamp> wall_stamp;
   std::optional<std::uint32_t> lost;  ///< in total, since the socket was opened
 };
 
@@ -95,13 +94,12 @@ std::optional<Message> receive(int socket) {
     return std::nullopt;
   }
   message.is_own = (header.msg_flags & MSG_CONFIRM) != 0;
-  message.stamp = monotonic_now();
   for (cmsghdr* item = CMSG_FIRSTHDR(&header); item != nullptr; item = CMSG_NXTHDR(&header, item)) {
     if (item->cmsg_level != SOL_SOCKET) continue;
     if (item->cmsg_type == SO_TIMESTAMPING) {
       timespec software{};
       std::memcpy(&software, CMSG_DATA(item), sizeof(software));
-      message.stamp = on_monotonic_clock(software);
+      message.wall_stamp = stamp_of(software);
     } else if (item->cmsg_type == SO_RXQ_OVFL) {
       std::uint32_t lost = 0;
       std::memcpy(&lost, CMSG_DATA(item), sizeof(lost));
@@ -111,8 +109,21 @@ std::optional<Message> receive(int socket) {
   return message;
 }
 
+/// On the monotonic clock. A stamp that cannot be, after somebody set the clock, is taken for fresh.
+Stamp stamp_from(const std::optional<Stamp>& wall_stamp, std::optional<Duration>& over_wall) {
+  const Stamp now = monotonic_now();
+  if (!wall_stamp) return now;
+  if (!over_wall) over_wall = monotonic_over_wall();
+  const Stamp stamp = *wall_stamp + *over_wall;
+  const bool is_possible = stamp <= now && now - stamp < std::chrono::seconds(1);
+  return is_possible ? stamp : now;
+}
+
+/// A remote request carries no data, whatever its length says.
 CanFrame frame_from(const can_frame& raw) {
-  CanFrame frame{raw.can_id & CAN_SFF_MASK, std::min<std::uint8_t>(raw.can_dlc, 8), {}};
+  const bool is_request = (raw.can_id & CAN_RTR_FLAG) != 0;
+  const std::uint8_t length = is_request ? 0 : std::min<std::uint8_t>(raw.can_dlc, 8);
+  CanFrame frame{raw.can_id & CAN_SFF_MASK, length, {}};
   std::copy_n(raw.data, frame.length, frame.data.begin());
   return frame;
 }
@@ -136,8 +147,11 @@ SocketCanBus::SocketCanBus(std::string interface, const SocketCanOptions& option
 }
 
 bool SocketCanBus::send(const CanFrame& frame) {
-  const bool older_waits = std::ranges::any_of(waiting_, [&](const Waiting& w) { return w.id == frame.id; });
-  if (!is_valid(frame) || bound_index_ == 0 || older_waits) {
+  const auto older_waits = [&] {
+    return std::ranges::any_of(waiting_, [&](const Waiting& w) { return w.id == frame.id; });
+  };
+  if (older_waits()) read_all();  // its confirmation may have arrived already
+  if (!is_valid(frame) || bound_index_ == 0 || older_waits()) {
     refuse();
     return false;
   }
@@ -157,7 +171,20 @@ bool SocketCanBus::send(const CanFrame& frame) {
 }
 
 std::optional<StampedCanFrame> SocketCanBus::poll() {
-  check_interface();
+  if (arrived_.empty()) {
+    check_interface();
+    read_all();
+  }
+  if (arrived_.empty()) return std::nullopt;
+  const StampedCanFrame oldest = arrived_.front();
+  arrived_.pop_front();
+  return oldest;
+}
+
+/// Takes in all that the kernel has for us; frames of others wait in `arrived_`.
+void SocketCanBus::read_all() {
+  std::optional<Duration> over_wall;
+  const canid_t unwanted = options_.takes_remote_requests ? CAN_EFF_FLAG : format_bits;
   while (true) {
     const auto message = receive(socket_.get());
     if (!message) {
@@ -165,7 +192,8 @@ std::optional<StampedCanFrame> SocketCanBus::poll() {
       take_in_failure(error);
       const bool more_may_come = error == EINTR || error == EBADMSG || error == ENETDOWN || error == ENODEV;
       if (more_may_come) continue;
-      return std::nullopt;
+      waits_long_ = !waiting_.empty() && monotonic_now() - waiting_.front().sent > options_.stalled_after;
+      return;
     }
     if (message->lost) counts_.lost = *message->lost;
     const can_frame& frame = message->frame;
@@ -173,19 +201,18 @@ std::optional<StampedCanFrame> SocketCanBus::poll() {
       take_in_error_frame(frame);
     } else if (message->is_own) {
       confirm(frame.can_id & CAN_SFF_MASK);
-    } else if ((frame.can_id & format_bits) == 0) {
+    } else if ((frame.can_id & unwanted) == 0) {
       ++counts_.received;
-      newest_ = std::max(newest_, message->stamp);  // in the order of the bus, whatever the clocks do
-      return StampedCanFrame{newest_, frame_from(frame)};
+      const Stamp stamp = stamp_from(message->wall_stamp, over_wall);
+      newest_ = std::max(newest_, stamp);  // in the order of the bus, whatever the clocks do
+      arrived_.push_back({newest_, frame_from(frame)});
     }
   }
 }
 
 BusHealth SocketCanBus::health() const {
   const bool carries = state_ == BusState::up || state_ == BusState::error_passive;
-  const bool waits_long =
-      !waiting_.empty() && monotonic_now() - waiting_.front().sent > options_.stalled_after;
-  const bool is_stalled = waits_long || refused_in_a_row_ >= options_.stalled_after_refusals;
+  const bool is_stalled = waits_long_ || refused_in_a_row_ >= options_.stalled_after_refusals;
   return {carries && is_stalled ? BusState::stalled : state_, counts_};
 }
 
@@ -219,7 +246,7 @@ void SocketCanBus::check_interface() {
 
 /// An interface that is removed takes the filters with it.
 void SocketCanBus::bind_to(unsigned index) {
-  set_filters(socket_.get(), options_.identifiers);
+  set_filters(socket_.get(), options_);
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(index);

@@ -14,7 +14,8 @@ namespace lodestar {
 struct SocketCanOptions {
   std::vector<std::uint32_t>
       identifiers;  ///< to hear, and those to be sent (else none is confirmed); all when empty
-  Duration check_period = std::chrono::milliseconds(200);   ///< of the interface: there, up, still the same?
+  bool takes_remote_requests = false;                      ///< as frames without data; else they are left out
+  Duration check_period = std::chrono::milliseconds(200);  ///< of the interface: there, up, still the same?
   Duration stalled_after = std::chrono::milliseconds(100);  ///< without the confirmation of a frame
   int stalled_after_refusals = 3;                           ///< in a row
   Duration forget_after =
@@ -44,6 +45,7 @@ class SocketCanBus final : public CanBus {
   };
 
   void check_interface();
+  void read_all();
   void bind_to(unsigned index);
   void take_in_failure(int error);
   void take_in_error_frame(const can_frame& frame);
@@ -58,11 +60,13 @@ class SocketCanBus final : public CanBus {
   BusState state_ = BusState::missing;
   BusCounts counts_;
   std::optional<Stamp> checked_;
-  Stamp newest_;                    ///< of the frames received
-  std::optional<Stamp> disturbed_;  ///< last word of the controller about being passive
+  Stamp newest_;                         ///< of the frames received
+  std::deque<StampedCanFrame> arrived_;  ///< not yet polled
+  std::optional<Stamp> disturbed_;       ///< last word of the controller about being passive
   int refused_in_a_row_ = 0;
   Stamp refused_;                ///< the newest of them
   std::deque<Waiting> waiting_;  ///< handed over, not yet confirmed
+  bool waits_long_ = false;      ///< for the oldest of them, when all that had arrived was read
 };
 
 }  // namespace lodestar

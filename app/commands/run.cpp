@@ -1,7 +1,9 @@
 #include "app/run.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <memory>
 
@@ -15,9 +17,11 @@
 #include "app/live/attendant.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/operator_input.hpp"
+#include "app/report/can_log.hpp"
 #include "app/report/run_folder.hpp"
 #include "app/viewers/run_mcap.hpp"
 #include "drivers/guard.hpp"
+#include "drivers/recorded_bus.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -109,6 +113,83 @@ class ServedRun {
   std::optional<ConsoleThread> thread_;  // ends before what it serves
 };
 
+void say(const std::string& words) {
+  fmt::print(stderr, "{}\n", words);
+}
+
+/// The folder that this drive leaves, made already: what it cannot hold shall be known before the drive.
+fs::path make_run_folder(const RunArguments& arguments, const Site& site) {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  const fs::path folder = arguments.output.empty()
+                              ? fs::path("runs") / fmt::format("{}-{:%Y%m%dT%H%M%SZ}", site.name, now)
+                              : fs::path(arguments.output);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    say(fmt::format("{}: cannot be made ({}); this drive is not kept", folder.string(), error.message()));
+  return folder;
+}
+
+/// A drive that is over does not fail for want of room on a disk.
+void keep(const RunRecord& record, const Site& site, const fs::path& folder) {
+  try {
+    write_run_folder(folder, record, site.map.map, site.registry);
+  } catch (const InputError& error) {
+    say(fmt::format("the run folder is not complete: {}", error.what()));
+  }
+}
+
+/// What a drive needs besides its options.
+struct DriveParts {
+  const Site& site;
+  CanBus& bus;
+  const std::string& interface;
+  Camera& camera;
+};
+
+/// run.mcap of a drive that goes on without, where the disk does not take it.
+class RunViewersFile {
+ public:
+  RunViewersFile(const fs::path& folder, const Site& site, RunOptions& options) {
+    try {
+      mcap_.emplace(folder, known_world(site, options.camera), site.robot.radius_m);
+      options.watch = [this](const DriveMoment& moment) { mcap_->watch(moment); };
+    } catch (const InputError& error) {
+      say(fmt::format("warning: {}", error.what()));
+    }
+  }
+  ~RunViewersFile() {
+    if (mcap_ && !mcap_->healthy()) say("warning: the disk did not take all of run.mcap");
+  }
+  RunViewersFile(const RunViewersFile&) = delete;
+  RunViewersFile& operator=(const RunViewersFile&) = delete;
+
+ private:
+  std::optional<RunMcap> mcap_;
+};
+
+ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
+                    const RunArguments& arguments) {
+  const fs::path folder = make_run_folder(arguments, parts.site);
+  const RunRecord record = [&] {
+    const RunViewersFile mcap(folder, parts.site, options);
+    CanLog log(folder / "can.log", parts.interface, say);
+    RecordedBus logged(parts.bus, [&log](const StampedCanFrame& frame) { log.take(frame); });
+    return run(parts.site, logged, std::move(protocol), parts.camera, options);
+  }();
+  keep(record, parts.site, folder);
+  print_goals(record);
+  return record.arrived() ? done : job_failed;
+}
+
+/// With a console beside it, until it is told to stop.
+ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
+                      const RunArguments& arguments) {
+  ServedRun served(parts.site, arguments, options);
+  served.keep(run(parts.site, parts.bus, std::move(protocol), parts.camera, options));
+  return served.all_arrived() ? done : job_failed;
+}
+
 ExitCode run_command(const RunArguments& arguments) {
   if (arguments.goals.empty() && !arguments.serve) throw InputError("found neither --goal nor --serve");
   const Site site = load_site(arguments.site);
@@ -119,7 +200,7 @@ ExitCode run_command(const RunArguments& arguments) {
                      .pictures_hz = arguments.pictures_hz,
                      .hold_on_base_fault = true,
                      .operator_wish = [&input] { return wish_of(input); },
-                     .tell = [](const std::string& words) { fmt::print(stderr, "{}\n", words); }};
+                     .tell = say};
   for (const std::string& text : arguments.goals) options.goals.push_back(parse_goal("--goal", text));
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
@@ -129,23 +210,9 @@ ExitCode run_command(const RunArguments& arguments) {
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
-  std::optional<ServedRun> served;
-  if (arguments.serve) served.emplace(site, arguments, options);
-  std::optional<RunMcap> mcap;
-  if (!arguments.output.empty() && !served) {
-    mcap.emplace(arguments.output, known_world(site, options.camera), site.robot.radius_m);
-    options.watch = [&mcap](const DriveMoment& moment) { mcap->watch(moment); };
-  }
-  RunRecord record = run(site, bus, std::move(protocol), *camera, options);
-  if (served) {
-    served->keep(std::move(record));
-    return served->all_arrived() ? done : job_failed;
-  }
-  if (!arguments.output.empty()) write_run_folder(arguments.output, record, site.map.map, site.registry);
-  if (mcap && !mcap->healthy())
-    fmt::print(stderr, "lodestar: warning: the disk did not take all of run.mcap\n");
-  print_goals(record);
-  return record.arrived() ? done : job_failed;
+  const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};
+  return arguments.serve ? drive_served(parts, std::move(protocol), options, arguments)
+                         : drive_once(parts, std::move(protocol), options, arguments);
 }
 
 }  // namespace
@@ -173,7 +240,7 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
       ->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in the run folder")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Leave a run folder");
+  command->add_option("-o,--output", arguments->output, "Run folder; runs/SITE-TIME when left out");
   return {{command, [arguments] { return run_command(*arguments); }}};
 }
 

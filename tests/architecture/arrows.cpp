@@ -9,10 +9,11 @@ namespace {
 /// What app/ may include from drivers/: the face of the hardware by everyone, the simulated world and its
 /// judge by those parts that replay, report and measure. All else in drivers/ is its own affair.
 const std::set<std::string> face_of_the_hardware{
-    "drivers/base_driver.hpp",     "drivers/base_protocol.hpp", "drivers/camera.hpp",
-    "drivers/can_bus.hpp",         "drivers/can_interface.hpp", "drivers/candump.hpp",
-    "drivers/camera_stand_in.hpp", "drivers/clock.hpp",         "drivers/guard.hpp",
-    "drivers/recorded_bus.hpp",    "drivers/socketcan_bus.hpp", "drivers/v4l2_camera.hpp"};
+    "drivers/base_driver.hpp",      "drivers/base_protocol.hpp", "drivers/camera.hpp",
+    "drivers/can_bus.hpp",          "drivers/can_interface.hpp", "drivers/candump.hpp",
+    "drivers/camera_stand_in.hpp",  "drivers/clock.hpp",         "drivers/guard.hpp",
+    "drivers/pluggable_camera.hpp", "drivers/recorded_bus.hpp",  "drivers/socketcan_bus.hpp",
+    "drivers/v4l2_camera.hpp"};
 const std::set<std::string> simulated_world{"drivers/hosted_base.hpp", "drivers/image_former.hpp",
                                             "drivers/printed_square.hpp", "drivers/scoring.hpp",
                                             "drivers/simulation.hpp"};

@@ -9,8 +9,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kernel_slack = 50ms;  ///< of User-Mode Linux
-
 class Controller : public CanLab {
  protected:
   void lay_cable() override {
@@ -33,8 +31,7 @@ TEST_F(Controller, that_goes_bus_off_is_noticed_and_driven_with_again_after_a_re
   wait_until_driving();
   const Stamp off = monotonic_now();
   adapter->bus_off();
-  EXPECT_TRUE(
-      wait_for_words("base: stopped by a fault (the CAN controller is bus-off)", 20ms + 2 * kernel_slack));
+  expect_said_within(20ms, "base: stopped by a fault (the CAN controller is bus-off)", off);
   EXPECT_EQ(look_at_can_interface(navigator_end).controller, "bus-off");
   run->say("resume");
   EXPECT_TRUE(wait_for_words("cannot resume", 1s));

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/can/pulse.hpp"
+
 namespace lodestar {
 
 using namespace std::chrono_literals;
@@ -22,10 +24,7 @@ std::vector<std::string> words_in(const std::string& line) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
-std::string log_named(const std::string& name) {
-  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-  return std::string(test->name()) + "." + name + ".txt";
-}
+constexpr Duration kernel_slack = 50ms;  ///< of User-Mode Linux
 
 }  // namespace
 
@@ -54,14 +53,12 @@ void CanLab::TearDown() {
 
 void CanLab::start_base(const std::string& options) {
   base = std::make_unique<Process>(words_in(std::string(LODESTAR_BINARY " base ") + site + " --can " +
-                                            base_end + " --world " + navigator_end + " " + options),
-                                   log_named("base"));
+                                            base_end + " --world " + navigator_end + " " + options));
 }
 
 void CanLab::start_run(const std::string& goals) {
   run = std::make_unique<Process>(
-      words_in(std::string(LODESTAR_BINARY " run ") + site + " --can " + navigator_end + " " + goals),
-      log_named("run"));
+      words_in(std::string(LODESTAR_BINARY " run ") + site + " --can " + navigator_end + " " + goals));
 }
 
 void CanLab::measure(const std::string& fault, Stamp since) const {
@@ -75,9 +72,16 @@ void CanLab::measure(const std::string& fault, Stamp since) const {
     const auto odometer = agilex::decode_odometer(frame.frame);
     return (odometer->left_mm + odometer->right_mm) / 2.0;
   };
+  if (HasFailure()) return;
+  const auto noticed = run->said("base: stopped by a fault", since);
+  const auto ms_until = [since](Stamp event) {
+    return 1e3 * seconds(event - since - pulse().lost(since, event));
+  };
   std::ofstream csv("measured.csv", std::ios::app);
-  csv << fault << ',' << (moving.empty() ? 0.0 : 1e3 * lodestar::seconds(moving.back().stamp - since)) << ',';
-  if (!zero.empty()) csv << 1e3 * lodestar::seconds(zero.front().stamp - since);
+  csv << fault << ',';
+  if (noticed) csv << ms_until(*noticed);
+  csv << ',' << (moving.empty() ? 0.0 : ms_until(moving.back().stamp)) << ',';
+  if (!zero.empty()) csv << ms_until(zero.front().stamp);
   csv << ',';
   if (rest && !before.empty() && !after.empty()) csv << travel_mm(after.back()) - travel_mm(before.back());
   csv << '\n';
@@ -91,11 +95,45 @@ Stamp CanLab::wait_until_driving() {
 
 bool CanLab::wait_for_words(const std::string& words, Duration longest) const {
   const Stamp end = monotonic_now() + longest;
-  while (run->output().find(words) == std::string::npos) {
+  while (!run->said(words)) {
     if (monotonic_now() >= end) return false;
-    std::this_thread::sleep_for(10ms);
+    std::this_thread::sleep_for(5ms);
   }
   return true;
+}
+
+void CanLab::expect_within(Duration bound, Stamp from, Stamp to, const std::string& what) {
+  const Duration lost = pulse().lost(from, to);
+  EXPECT_LE(to - from, bound + kernel_slack + lost)
+      << what << " after " << 1e3 * seconds(to - from) << " ms, of which the machine stood still for "
+      << 1e3 * seconds(lost) << " ms";
+}
+
+void CanLab::expect_said_within(Duration bound, const std::string& words, Stamp since) const {
+  constexpr Duration patience = 5s;
+  std::optional<Stamp> said;
+  for (const Stamp end = monotonic_now() + patience; !said && monotonic_now() < end;) {
+    said = run->said(words, since);
+    std::this_thread::sleep_for(5ms);
+  }
+  ASSERT_TRUE(said) << "never said: " << words;
+  expect_within(bound, since, *said, words);
+}
+
+void CanLab::expect_no_motion_after(Duration bound, Stamp since) const {
+  constexpr Duration quiet = 500ms;
+  sleep_until(since + bound + kernel_slack + 2 * quiet);
+  const auto moving = witness->heard(is_moving_command, since);
+  if (moving.empty()) return;
+  expect_within(bound, since, moving.back().stamp, "the last moving command");
+  EXPECT_GT(monotonic_now() - moving.back().stamp, quiet) << "still commanded";
+}
+
+std::optional<int> CanLab::wait_for_the_end(Duration longest) const {
+  std::optional<int> ended;
+  const Stamp end = monotonic_now() + longest;
+  while (!ended && monotonic_now() < end && !run->said("base: stopped by a fault")) ended = run->wait(100ms);
+  return ended;
 }
 
 std::optional<int> CanLab::resume_until_the_end(Duration longest) {

@@ -25,12 +25,23 @@ class CanLab : public testing::Test {
   void start_base(const std::string& options = "");
   void start_run(const std::string& goals);
 
-  /// Once the base has come to rest: how long after `since` it was still told to move, when it was first told
-  /// to stand, and how far it went. Adds a line to measured.csv.
+  /// Once the base has come to rest: how long after `since` the navigator said that there is a fault, how
+  /// long the base was still told to move, when it was first told to stand, and how far it went. Times in
+  /// which the machine stood still are taken out. Adds a line to measured.csv.
   void measure(const std::string& fault, Stamp since) const;
+
+  /// `to` came so soon after `from`, or sooner. What User-Mode Linux itself takes is added, and for how long
+  /// the machine stood still meanwhile.
+  static void expect_within(Duration bound, Stamp from, Stamp to, const std::string& what);
+  /// The navigator says so, so soon after `since`.
+  void expect_said_within(Duration bound, const std::string& words, Stamp since) const;
+  /// Nobody commands motion any more, from so soon after `since` on.
+  void expect_no_motion_after(Duration bound, Stamp since) const;
 
   /// Drives, on a straight leg. The time at which that was seen.
   Stamp wait_until_driving();
+  /// The exit code of the mission; nothing when it does not end in time, or is stopped by a fault.
+  std::optional<int> wait_for_the_end(Duration longest) const;
   /// The navigator has said so on its way.
   bool wait_for_words(const std::string& words, Duration longest) const;
   /// Somebody stands there and resumes, as often as it takes, until the mission is over; its exit code. (On a

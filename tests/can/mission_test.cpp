@@ -3,6 +3,7 @@
 #include "drivers/candump.hpp"
 
 #include "tests/can/lab.hpp"
+#include "tests/can/pulse.hpp"
 
 // Whole missions by the real command line over a real kernel's CAN.
 namespace lodestar {
@@ -10,13 +11,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr Duration start_up = 20s;  ///< of a program, on a machine that has much to do
+
 class Mission : public CanLab {};
 
 TEST_F(Mission, arrives_and_candump_saw_it) {
-  Process candump({"candump", "-L", base_end}, "candump.log");
+  Process candump({"sh", "-c", "exec candump -L " + base_end + " >candump.log"});
   start_base();
   start_run("--goal 2.4,5.6 --goal 2.2,5.6,90 -o run");
-  EXPECT_EQ(run->wait(60s), 0);
+  EXPECT_EQ(wait_for_the_end(60s), 0);
   candump.end();
   const Truth truth = end_base();
 
@@ -25,29 +28,44 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   EXPECT_NEAR(truth.heading_deg, 90.0, 2.0);
   EXPECT_EQ(truth.contacts, 0);
 
-  // The log of another program: CAN mode was asked for before the first command, commands came steadily, and
-  // the last one stands still.
+  // The log of another program: CAN mode was asked for before the first command, and the last one stands
+  // still.
   const std::vector<LoggedCanFrame> log = load_candump("candump.log");
-  std::vector<StampedCanFrame> commands;
+  std::vector<CanFrame> logged;
   bool asked = false;
-  for (const LoggedCanFrame& logged : log) {
-    const CanFrame& frame = logged.received.frame;
+  for (const LoggedCanFrame& line : log) {
+    const CanFrame& frame = line.received.frame;
     asked = asked || agilex::decode_control_mode(frame) == agilex::ControlMode::can;
     if (!is_motion_command(frame)) continue;
     ASSERT_TRUE(asked);
-    commands.push_back(logged.received);
+    logged.push_back(frame);
   }
-  ASSERT_GT(commands.size(), 300U);
+  ASSERT_GT(logged.size(), 300U);
+  EXPECT_TRUE(is_zero_command(logged.back()));
+
+  // Commands came steadily: one every 20 ms, two periods and what this kernel takes.
+  const auto commands = witness->heard(is_motion_command, Stamp{});
+  EXPECT_EQ(commands.size(), logged.size());
   std::size_t late = 0;
   for (std::size_t i = 1; i < commands.size(); ++i) {
     if (is_zero_command(commands[i - 1].frame)) continue;
     const Duration gap = commands[i].stamp - commands[i - 1].stamp;
-    EXPECT_LT(gap, 500ms) << "the base gives up waiting";
-    if (gap > 90ms) ++late;
+    if (gap - pulse().lost(commands[i - 1].stamp, commands[i].stamp) > 90ms) ++late;
   }
-  EXPECT_LE(late, commands.size() / 100) << "a command every 20 ms; two periods and what this kernel takes";
-  EXPECT_TRUE(is_zero_command(commands.back().frame));
+  EXPECT_LE(late, commands.size() / 100);
   EXPECT_FALSE(load_candump("run/can.log").empty());
+}
+
+/// Whatever fills disks: a drive does not depend on them.
+TEST_F(Mission, a_full_disk_ends_the_log_and_not_the_drive) {
+  ASSERT_TRUE(shell("mkdir -p /run/small && mount -t tmpfs -o size=16k tmpfs /run/small"));
+  start_base();
+  start_run("--goal 2.4,5.6 -o /run/small/run");
+  EXPECT_EQ(resume_until_the_end(40s), 0);
+  EXPECT_TRUE(run->said("can.log: cannot be written"));
+  EXPECT_TRUE(run->said("the run folder is not complete"));
+  EXPECT_NEAR(end_base().x_m, 2.4, 0.03);
+  ASSERT_TRUE(shell("umount /run/small"));
 }
 
 /// The same drive on the two axes of an ODrive.
@@ -89,17 +107,29 @@ TEST_F(Mission, base_speaks_as_the_manual_says) {
 TEST_F(Mission, waits_for_an_interface_and_a_base_that_come_later) {
   ASSERT_TRUE(shell("ip link del vcan0"));
   start_run("--goal 1.8,5.6");
-  EXPECT_TRUE(wait_for_words("missing", 5s));
+  EXPECT_TRUE(wait_for_words("missing", start_up));
   ASSERT_TRUE(shell("ip link add dev vcan0 type vcan && ip link set vcan0 up"));
-  EXPECT_TRUE(wait_for_words("silent", 5s));
-  EXPECT_TRUE(witness->heard(is_motion_command, Stamp{}).empty()) << "moves by itself";
+  EXPECT_TRUE(wait_for_words("silent", start_up));
+  const auto commands = witness->heard(is_motion_command, Stamp{});
+  EXPECT_TRUE(commands.empty()) << "moves by itself: " << candump_line(commands.front());
   start_base();
-  EXPECT_EQ(run->wait(30s), 0);
+  EXPECT_EQ(resume_until_the_end(30s), 0);
+}
+
+TEST_F(Mission, is_refused_with_a_camera_that_is_not_there) {
+  ASSERT_TRUE(shell("cp -r " LODESTAR_SOURCE_DIR
+                    "/sites/lab filmed && sed -i 's|^camera:.*|camera: v4l2:/dev/video9|' filmed/site.yaml"));
+  site = "filmed";
+  start_base();
+  start_run("--goal 1.8,5.6");
+  EXPECT_EQ(run->wait(start_up), 2);
+  EXPECT_TRUE(run->said("/dev/video9: found a device that cannot be opened"));
+  EXPECT_TRUE(witness->heard(is_motion_command, Stamp{}).empty());
 }
 
 TEST_F(Mission, without_a_base_ends_in_failure) {
   start_run("--goal 1.8,5.6");
-  EXPECT_EQ(run->wait(25s), 1);
+  EXPECT_EQ(run->wait(60s), 1);
   EXPECT_TRUE(wait_for_words("the base is silent", 1s));
 }
 

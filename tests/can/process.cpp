@@ -4,8 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
-#include <fstream>
-#include <sstream>
+#include <poll.h>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <thread>
@@ -16,23 +15,39 @@ namespace lodestar {
 
 using namespace std::chrono_literals;
 
-Process::Process(std::vector<std::string> words, std::string log) : log_(std::move(log)) {
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-  FileDescriptor reading(ends[0]);
-  input_ = FileDescriptor(ends[1]);
-  std::ofstream{log_};  // nobody reads what a process before it has printed
+namespace {
+
+struct Pipe {
+  Pipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    reading = FileDescriptor(ends[0]);
+    writing = FileDescriptor(ends[1]);
+  }
+
+  FileDescriptor reading;
+  FileDescriptor writing;
+};
+
+}  // namespace
+
+Process::Process(std::vector<std::string> words) {
+  Pipe in;
+  Pipe out;
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   id_ = fork();
-  if (id_ != 0) return;
-  dup2(reading.get(), STDIN_FILENO);
-  const int out = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  dup2(out, STDOUT_FILENO);
-  dup2(out, STDERR_FILENO);
-  execvp(arguments[0], arguments.data());
-  _exit(127);
+  if (id_ == 0) {
+    dup2(in.reading.get(), STDIN_FILENO);
+    dup2(out.writing.get(), STDOUT_FILENO);
+    dup2(out.writing.get(), STDERR_FILENO);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  input_ = std::move(in.writing);
+  printed_ = std::move(out.reading);
+  thread_ = std::jthread([this](const std::stop_token& stop) { listen(stop); });
 }
 
 Process::~Process() {
@@ -42,10 +57,29 @@ Process::~Process() {
   wait(5s);
 }
 
+/// Until nobody can print any more; children of the program may do so after its end.
+void Process::listen(const std::stop_token& stop) {
+  std::string begun;
+  while (!stop.stop_requested()) {
+    pollfd source{.fd = printed_.get(), .events = POLLIN, .revents = 0};
+    if (::poll(&source, 1, 20) <= 0) continue;
+    std::array<char, 4096> bytes{};
+    const ssize_t size = ::read(printed_.get(), bytes.data(), bytes.size());
+    if (size <= 0) return;
+    const Stamp now = monotonic_now();
+    begun.append(bytes.data(), static_cast<std::size_t>(size));
+    const std::lock_guard lock(mutex_);
+    for (std::size_t end = begun.find('\n'); end != std::string::npos; end = begun.find('\n')) {
+      lines_.push_back({now, begun.substr(0, end)});
+      begun.erase(0, end + 1);
+    }
+  }
+}
+
 void Process::say(const std::string& line) {
   const std::string text = line + "\n";
   std::signal(SIGPIPE, SIG_IGN);
-  if (write(input_.get(), text.data(), text.size()) < 0) throw std::runtime_error("nobody listens");
+  (void)!write(input_.get(), text.data(), text.size());  // it may have ended meanwhile
 }
 
 void Process::signal(int number) const {
@@ -70,13 +104,23 @@ std::optional<int> Process::wait(Duration longest) {
 std::string Process::end() {
   signal(SIGTERM);
   wait(5s);
+  std::this_thread::sleep_for(50ms);  // its last words are on their way
   return output();
 }
 
 std::string Process::output() const {
-  std::ostringstream text;
-  text << std::ifstream(log_).rdbuf();
-  return text.str();
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  for (const Line& line : lines_) text += line.text + "\n";
+  return text;
+}
+
+std::optional<Stamp> Process::said(const std::string& words, Stamp since) const {
+  const std::lock_guard lock(mutex_);
+  for (const Line& line : lines_) {
+    if (line.stamp > since && line.text.find(words) != std::string::npos) return line.stamp;
+  }
+  return std::nullopt;
 }
 
 bool shell(const std::string& line) {

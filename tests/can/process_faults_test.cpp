@@ -8,8 +8,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kernel_slack = 50ms;  ///< of User-Mode Linux
-
 class ProcessFaults : public CanLab {
  protected:
   void drive() {
@@ -37,7 +35,7 @@ TEST_F(ProcessFaults, a_killed_navigator_is_stopped_within_50_ms) {
   run->signal(SIGKILL);
   const auto zero = witness->wait_for(is_zero_command, killed, 2s);
   ASSERT_TRUE(zero);
-  EXPECT_LE(zero->stamp - killed, 50ms + kernel_slack);
+  expect_within(50ms, killed, zero->stamp, "the zero command");
   EXPECT_TRUE(witness->heard(is_moving_command, zero->stamp).empty());
   expect_rest(killed);
   measure("navigator killed", killed);
@@ -49,7 +47,7 @@ TEST_F(ProcessFaults, a_hung_navigator_is_stopped_within_150_ms_and_stays_stoppe
   run->signal(SIGSTOP);
   const auto zero = witness->wait_for(is_zero_command, hung, 2s);
   ASSERT_TRUE(zero);
-  EXPECT_LE(zero->stamp - hung, 150ms + kernel_slack);
+  expect_within(150ms, hung, zero->stamp, "the zero command");
   expect_rest(hung);
   measure("navigator hung", hung);
 
@@ -70,7 +68,8 @@ TEST_F(ProcessFaults, a_killed_guard_leaves_the_base_to_its_own_timeout) {
   const Stamp killed = monotonic_now();
   ASSERT_EQ(kill(guard, SIGKILL), 0);
   EXPECT_EQ(run->wait(3s), 1);
-  EXPECT_TRUE(witness->heard(is_motion_command, killed + 20ms).empty()) << "nobody can command any more";
+  const auto commands = witness->heard(is_motion_command, killed);
+  if (!commands.empty()) expect_within(0ms, killed, commands.back().stamp, "the last command of anybody");
   EXPECT_TRUE(witness->wait_for(says_standing, killed, 2s));
   measure("guard killed", killed);
 }
@@ -85,7 +84,7 @@ TEST_F(ProcessFaults, with_both_killed_the_base_comes_to_rest_by_itself) {
   const auto rest = witness->wait_for(says_standing, killed, 3s);
   ASSERT_TRUE(rest);
   // 500 ms until the base gives up waiting, 300 ms to slow down from 0.6 m/s at 2 m/s2, its lag and a period.
-  EXPECT_LE(rest->stamp - killed, 1200ms + kernel_slack);
+  expect_within(1200ms, killed, rest->stamp, "rest");
   measure("navigator and guard killed", killed);
 }
 
@@ -96,7 +95,7 @@ TEST_F(ProcessFaults, an_hour_on_the_wall_clock_is_no_fault) {
   ASSERT_TRUE(shell("date -s '+1 hour' >/dev/null"));
   wait_for_words("never said", 500ms);
   ASSERT_TRUE(shell("date -s '-2 hours' >/dev/null"));
-  EXPECT_EQ(run->wait(30s), 0);
+  EXPECT_EQ(wait_for_the_end(30s), 0);
   EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
 }
 

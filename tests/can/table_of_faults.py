@@ -1,4 +1,5 @@
-"""The table of docs/can.md from measured.csv files: fault, last moving command ms, first zero command ms, way to rest mm."""
+"""The table of docs/can.md from measured.csv files: fault, ms until it is noticed, last moving command,
+first zero command, way to rest in mm."""
 import csv
 import math
 import sys
@@ -18,8 +19,8 @@ for file in sys.argv[1:]:
         for fault, *measures in csv.reader(lines):
             rows.setdefault(fault, []).append(measures)
 
-print("| fault | times | last moving command (ms) | first zero command (ms) | way to rest (mm) |")
-print("|---|---|---|---|---|")
+print("| fault | times | noticed (ms) | last moving command (ms) | first zero command (ms) | way to rest (mm) |")
+print("|---|---|---|---|---|---|")
 for fault, measures in rows.items():
     columns = " | ".join(cell(column) for column in zip(*measures))
     print(f"| {fault} | {len(measures)} | {columns} |")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <poll.h>
+#include <utility>
 
 #include "drivers/clock.hpp"
 
@@ -21,6 +22,8 @@ void Witness::listen() {
     (void)::poll(&socket, 1, 20);
     const std::lock_guard lock(mutex_);
     while (const auto frame = bus_.poll()) frames_.push_back(*frame);
+    const std::uint64_t errors = bus_.health().counts.error_frames;
+    if (errors != std::exchange(errors_, errors)) last_error_ = monotonic_now();
   }
 }
 
@@ -42,6 +45,20 @@ std::vector<StampedCanFrame> Witness::heard(const Question& question, Stamp sinc
     return frame.stamp > since && frame.stamp <= until && question(frame.frame);
   });
   return found;
+}
+
+std::optional<Stamp> Witness::last(const Question& question, Stamp until) const {
+  const auto found = heard(question, Stamp{}, until);
+  return found.empty() ? std::nullopt : std::optional(found.back().stamp);
+}
+
+std::optional<Stamp> Witness::last_error() const {
+  const std::lock_guard lock(mutex_);
+  return last_error_;
+}
+
+bool is_anything(const CanFrame& /*frame*/) {
+  return true;
 }
 
 bool is_motion_command(const CanFrame& frame) {

@@ -28,16 +28,25 @@ class Witness {
   [[nodiscard]] std::vector<StampedCanFrame> heard(const Question& question, Stamp since,
                                                    Stamp until = Stamp::max()) const;
 
+  /// The newest frame that answers the question, until then.
+  [[nodiscard]] std::optional<Stamp> last(const Question& question, Stamp until = Stamp::max()) const;
+
+  /// When the controller last said that something is wrong with the bus.
+  [[nodiscard]] std::optional<Stamp> last_error() const;
+
  private:
   void listen();
 
   SocketCanBus bus_;
   mutable std::mutex mutex_;
   std::vector<StampedCanFrame> frames_;
+  std::uint64_t errors_ = 0;
+  std::optional<Stamp> last_error_;
   std::jthread thread_;
 };
 
 // Questions.
+bool is_anything(const CanFrame& frame);
 bool is_motion_command(const CanFrame& frame);
 bool is_zero_command(const CanFrame& frame);
 bool is_moving_command(const CanFrame& frame);

@@ -361,6 +361,19 @@ TEST_F(BaseDriverTest, latches_a_base_that_ignores_its_commands) {
   EXPECT_NEAR(periods_until_fault, 25, 2);
 }
 
+TEST_F(BaseDriverTest, blames_no_base_for_a_pause_of_its_own) {
+  make_ready();
+  driver.command({0.6, 0.0});
+  period();
+  now += milliseconds(400);  // in which even the slowest base would have sped up
+  base_speaks();
+  EXPECT_EQ(driver.poll(now).state, BaseState::ready);
+  driver.command({0.6, 0.0});
+  EXPECT_EQ(period().state, BaseState::ready);
+  measured = {0.5, 0.0};
+  EXPECT_EQ(periods(40).state, BaseState::ready);
+}
+
 TEST_F(BaseDriverTest, latches_when_somebody_else_commands_the_base) {
   make_ready();
   hear(agilex::encode_motion_command({0.5, 0.0}));

@@ -112,5 +112,56 @@ TEST(Odrive, with_a_watchdog_goes_idle_when_nobody_commands) {
             std::vector<std::string>{"watchdog expired"});
 }
 
+/// What a client hears when it asks.
+TEST(Odrive, answers_requests_and_only_those) {
+  World world;
+  CanBus& client = world.bus.attach();
+  const auto heard_of = [&](std::uint32_t id) {
+    int count = 0;
+    while (const auto heard = client.poll()) count += heard->frame.id == id ? 1 : 0;
+    return count;
+  };
+  world.drive({}, milliseconds(400));
+  EXPECT_EQ(heard_of(odrive::tables::version.id), 0) << "is not cyclic";
+
+  ASSERT_TRUE(client.send({odrive::tables::version.id + odrive::node_step, 0, {}}));
+  world.drive({}, milliseconds(20));
+  EXPECT_EQ(heard_of(odrive::tables::version.id + odrive::node_step), 1);
+
+  ASSERT_TRUE(client.send({odrive::tables::set_limits.id, 0, {}}));
+  world.drive({}, milliseconds(20));
+  EXPECT_EQ(heard_of(odrive::tables::set_limits.id), 0) << "that is no question";
+}
+
+TEST(Odrive, stands_in_another_control_mode_than_velocity) {
+  World world;
+  world.drive({}, milliseconds(400));
+  ASSERT_TRUE(world.navigator_end.send(encode(odrive::tables::set_controller_mode, {3.0, 1.0})));
+  world.drive({0.5, 0.0}, milliseconds(300));
+  EXPECT_LT(world.motion.left_encoder_m(), 0.01) << "the left axis controls positions now";
+  EXPECT_GT(world.motion.right_encoder_m(), 0.03);
+}
+
+TEST(Odrive, remembers_why_it_disarmed_until_errors_are_cleared) {
+  World world;
+  CanBus& client = world.bus.attach();
+  world.drive({}, milliseconds(400));
+  const auto disarm_reason = [&] {
+    double reason = -1.0;
+    while (const auto heard = client.poll()) {
+      if (const auto said = decode(odrive::tables::error, heard->frame)) reason = (*said)[1];
+    }
+    return reason;
+  };
+  EXPECT_EQ(disarm_reason(), 0.0);
+  world.base.press_emergency_stop(true);
+  world.drive({}, milliseconds(200));
+  EXPECT_EQ(disarm_reason(), odrive::estop_requested);
+  world.base.press_emergency_stop(false);
+  ASSERT_TRUE(client.send(encode(odrive::tables::clear_errors, {})));
+  world.drive({}, milliseconds(200));
+  EXPECT_EQ(disarm_reason(), 0.0);
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -8,11 +8,21 @@
 namespace lodestar {
 namespace {
 
-/// Brings whatever it is given, and accepts all commands.
+constexpr BodyVelocity commanded{0.2, 0.1};
+
+/// Brings whatever it is given, and accepts all that may be sent: the one command that is ever given, and
+/// what a handshake and a stop consist of. What arrives must not lead to anything else.
 class FedBus : public CanBus {
  public:
+  explicit FedBus(const BaseProtocol& protocol) {
+    for (const auto& known :
+         {protocol.command(commanded), protocol.stop(), protocol.enable(), protocol.clear_faults()}) {
+      meant_.insert(meant_.end(), known.begin(), known.end());
+    }
+  }
+
   bool send(const CanFrame& frame) override {
-    if (frame.length > frame.data.size()) __builtin_trap();
+    if (std::ranges::find(meant_, frame) == meant_.end()) __builtin_trap();
     return true;
   }
 
@@ -24,6 +34,9 @@ class FedBus : public CanBus {
   }
 
   std::deque<StampedCanFrame> frames;
+
+ private:
+  std::vector<CanFrame> meant_;
 };
 
 constexpr std::size_t bytes_per_frame = 11;
@@ -42,7 +55,7 @@ CanFrame frame_from(const std::uint8_t* bytes, const Identifiers& ids) {
 
 void drive(const std::uint8_t* data, std::size_t size, std::unique_ptr<BaseProtocol> protocol,
            const Identifiers& ids) {
-  FedBus bus;
+  FedBus bus(*protocol);
   BaseDriver driver(bus, std::move(protocol));
   Stamp now(std::chrono::seconds(1));
   for (std::size_t at = 0; at + bytes_per_frame <= size; at += bytes_per_frame) {
@@ -54,7 +67,7 @@ void drive(const std::uint8_t* data, std::size_t size, std::unique_ptr<BaseProto
     for (const WheelTravel& travel : feedback.travel) {
       if (!std::isfinite(travel.left_m) || !std::isfinite(travel.right_m)) __builtin_trap();
     }
-    driver.command({0.2, 0.1});
+    driver.command(commanded);
     if ((data[at] & 0x80) != 0) (void)driver.resume(now);
   }
 }

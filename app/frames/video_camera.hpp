@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "app/frames/video_file.hpp"
+#include "drivers/camera.hpp"
+#include "drivers/clock.hpp"
+
+namespace lodestar {
+
+/// A recorded video in place of a camera: its frames arrive as they did when it was taken, from the first
+/// poll on, stamped with the time at which they arrive. Nothing arrives after its end.
+class VideoCamera final : public Camera {
+ public:
+  /// Throws InputError when it is no video.
+  explicit VideoCamera(std::filesystem::path file, std::function<Stamp()> now = monotonic_now);
+
+  std::optional<Frame> poll() override;
+
+ private:
+  VideoFile video_;
+  std::function<Stamp()> now_;
+  std::optional<SourceFrame> next_;
+  std::optional<Duration> now_from_video_;  ///< what must be added to the video's own stamps
+};
+
+}  // namespace lodestar
