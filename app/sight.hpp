@@ -6,7 +6,7 @@
 #include "localization/marker_detector.hpp"
 #include "localization/marker_trust.hpp"
 #include "localization/pose_filter.hpp"
-#include "localization/pose_fix.hpp"
+#include "localization/pose_fixer.hpp"
 #include "maps/frame.hpp"
 
 namespace lodestar {
@@ -35,17 +35,16 @@ class Sight {
   std::optional<UsedFix> see(const Frame& frame, Whereabouts& known);
 
  private:
-  [[nodiscard]] std::optional<UsedFix> fix_by(const Frame& frame,
-                                              const std::vector<DetectedMarker>& markers) const;
+  [[nodiscard]] std::optional<UsedFix> fix_by(const Frame& frame, std::span<const DetectedMarker> markers);
   [[nodiscard]] std::vector<UsedFix> fixes_by_each(const Frame& frame,
-                                                   const std::vector<DetectedMarker>& markers) const;
+                                                   std::span<const DetectedMarker> markers);
   void judge(const UsedFix& single, Whereabouts& known) const;
 
   MarkerRegistry registry_;
-  CameraModel camera_;
   Eigen::Isometry3d base_from_camera_;
   PoseFixOptions fix_options_;
   MarkerDetector detector_;
+  PoseFixer fixer_;
 };
 
 }  // namespace lodestar

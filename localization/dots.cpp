@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 
 namespace lodestar {
@@ -18,34 +17,50 @@ int rounded(double value) {
   return static_cast<int>(std::lround(value));
 }
 
+constexpr std::size_t ring_samples = 16;
+using Samples [[gnu::vector_size(ring_samples)]] = std::uint8_t;
+
+/// The value that `rank` of the samples are smaller than: the greatest of those that no more than so many
+/// are. Counted for all samples at once; there is nothing to sort.
+std::uint8_t of_rank(const Samples& samples, std::uint8_t rank) {
+  Samples smaller{};
+  for (std::size_t i = 0; i < ring_samples; ++i)
+    smaller += static_cast<Samples>(samples > samples[i]) & static_cast<std::uint8_t>(1);
+  Samples v = smaller <= rank ? samples : Samples{};
+  const auto greatest = [](const Samples& a, const Samples& b) { return a > b ? a : b; };
+  v = greatest(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
+  v = greatest(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
+  v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
+  return std::max(v[0], v[1]);
+}
+
 /// The lower third of the pixels on a ring around the dot: neighbouring dots may reach the others. Nearest
 /// pixels in the frame where the ring leaves it.
 double background_around(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
-  static constexpr std::array<std::array<double, 2>, 16> directions{{{1.0, 0.0},
-                                                                     {0.924, 0.383},
-                                                                     {0.707, 0.707},
-                                                                     {0.383, 0.924},
-                                                                     {0.0, 1.0},
-                                                                     {-0.383, 0.924},
-                                                                     {-0.707, 0.707},
-                                                                     {-0.924, 0.383},
-                                                                     {-1.0, 0.0},
-                                                                     {-0.924, -0.383},
-                                                                     {-0.707, -0.707},
-                                                                     {-0.383, -0.924},
-                                                                     {0.0, -1.0},
-                                                                     {0.383, -0.924},
-                                                                     {0.707, -0.707},
-                                                                     {0.924, -0.383}}};
-  std::array<std::uint8_t, directions.size()> samples;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
+  static constexpr std::array<std::array<double, 2>, ring_samples> directions{{{1.0, 0.0},
+                                                                               {0.924, 0.383},
+                                                                               {0.707, 0.707},
+                                                                               {0.383, 0.924},
+                                                                               {0.0, 1.0},
+                                                                               {-0.383, 0.924},
+                                                                               {-0.707, 0.707},
+                                                                               {-0.924, 0.383},
+                                                                               {-1.0, 0.0},
+                                                                               {-0.924, -0.383},
+                                                                               {-0.707, -0.707},
+                                                                               {-0.383, -0.924},
+                                                                               {0.0, -1.0},
+                                                                               {0.383, -0.924},
+                                                                               {0.707, -0.707},
+                                                                               {0.924, -0.383}}};
+  constexpr std::uint8_t third = ring_samples / 3;
+  Samples samples{};
+  for (std::size_t i = 0; i < ring_samples; ++i) {
     const int u = static_cast<int>(center_px.x() + reach_px * directions[i][0] + 0.5);
     const int v = static_cast<int>(center_px.y() + reach_px * directions[i][1] + 0.5);
     samples[i] = gray.ptr<std::uint8_t>(std::clamp(v, 0, gray.rows - 1))[std::clamp(u, 0, gray.cols - 1)];
   }
-  auto* const third = samples.begin() + samples.size() / 3;
-  std::nth_element(samples.begin(), third, samples.end());
-  return *third;
+  return of_rank(samples, third);
 }
 
 /// The dot's middle: the mean of the three brightest of the nine pixels there. Less noisy than the brightest
@@ -54,11 +69,19 @@ std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
   const int u = rounded(center_px.x());
   const int v = rounded(center_px.y());
   if (u < 1 || v < 1 || u + 1 >= gray.cols || v + 1 >= gray.rows) return std::nullopt;
-  std::array<std::uint8_t, 9> pixels;
-  auto* end = pixels.begin();
-  for (int j = v - 1; j <= v + 1; ++j) end = std::copy_n(gray.ptr<std::uint8_t>(j) + u - 1, 3, end);
-  std::ranges::partial_sort(pixels, pixels.begin() + 3, std::greater{});
-  return (pixels[0] + pixels[1] + pixels[2]) / 3.0;
+  int first = 0;
+  int second = 0;
+  int third = 0;
+  for (int j = v - 1; j <= v + 1; ++j) {
+    const auto* const row = gray.ptr<std::uint8_t>(j);
+    for (int i = u - 1; i <= u + 1; ++i) {
+      const int value = row[i];
+      third = std::max(third, std::min(second, value));
+      second = std::max(second, std::min(first, value));
+      first = std::max(first, value);
+    }
+  }
+  return (first + second + third) / 3.0;
 }
 
 /// Noise in the dark, and shot noise for the light above it.
@@ -110,15 +133,6 @@ bool is_found_already(const Dot& dot, const BrightArea& area, std::span<const Do
   });
 }
 
-/// The dots that touched in an area, parted by erosion; nothing when it is one piece.
-std::optional<BrightAreas> parts_of(std::span<const Run> runs, int erosion_px) {
-  BrightAreas parts = connected_areas(eroded(runs, erosion_px));
-  const bool several = parts.areas.size() > 1 && std::ranges::all_of(parts.areas, [](const BrightArea& part) {
-                         return part.area_px >= smallest_part_px;
-                       });
-  return several ? std::optional(std::move(parts)) : std::nullopt;
-}
-
 }  // namespace
 
 std::span<const Dot> DotFinder::find(const cv::Mat& gray) {
@@ -127,6 +141,16 @@ std::span<const Dot> DotFinder::find(const cv::Mat& gray) {
   } else {
     thresholds_.find(gray, options_.threshold);
   }
+  return find_by_thresholds(gray);
+}
+
+std::span<const Dot> DotFinder::find_within(std::span<const cv::Rect> parts, const cv::Mat& gray) {
+  if (options_.fixed_threshold) return find(gray);
+  thresholds_.find_within(parts, gray, options_.threshold);
+  return find_by_thresholds(gray);
+}
+
+std::span<const Dot> DotFinder::find_by_thresholds(const cv::Mat& gray) {
   const BrightAreas& bright = area_finder_.find(gray, thresholds_);
   dots_.clear();
   for (std::size_t i = 0; i < bright.areas.size(); ++i) {
@@ -139,13 +163,21 @@ std::span<const Dot> DotFinder::find(const cv::Mat& gray) {
 void DotFinder::append_dots_of_area(const cv::Mat& gray, std::size_t index) {
   const BrightAreas& bright = area_finder_.areas();
   const BrightArea& area = bright.areas[index];
-  if (area.aspect_ratio > round_as_a_dot && area.area_px >= 2 * smallest_part_px) {
-    if (const auto parts = parts_of(bright.runs_of(area), options_.erosion_px)) {
-      for (const BrightArea& part : parts->areas) append_dot(gray, part, index);
-      return;
-    }
-  }
-  append_dot(gray, area, index);
+  const bool may_be_several = area.aspect_ratio > round_as_a_dot && area.area_px >= 2 * smallest_part_px;
+  const std::span<const BrightArea> parts =
+      may_be_several ? parts_of(bright.runs_of(area)) : std::span<const BrightArea>{};
+  if (parts.empty()) append_dot(gray, area, index);
+  for (const BrightArea& part : parts) append_dot(gray, part, index);
+}
+
+/// The dots that touched in an area, parted by erosion; none when it is one piece.
+std::span<const BrightArea> DotFinder::parts_of(std::span<const Run> area) {
+  const std::vector<BrightArea>& parts =
+      part_connector_.connect(eroder_.erode(area, options_.erosion_px)).areas;
+  const bool several = parts.size() > 1 && std::ranges::all_of(parts, [](const BrightArea& part) {
+                         return part.area_px >= smallest_part_px;
+                       });
+  return several ? std::span<const BrightArea>(parts) : std::span<const BrightArea>{};
 }
 
 void DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index) {

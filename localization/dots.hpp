@@ -49,6 +49,9 @@ class DotFinder {
   /// Dots that the frame's border cuts are left out. `gray` is CV_8UC1. The result holds until the next call.
   std::span<const Dot> find(const cv::Mat& gray);
 
+  /// Dots in the neighbourhood of these parts of the frame. With a fixed threshold, of the whole frame.
+  std::span<const Dot> find_within(std::span<const cv::Rect> parts, const cv::Mat& gray);
+
   /// The last frame's pixels of the dot's bright area.
   [[nodiscard]] std::span<const Run> pixels_of(const Dot& dot) const {
     const BrightAreas& areas = area_finder_.areas();
@@ -56,12 +59,16 @@ class DotFinder {
   }
 
  private:
+  std::span<const Dot> find_by_thresholds(const cv::Mat& gray);
   void append_dots_of_area(const cv::Mat& gray, std::size_t index);
+  std::span<const BrightArea> parts_of(std::span<const Run> area);
   void append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index);
 
   DotOptions options_;
   LocalThresholds thresholds_;
   BrightAreaFinder area_finder_;
+  Eroder eroder_;
+  AreaConnector part_connector_;
   std::vector<Dot> dots_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "localization/detected_marker.hpp"
@@ -48,15 +49,8 @@ struct PoseFix {
   double residual_px = 0.0;  ///< root mean square
 };
 
-/// The camera's pose. P3P on the optimal (first registered) marker's O, X and Y (Eq. (10)-(15)), and the pose
-/// with the prior's tilt, are scored by all dots; from the best one on, the maximum a posteriori estimate
-/// over all dots of all registered markers with the prior. Where a mirrored view explains the dots almost as
-/// well, the covariance covers both.
-///
-/// A marker that contradicts those which agree (it hangs elsewhere than surveyed) is left out, and so is an
-/// ID that is seen twice. Nothing when no registered marker is left, when two contradict each other, or when
-/// the dots agree with no pose.
-std::optional<PoseFix> fix_pose(Stamp stamp, const std::vector<DetectedMarker>& markers,
+/// The camera's pose by one frame's markers, as PoseFixer finds it.
+std::optional<PoseFix> fix_pose(Stamp stamp, std::span<const DetectedMarker> markers,
                                 const MarkerRegistry& registry, const CameraModel& camera,
                                 const PoseFixOptions& options);
 

@@ -14,9 +14,9 @@ std::optional<Vec3> ray_through(const Vec2& pixel, const CameraModel& camera) {
 
 /// Where the ray pierces the plane at unit height above a camera whose tilt is undone.
 std::optional<Vec2> level_ray(const Vec2& pixel, const CameraModel& camera, const Eigen::Matrix3d& tilt) {
-  const std::optional<Vec3> ray = ray_through(pixel, camera);
-  if (!ray) return std::nullopt;
-  const Vec3 level = tilt * *ray;
+  const std::optional<Vec2> normalized = camera.normalized(pixel);
+  if (!normalized) return std::nullopt;
+  const Vec3 level = tilt * normalized->homogeneous();
   if (!(level.z() > 0.0)) return std::nullopt;
   return Vec2(level.head<2>() / level.z());
 }

@@ -11,7 +11,7 @@
 #include "app/site.hpp"
 #include "localization/marker_detector.hpp"
 #include "localization/mount.hpp"
-#include "localization/pose_fix.hpp"
+#include "localization/pose_fixer.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -113,10 +113,9 @@ void print_row(const std::string& format, const Row& row) {
 }
 
 /// Why a marker that was read says nothing of the pose; empty when it does.
-std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry,
-                         const std::optional<PoseFix>& fix) {
+std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry, const PoseFix* fix) {
   if (registry.find(marker.id) == nullptr) return "not registered";
-  if (fix && !std::ranges::count(fix->ids, marker.id)) return "contradicts the others";
+  if (fix != nullptr && !std::ranges::count(fix->ids, marker.id)) return "contradicts the others";
   return {};
 }
 
@@ -144,13 +143,12 @@ std::vector<std::string> words_of_pose(const Row& row, const char* who) {
                       fmt::join(row.ids, "+"))};
 }
 
-Overlay overlay_of(const SourceFrame& frame, const std::vector<DetectedMarker>& markers,
-                   const MarkerRegistry& registry, const std::optional<PoseFix>& fix,
-                   const std::optional<Robot>& robot) {
-  Overlay overlay{.gray = frame.gray, .markers = {}, .words = {}, .accepted = fix.has_value()};
+Overlay overlay_of(const SourceFrame& frame, std::span<const DetectedMarker> markers,
+                   const MarkerRegistry& registry, const PoseFix* fix, const std::optional<Robot>& robot) {
+  Overlay overlay{.gray = frame.gray, .markers = {}, .words = {}, .accepted = fix != nullptr};
   for (const DetectedMarker& marker : markers)
     overlay.markers.push_back({marker, objection_to(marker, registry, fix)});
-  if (fix) {
+  if (fix != nullptr) {
     overlay.words = words_of_pose(row_of(frame, *fix, robot), robot ? "Robot" : "Camera");
   } else {
     overlay.words = {words_of_refusal(overlay.markers)};
@@ -173,14 +171,15 @@ ExitCode localize(const LocalizeArguments& arguments) {
         "file,stamp,ids,x,y,z,yaw_deg,roll_deg,pitch_deg,sigma_x,sigma_y,sigma_yaw_deg,confidence,dots\n");
   }
   MarkerDetector detector(expecting(registry, detector_options(arguments.frames)));
+  PoseFixer fixer(registry, camera);
   int frames = 0;
   int found = 0;
   while (const std::optional<SourceFrame> frame = inputs.next()) {
-    const std::vector<DetectedMarker> markers = detector.detect(frame->gray);
-    const std::optional<PoseFix> fix = fix_pose(frame->stamp, markers, registry, camera, options);
+    const std::span<const DetectedMarker> markers = detector.detect(frame->gray);
+    const PoseFix* const fix = fixer.fix(frame->stamp, markers, options);
     ++frames;
     if (overlays) overlays->write(*frame, draw_overlay(overlay_of(*frame, markers, registry, fix, robot)));
-    if (!fix) continue;
+    if (fix == nullptr) continue;
     ++found;
     print_row(arguments.format, row_of(*frame, *fix, robot));
     if (inputs.live()) std::fflush(stdout);
