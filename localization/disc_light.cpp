@@ -25,14 +25,21 @@ struct Patch {
   float top_px = 0.0F;
 };
 
+/// Of a value that is not negative.
+int whole_at_least(double value) {
+  const int whole = static_cast<int>(value);
+  return whole < value ? whole + 1 : whole;
+}
+
 /// Blocks may reach beyond the disc, where weights are zero, but not beyond the frame.
 std::optional<Patch> patch_about(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
   if (!(std::abs(center_px.x()) < 1e6 && std::abs(center_px.y()) < 1e6)) return std::nullopt;
-  int left = static_cast<int>(std::ceil(center_px.x() - reach_px));
-  const int right = static_cast<int>(std::floor(center_px.x() + reach_px));
-  const int top = static_cast<int>(std::ceil(center_px.y() - reach_px));
-  const int bottom = static_cast<int>(std::floor(center_px.y() + reach_px));
-  if (left < 0 || top < 0 || right >= gray.cols || bottom >= gray.rows) return std::nullopt;
+  int left = whole_at_least(center_px.x() - reach_px);
+  const int right = static_cast<int>(center_px.x() + reach_px);
+  const int top = whole_at_least(center_px.y() - reach_px);
+  const int bottom = static_cast<int>(center_px.y() + reach_px);
+  if (center_px.x() < reach_px || center_px.y() < reach_px || right >= gray.cols || bottom >= gray.rows)
+    return std::nullopt;
   Patch patch;
   patch.blocks = (right - left + lanes) / lanes;
   left = std::min(left, gray.cols - patch.blocks * lanes);

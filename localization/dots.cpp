@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <numbers>
 
 namespace lodestar {
@@ -13,8 +14,9 @@ constexpr int smallest_part_px = 4;      // what erosion parts must each be so l
 constexpr double round_as_a_dot = 1.25;  // aspect ratio: rounder areas are not two dots
 constexpr double binary_sigma_px = 0.1;  // of the centre of a dot's bright pixels
 
+/// Of values that are not negative.
 int rounded(double value) {
-  return static_cast<int>(std::lround(value));
+  return static_cast<int>(value + 0.5);
 }
 
 constexpr std::size_t ring_samples = 16;
@@ -37,29 +39,31 @@ std::uint8_t of_rank(const Samples& samples, std::uint8_t rank) {
 /// The lower third of the pixels on a ring around the dot: neighbouring dots may reach the others. Nearest
 /// pixels in the frame where the ring leaves it.
 double background_around(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
-  static constexpr std::array<std::array<double, 2>, ring_samples> directions{{{1.0, 0.0},
-                                                                               {0.924, 0.383},
-                                                                               {0.707, 0.707},
-                                                                               {0.383, 0.924},
-                                                                               {0.0, 1.0},
-                                                                               {-0.383, 0.924},
-                                                                               {-0.707, 0.707},
-                                                                               {-0.924, 0.383},
-                                                                               {-1.0, 0.0},
-                                                                               {-0.924, -0.383},
-                                                                               {-0.707, -0.707},
-                                                                               {-0.383, -0.924},
-                                                                               {0.0, -1.0},
-                                                                               {0.383, -0.924},
-                                                                               {0.707, -0.707},
-                                                                               {0.924, -0.383}}};
   constexpr std::uint8_t third = ring_samples / 3;
-  Samples samples{};
-  for (std::size_t i = 0; i < ring_samples; ++i) {
-    const int u = static_cast<int>(center_px.x() + reach_px * directions[i][0] + 0.5);
-    const int v = static_cast<int>(center_px.y() + reach_px * directions[i][1] + 0.5);
-    samples[i] = gray.ptr<std::uint8_t>(std::clamp(v, 0, gray.rows - 1))[std::clamp(u, 0, gray.cols - 1)];
+  const int u = rounded(center_px.x());
+  const int v = rounded(center_px.y());
+  const int full = rounded(reach_px);
+  const int wide = rounded(0.924 * reach_px);  // at 22.5 degrees
+  const int high = rounded(0.383 * reach_px);
+  const int diagonal = rounded(0.707 * reach_px);
+  const std::array<std::array<int, 2>, ring_samples / 4> quarter{
+      {{full, 0}, {wide, high}, {diagonal, diagonal}, {high, wide}}};
+  const bool inside = u >= full && v >= full && u + full < gray.cols && v + full < gray.rows;
+  const auto at = [&](int column, int row) {
+    return inside ? gray.ptr<std::uint8_t>(row)[column]
+                  : gray.ptr<std::uint8_t>(
+                        std::clamp(row, 0, gray.rows - 1))[std::clamp(column, 0, gray.cols - 1)];
+  };
+  std::array<std::uint8_t, ring_samples> ring;
+  for (std::size_t i = 0; i < quarter.size(); ++i) {
+    const auto [du, dv] = quarter[i];
+    ring[4 * i] = at(u + du, v + dv);
+    ring[4 * i + 1] = at(u - dv, v + du);
+    ring[4 * i + 2] = at(u - du, v - dv);
+    ring[4 * i + 3] = at(u + dv, v - du);
   }
+  Samples samples;
+  std::memcpy(&samples, ring.data(), sizeof(samples));
   return of_rank(samples, third);
 }
 

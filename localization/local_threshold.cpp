@@ -27,16 +27,23 @@ Bytes least_of(const Bytes& a, const Bytes& b) {
   return a < b ? a : b;
 }
 
-/// The least of all, each step of which halves how many are left.
-std::uint8_t least_of(const TileRow& row) {
+Bytes least_of_halves(const TileRow& row) {
   static_assert(sizeof(TileRow) == 2 * sizeof(Bytes));
   std::array<Bytes, 2> halves;
   std::memcpy(halves.data(), &row, sizeof(row));
-  Bytes v = least_of(halves[0], halves[1]);
-  v = least_of(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
+  return least_of(halves[0], halves[1]);
+}
+
+/// Each step halves how many are left, of both at once: the brightest is the least of the complements.
+Extremes extremes_of(const TileRow& low, const TileRow& high) {
+  const Bytes a = least_of_halves(low);
+  const Bytes b = least_of_halves(~high);
+  Bytes v =
+      least_of(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23),
+               __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31));
   v = least_of(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
   v = least_of(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
-  return std::min(v[0], v[1]);
+  return {std::min(v[0], v[1]), static_cast<std::uint8_t>(~std::min(v[8], v[9]))};
 }
 
 /// Of the first, the next but `step`, ... row of neighbouring tiles, whose whole width lies in the frame.
@@ -56,7 +63,7 @@ void find_extremes(const std::uint8_t* pixels, std::size_t stride, int rows, int
       low = row < low ? row : low;
       high = row > high ? row : high;
     }
-    extremes = {least_of(low), static_cast<std::uint8_t>(~least_of(~high))};
+    extremes = extremes_of(low, high);
     pixels += tile;
   }
 }

@@ -183,9 +183,11 @@ std::optional<Normal> normal_at(const Eigen::Isometry3d& pose, std::span<const S
 /// The pose with the same place and heading, but with the tilt that the prior says.
 Eigen::Isometry3d with_prior_tilt(const Eigen::Isometry3d& pose, const PosePrior& prior) {
   const Eigen::Matrix3d untilted = pose.linear() * prior.tilt.transpose();
-  const double yaw = std::atan2(untilted(1, 0) - untilted(0, 1), untilted(0, 0) + untilted(1, 1));
+  const Vec2 heading = Vec2(untilted(0, 0) + untilted(1, 1), untilted(1, 0) - untilted(0, 1)).normalized();
+  Eigen::Matrix3d turned;
+  turned << heading.x(), -heading.y(), 0.0, heading.y(), heading.x(), 0.0, 0.0, 0.0, 1.0;
   Eigen::Isometry3d result = pose;
-  result.linear() = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix() * prior.tilt;
+  result.linear() = turned * prior.tilt;
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 
 #include "localization/confidence.hpp"
@@ -150,10 +151,39 @@ bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& d
          4 * strangers <= dots && (!contradicted || dots >= options.least_dots_contradicted);
 }
 
-/// Is the pixel in the paper's binary image of a dot after its erosion by a cross of three? `row` is the
-/// middle one of three.
-bool is_inner(const std::uint8_t* row, std::ptrdiff_t stride, std::ptrdiff_t u) {
-  return std::min({row[u], row[u - 1], row[u + 1], row[u - stride], row[u + stride]}) >= lowest_dot_gray;
+constexpr int pixels_at_once = 16;
+using Bytes [[gnu::vector_size(pixels_at_once)]] = std::uint8_t;
+
+Bytes darker(const Bytes& a, const std::uint8_t* pixels) {
+  Bytes b;
+  std::memcpy(&b, pixels, sizeof(b));
+  return a < b ? a : b;
+}
+
+/// The darkest of each pixel and its four neighbours, for pixels in a row from here on.
+std::array<std::uint8_t, pixels_at_once> eroded(const std::uint8_t* pixels, std::size_t stride) {
+  Bytes least;
+  std::memcpy(&least, pixels, sizeof(least));
+  least = darker(darker(least, pixels - 1), pixels + 1);
+  least = darker(darker(least, pixels - stride), pixels + stride);
+  std::array<std::uint8_t, pixels_at_once> result;
+  std::memcpy(result.data(), &least, sizeof(least));
+  return result;
+}
+
+/// Adds the pixels of a run that are in the paper's binary image after its erosion by a cross of three. A
+/// frame narrower than what is looked at together has no room for a marker.
+void add_inner_pixels(const cv::Mat& gray, const Run& run, ConfidenceSum& confidence) {
+  if (run.row == 0 || run.row + 1 == gray.rows) return;
+  const auto* const row = gray.ptr<std::uint8_t>(run.row);
+  for (int u = std::max(run.begin, 1); u < run.end; u += pixels_at_once) {
+    const int from = std::min(u, gray.cols - pixels_at_once - 1);
+    if (from < 1) return;
+    const std::array<std::uint8_t, pixels_at_once> least = eroded(row + from, gray.step[0]);
+    const int end = std::min({run.end, from + pixels_at_once, gray.cols - 1});
+    for (int i = u; i < end; ++i)
+      if (least[static_cast<std::size_t>(i - from)] >= lowest_dot_gray) confidence.add(row[i]);
+  }
 }
 
 }  // namespace
@@ -250,17 +280,9 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<con
 /// The local 'and' of dilation area and eroded image (Fig. 2d) leaves the eroded dots of this marker, whose
 /// gray values Eq. (3) counts. Whatever threshold found them, the paper's is 200.
 double MarkerDetector::confidence_of(const cv::Mat& gray, std::span<const Dot> dots) const {
-  const auto stride = static_cast<std::ptrdiff_t>(gray.step[0]);
   ConfidenceSum confidence;
   for (const Dot& dot : dots) {
-    for (const Run& run : dot_finder_.pixels_of(dot)) {
-      if (run.row == 0 || run.row + 1 == gray.rows) continue;
-      const auto* const row = gray.ptr<std::uint8_t>(run.row);
-      const int end = std::min(run.end, gray.cols - 1);
-      for (int u = std::max(run.begin, 1); u < end; ++u) {
-        if (is_inner(row, stride, u)) confidence.add(row[u]);
-      }
-    }
+    for (const Run& run : dot_finder_.pixels_of(dot)) add_inner_pixels(gray, run, confidence);
   }
   return confidence.value();
 }

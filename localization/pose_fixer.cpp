@@ -10,12 +10,18 @@
 namespace lodestar {
 namespace {
 
+/// Of small numbers, which std::hypot would guard from overflow.
+double root_of_squares(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
+
 KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
                          const PoseFixOptions& options) {
   const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
     const Vec2 in_marker = cell_in_marker(cell);
-    return SurveyedDot{map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
-                       sigma_px > 0.0 ? std::hypot(sigma_px, options.model_sigma_px) : options.dot_sigma_px};
+    return SurveyedDot{
+        map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
+        sigma_px > 0.0 ? root_of_squares(sigma_px, options.model_sigma_px) : options.dot_sigma_px};
   };
   KnownMarker known{.id = seen.id,
                     .confidence = seen.confidence,

@@ -61,13 +61,14 @@ std::optional<Eigen::Isometry3d> level_guess(std::span<const SurveyedDot> dots, 
   along -= per_dot * ray_sum.dot(point_sum.head<2>());
   across -= per_dot * (ray_sum.x() * point_sum.y() - ray_sum.y() * point_sum.x());
   spread -= per_dot * ray_sum.squaredNorm();
-  const double distance_m = std::hypot(along, across) / spread;
+  const double distance_m = Vec2(along, across).norm() / spread;
   if (!std::isfinite(distance_m) || distance_m <= 0.0) return std::nullopt;
 
   const Vec2 mean_ray = *first_ray + per_dot * ray_sum;
   const Vec3 mean_point = first_point + per_dot * point_sum;
-  const Eigen::Matrix3d heading =
-      Eigen::AngleAxisd(std::atan2(across, along), Vec3::UnitZ()).toRotationMatrix();
+  const Vec2 direction = Vec2(along, across).normalized();
+  Eigen::Matrix3d heading;
+  heading << direction.x(), -direction.y(), 0.0, direction.y(), direction.x(), 0.0, 0.0, 0.0, 1.0;
   Eigen::Isometry3d guess = Eigen::Isometry3d::Identity();
   guess.linear() = heading * prior.tilt;
   guess.translation() = mean_point - heading * Vec3(mean_ray.x(), mean_ray.y(), 1.0) * distance_m;
