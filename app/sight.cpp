@@ -34,11 +34,12 @@ Sight::Sight(const MarkerRegistry& registry, const CameraModel& camera,
     : registry_(registry),
       base_from_camera_(base_from_camera),
       fix_options_(fix),
-      detector_(expecting(registry, detector)),
+      tracker_(registry, camera, detector),
       fixer_(registry, camera) {}
 
 std::optional<UsedFix> Sight::see(const Frame& frame, Whereabouts& known) {
-  const std::span<const DetectedMarker> seen = detector_.detect(frame.gray);
+  const std::span<const DetectedMarker> seen =
+      tracker_.detect(frame.gray, view_expected_at(frame.stamp, known));
   std::vector<DetectedMarker> markers(seen.begin(), seen.end());
   std::erase_if(markers, [&](const DetectedMarker& marker) { return !known.trust.trusts(marker.id); });
 
@@ -57,6 +58,11 @@ std::optional<UsedFix> Sight::see(const Frame& frame, Whereabouts& known) {
   if (!used) used = most_expected(doubted, known);
   if (used) take_in(*used, known);
   return used;
+}
+
+std::optional<ExpectedView> Sight::view_expected_at(Stamp stamp, const Whereabouts& known) const {
+  const std::optional<PoseEstimate> robot = known.filter.estimate_at(stamp);
+  return robot ? expected_view(*robot, base_from_camera_, fix_options_.prior) : std::nullopt;
 }
 
 std::optional<UsedFix> Sight::fix_by(const Frame& frame, std::span<const DetectedMarker> markers) {

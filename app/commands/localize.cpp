@@ -9,7 +9,8 @@
 #include "app/commands/command.hpp"
 #include "app/commands/frame_arguments.hpp"
 #include "app/site.hpp"
-#include "localization/marker_detector.hpp"
+#include "localization/expected_view.hpp"
+#include "localization/marker_tracker.hpp"
 #include "localization/mount.hpp"
 #include "localization/pose_fixer.hpp"
 #include "maps/input_error.hpp"
@@ -24,6 +25,7 @@ struct LocalizeArguments {
   std::string format = "csv";
   bool upright = false;
   double tilt_sigma_deg = -1.0;
+  bool track = false;
   FrameArguments frames;
 };
 
@@ -157,6 +159,10 @@ Overlay overlay_of(const SourceFrame& frame, std::span<const DetectedMarker> mar
   return overlay;
 }
 
+std::optional<ExpectedView> view_expected(const SourceFrame& frame, const std::optional<PoseFix>& last) {
+  return last ? std::optional(expected_view(*last, frame.stamp - last->stamp)) : std::nullopt;
+}
+
 ExitCode localize(const LocalizeArguments& arguments) {
   const MarkerRegistry registry = load_registry(arguments.markers);
   const CameraModel camera = load_camera(arguments.camera);
@@ -170,17 +176,19 @@ ExitCode localize(const LocalizeArguments& arguments) {
     fmt::print(
         "file,stamp,ids,x,y,z,yaw_deg,roll_deg,pitch_deg,sigma_x,sigma_y,sigma_yaw_deg,confidence,dots\n");
   }
-  MarkerDetector detector(expecting(registry, detector_options(arguments.frames)));
+  MarkerTracker tracker(registry, camera, detector_options(arguments.frames));
   PoseFixer fixer(registry, camera);
   int frames = 0;
   int found = 0;
+  std::optional<PoseFix> last;
   while (const std::optional<SourceFrame> frame = inputs.next()) {
-    const std::span<const DetectedMarker> markers = detector.detect(frame->gray);
+    const std::span<const DetectedMarker> markers = tracker.detect(frame->gray, view_expected(*frame, last));
     const PoseFix* const fix = fixer.fix(frame->stamp, markers, options);
     ++frames;
     if (overlays) overlays->write(*frame, draw_overlay(overlay_of(*frame, markers, registry, fix, robot)));
     if (fix == nullptr) continue;
     ++found;
+    if (arguments.track) last = *fix;
     print_row(arguments.format, row_of(*frame, *fix, robot));
     if (inputs.live()) std::fflush(stdout);
   }
@@ -206,6 +214,8 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
                    "The tilt is that of the mount, within so much")
       ->check(CLI::Range(0.0, 45.0))
       ->excludes(upright);
+  command->add_flag("--track", arguments->track,
+                    "The frames are a sequence: look first where the last pose has the markers");
   command
       ->add_option("--format", arguments->format,
                    "One line a frame with a pose. csv; json; tum: stamp x y z qx qy qz qw")
