@@ -89,20 +89,17 @@ std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
 }
 
 /// Noise in the dark, and shot noise for the light above it.
-double sigma_of(const DiscCenter& center, double dark_noise_gray, double background_gray,
-                const DotOptions& options) {
-  const double dark = std::max(dark_noise_gray, options.least_noise_gray);
-  const double shot = options.shot_noise_gray_at_255 * options.shot_noise_gray_at_255 / 255.0;
+double sigma_of(const DiscCenter& center, double dark, double variance_per_gray, double background_gray) {
   const double above_background =
       std::max(center.variance_per_gray_px2 - background_gray * center.variance_per_variance_px2, 0.0);
-  return std::sqrt(dark * dark * center.variance_per_variance_px2 + shot * above_background);
+  return std::sqrt(dark * dark * center.variance_per_variance_px2 + variance_per_gray * above_background);
 }
 
 /// The centroid of the gray values above the local background within a disc wide enough to hold all of the
 /// dot's light tells its radius whatever the blur (light = pi r^2 contrast), and where to look for its edge,
 /// which tells its centre. The paper takes the centre of the binary dot, good to a few tenths of a pixel.
 std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, const DotOptions& options,
-                                double dark_noise_gray) {
+                                double dark_noise_gray, double variance_per_gray) {
   Dot dot;
   dot.center_px = {area.mean_u_px, area.mean_v_px};
   const std::optional<double> middle = middle_gray(gray, dot.center_px);
@@ -123,7 +120,7 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
       center_by_edge(gray, light->center_px, dot.radius_px, options.edge);
   if (!center) return std::nullopt;
   dot.center_px = center->center_px;
-  dot.sigma_px = sigma_of(*center, dark_noise_gray, dot.background_gray, options);
+  dot.sigma_px = sigma_of(*center, dark_noise_gray, variance_per_gray, dot.background_gray);
   return dot;
 }
 
@@ -186,8 +183,12 @@ std::span<const BrightArea> DotFinder::parts_of(std::span<const Run> area) {
 
 void DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index) {
   if (area.aspect_ratio > options_.max_aspect_ratio) return;
-  std::optional<Dot> dot = measured_dot(gray, area, options_, thresholds_.noise_gray());
+  const double dark_noise_gray = std::max(thresholds_.noise_gray(), options_.least_noise_gray);
+  std::optional<Dot> dot =
+      measured_dot(gray, area, options_, dark_noise_gray, light_noise_.variance_per_gray());
   if (!dot || is_found_already(*dot, area, dots_)) return;
+  if (dot->radius_px >= options_.flat_radius_px)
+    light_noise_.add(gray, dot->center_px, dot->background_gray, dark_noise_gray);
   dot->area = index;
   dots_.push_back(*dot);
 }

@@ -28,9 +28,10 @@ struct PosePrior {
 
 struct PoseFixOptions {
   PosePrior prior;
-  double dot_sigma_px = 0.03;     ///< standard deviation of a dot's coordinate, where the dot does not tell
-  double model_sigma_px = 0.004;  ///< added to what it tells: print, lens, pixels that sample an edge
-  double max_residual_px = 1.5;   ///< a fix whose dots miss by more (root mean square) is refused
+  double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, where the dot does not tell
+  double model_sigma_px =
+      0.0015;  ///< added to what it tells: pixels sample an edge, and one step leaves a little
+  double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
   /// And one that explains the dots only by a tilt and height that the prior all but excludes (chi-square): a
   /// marker that hangs a few centimetres elsewhere than surveyed leaves small residuals on a tilted robot.
   double max_prior_chi2 = 30.0;
