@@ -13,10 +13,6 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-bool nearly_equal(double a, double b, double tolerance) {
-  return a > 0.0 && b > 0.0 && std::max(a, b) <= (1.0 + tolerance) * std::min(a, b);
-}
-
 std::pair<std::size_t, std::size_t> farthest_pair(std::span<const Dot> dots) {
   std::pair<std::size_t, std::size_t> best;
   double longest = -1.0;
@@ -56,8 +52,10 @@ bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
   if (ox.squaredNorm() + oy.squaredNorm() > (least_cosine + 1.0 / least_cosine) * area) return false;
   const double radius_px =
       (dots[direction.o].radius_px + dots[direction.x].radius_px + dots[direction.y].radius_px) / 3.0;
-  return nearly_equal(std::sqrt(area) / (marker_grid_size - 1), radii_per_pitch * radius_px,
-                      options.size_tolerance + options.alike_tolerance_px / radius_px);
+  const double wanted_px = std::sqrt(area) / (marker_grid_size - 1) / radii_per_pitch;
+  const double tolerance = 1.0 + options.size_tolerance;
+  return radius_px <= (tolerance + options.growth_px / radius_px) * wanted_px &&
+         wanted_px <= (tolerance + options.alike_tolerance_px / radius_px) * radius_px;
 }
 
 bool sizes_are_alike(std::span<const Dot> dots, const MarkerDecoderOptions& options) {

@@ -24,7 +24,10 @@ struct MarkerDecoderOptions {
       0.2;  ///< how far a dot may be from its cell, in pitches, before perspective is known
   double fit_tolerance = 0.08;  ///< and after
   double size_tolerance = 0.2;  ///< how near 4 radii must be to a pitch
-  double guard_pitches = 1.0;   ///< about a marker that shares its area with others, so much must be clear
+  /// By so much more a dot may look too large, saturated or blurred. Dots two pitches apart that are taken
+  /// for O and X make theirs too large by half, and by more than this allows.
+  double growth_px = 0.35;
+  double guard_pitches = 1.0;  ///< about a marker that shares its area with others, so much must be clear
   std::size_t least_dots_in_a_crowd = 5;  ///< and so many dots agree: three always fit some grid
   std::size_t most_dots = 48;             ///< an area with more holds no markers
 };
