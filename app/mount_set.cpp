@@ -11,7 +11,7 @@ namespace lodestar {
 namespace {
 
 /// The dots of the markers that the fix was made of.
-std::vector<SurveyedDot> dots_of_fix(const PoseFix& fix, const std::vector<DetectedMarker>& markers,
+std::vector<SurveyedDot> dots_of_fix(const PoseFix& fix, std::span<const DetectedMarker> markers,
                                      const MarkerRegistry& registry) {
   std::vector<SurveyedDot> dots;
   for (const DetectedMarker& marker : markers) {
@@ -87,7 +87,7 @@ MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, con
   for (const LoggedImage& image : log.images) {
     const std::optional<WheelTravel> travel = log.travel_at(image.stamp);
     if (!travel) continue;
-    const std::vector<DetectedMarker> markers = detector.detect(read_logged_image(image.file, camera));
+    const std::span<const DetectedMarker> markers = detector.detect(read_logged_image(image.file, camera));
     const std::optional<PoseFix> fix = fix_pose(image.stamp, markers, registry, camera, options);
     if (!fix) continue;
     set.frames.push_back({.dots = dots_of_fix(*fix, markers, registry),

@@ -32,13 +32,15 @@ Sight::Sight(const MarkerRegistry& registry, const CameraModel& camera,
              const Eigen::Isometry3d& base_from_camera, const DetectorOptions& detector,
              const PoseFixOptions& fix)
     : registry_(registry),
-      camera_(camera),
       base_from_camera_(base_from_camera),
       fix_options_(fix),
-      detector_(expecting(registry, detector)) {}
+      tracker_(registry, camera, detector),
+      fixer_(registry, camera) {}
 
 std::optional<UsedFix> Sight::see(const Frame& frame, Whereabouts& known) {
-  std::vector<DetectedMarker> markers = detector_.detect(frame.gray);
+  const std::span<const DetectedMarker> seen =
+      tracker_.detect(frame.gray, view_expected_at(frame.stamp, known));
+  std::vector<DetectedMarker> markers(seen.begin(), seen.end());
   std::erase_if(markers, [&](const DetectedMarker& marker) { return !known.trust.trusts(marker.id); });
 
   std::optional<UsedFix> used = fix_by(frame, markers);
@@ -58,19 +60,23 @@ std::optional<UsedFix> Sight::see(const Frame& frame, Whereabouts& known) {
   return used;
 }
 
-std::optional<UsedFix> Sight::fix_by(const Frame& frame, const std::vector<DetectedMarker>& markers) const {
-  const std::optional<PoseFix> fix = fix_pose(frame.stamp, markers, registry_, camera_, fix_options_);
-  if (!fix) return std::nullopt;
+std::optional<ExpectedView> Sight::view_expected_at(Stamp stamp, const Whereabouts& known) const {
+  const std::optional<PoseEstimate> robot = known.filter.estimate_at(stamp);
+  return robot ? expected_view(*robot, base_from_camera_, fix_options_.prior) : std::nullopt;
+}
+
+std::optional<UsedFix> Sight::fix_by(const Frame& frame, std::span<const DetectedMarker> markers) {
+  const PoseFix* const fix = fixer_.fix(frame.stamp, markers, fix_options_);
+  if (fix == nullptr) return std::nullopt;
   return UsedFix{.fix = *fix, .planar = compensate_mount(*fix, base_from_camera_)};
 }
 
 /// An ID that is seen twice has none.
-std::vector<UsedFix> Sight::fixes_by_each(const Frame& frame,
-                                          const std::vector<DetectedMarker>& markers) const {
+std::vector<UsedFix> Sight::fixes_by_each(const Frame& frame, std::span<const DetectedMarker> markers) {
   std::vector<UsedFix> fixes;
   for (const DetectedMarker& marker : markers) {
     if (std::ranges::count(markers, marker.id, &DetectedMarker::id) > 1) continue;
-    if (std::optional<UsedFix> fix = fix_by(frame, {marker})) fixes.push_back(std::move(*fix));
+    if (std::optional<UsedFix> fix = fix_by(frame, std::span(&marker, 1))) fixes.push_back(std::move(*fix));
   }
   return fixes;
 }

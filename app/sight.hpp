@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "localization/marker_detector.hpp"
+#include "localization/marker_tracker.hpp"
 #include "localization/marker_trust.hpp"
 #include "localization/pose_filter.hpp"
-#include "localization/pose_fix.hpp"
+#include "localization/pose_fixer.hpp"
 #include "maps/frame.hpp"
 
 namespace lodestar {
@@ -24,8 +24,9 @@ struct Whereabouts {
   MarkerTrust trust;
 };
 
-/// From a camera frame to a better belief: reads the markers, takes the pose from those that are trusted, and
-/// calls a marker to account that contradicts the others or the estimate.
+/// From a camera frame to a better belief: reads the markers, first where the belief says that they must be,
+/// takes the pose from those that are trusted, and calls a marker to account that contradicts the others or
+/// the estimate.
 class Sight {
  public:
   Sight(const MarkerRegistry& registry, const CameraModel& camera, const Eigen::Isometry3d& base_from_camera,
@@ -35,17 +36,17 @@ class Sight {
   std::optional<UsedFix> see(const Frame& frame, Whereabouts& known);
 
  private:
-  [[nodiscard]] std::optional<UsedFix> fix_by(const Frame& frame,
-                                              const std::vector<DetectedMarker>& markers) const;
+  [[nodiscard]] std::optional<ExpectedView> view_expected_at(Stamp stamp, const Whereabouts& known) const;
+  [[nodiscard]] std::optional<UsedFix> fix_by(const Frame& frame, std::span<const DetectedMarker> markers);
   [[nodiscard]] std::vector<UsedFix> fixes_by_each(const Frame& frame,
-                                                   const std::vector<DetectedMarker>& markers) const;
+                                                   std::span<const DetectedMarker> markers);
   void judge(const UsedFix& single, Whereabouts& known) const;
 
   MarkerRegistry registry_;
-  CameraModel camera_;
   Eigen::Isometry3d base_from_camera_;
   PoseFixOptions fix_options_;
-  MarkerDetector detector_;
+  MarkerTracker tracker_;
+  PoseFixer fixer_;
 };
 
 }  // namespace lodestar

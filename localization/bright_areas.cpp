@@ -111,7 +111,7 @@ void measure(std::span<const Run> runs, BrightArea& area) {
   const double uu = sum_uu / n - u * u;
   const double uv = sum_uv / n - u * v;
   const double vv = sum_vv / n - v * v;
-  const double half_difference = std::hypot(0.5 * (uu - vv), uv);
+  const double half_difference = std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv);
   const double half_sum = 0.5 * (uu + vv);
   area.aspect_ratio = std::sqrt((half_sum + half_difference) / std::max(half_sum - half_difference, 1e-9));
 }
@@ -137,9 +137,8 @@ void collect_areas(std::span<const Run> runs, std::span<const std::size_t> numbe
 }
 
 /// Runs that lie in `a` and, moved down by `rows`, in `b`. Both sorted, as is the result.
-std::vector<Run> intersection(std::span<const Run> a, std::span<const Run> b, int rows) {
-  std::vector<Run> both;
-  both.reserve(a.size());
+void intersect(std::span<const Run> a, std::span<const Run> b, int rows, std::vector<Run>& both) {
+  both.clear();
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     const int row = b[j].row + rows;
     if (a[i].row == row) {
@@ -153,17 +152,33 @@ std::vector<Run> intersection(std::span<const Run> a, std::span<const Run> b, in
       ++j;
     }
   }
-  return both;
 }
 
 }  // namespace
 
+const BrightAreas& AreaConnector::connect(std::span<const Run> runs) {
+  join_touching_runs(runs, sets_);
+  sets_.number(numbers_);
+  collect_areas(runs, numbers_, areas_);
+  return areas_;
+}
+
+std::span<const Run> Eroder::erode(std::span<const Run> runs, int side) {
+  const int reach = side / 2;
+  left_.clear();
+  for (const Run& run : runs) {
+    if (run.end - run.begin > 2 * reach) left_.push_back({run.row, run.begin + reach, run.end - reach});
+  }
+  for (int rows = 1; rows <= reach; ++rows) {
+    intersect(left_, runs, rows, next_);
+    intersect(next_, runs, -rows, left_);
+  }
+  return left_;
+}
+
 const BrightAreas& BrightAreaFinder::find(const cv::Mat& gray, const LocalThresholds& thresholds) {
   find_runs(gray, thresholds);
-  join_touching_runs(runs_, sets_);
-  sets_.number(numbers_);
-  collect_areas(runs_, numbers_, areas_);
-  return areas_;
+  return connector_.connect(runs_);
 }
 
 void BrightAreaFinder::find_runs(const cv::Mat& gray, const LocalThresholds& thresholds) {
@@ -186,30 +201,6 @@ void BrightAreaFinder::find_runs(const cv::Mat& gray, const LocalThresholds& thr
       }
     }
   }
-}
-
-BrightAreas connected_areas(std::span<const Run> runs) {
-  DisjointSets sets;
-  join_touching_runs(runs, sets);
-  std::vector<std::size_t> numbers;
-  sets.number(numbers);
-  BrightAreas result;
-  collect_areas(runs, numbers, result);
-  return result;
-}
-
-std::vector<Run> eroded(std::span<const Run> runs, int side) {
-  const int reach = side / 2;
-  std::vector<Run> left;
-  left.reserve(runs.size());
-  for (const Run& run : runs) {
-    if (run.end - run.begin > 2 * reach) left.push_back({run.row, run.begin + reach, run.end - reach});
-  }
-  for (int rows = 1; rows <= reach; ++rows) {
-    left = intersection(left, runs, rows);
-    left = intersection(left, runs, -rows);
-  }
-  return left;
 }
 
 }  // namespace lodestar

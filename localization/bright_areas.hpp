@@ -43,6 +43,34 @@ struct BrightAreas {
   }
 };
 
+/// Parts runs (by row, then by column) into areas of pixels that touch, corners included. Keeps its memory.
+class AreaConnector {
+ public:
+  /// The result holds until the next call.
+  const BrightAreas& connect(std::span<const Run> runs);
+
+  [[nodiscard]] const BrightAreas& areas() const { return areas_; }
+
+ private:
+  DisjointSets sets_;
+  std::vector<std::size_t> numbers_;
+  BrightAreas areas_;
+};
+
+/// Erosion by a cross of `side` pixels (odd; 1 leaves all as it is) of an area or of a whole frame: a pixel
+/// stays when those left, right, above and below it within side / 2 are bright. On one connected area the
+/// result is that of eroding the whole image, for a pixel's bright neighbours belong to the pixel's own area.
+/// Keeps its memory.
+class Eroder {
+ public:
+  /// The result holds until the next call.
+  std::span<const Run> erode(std::span<const Run> runs, int side);
+
+ private:
+  std::vector<Run> left_;
+  std::vector<Run> next_;
+};
+
 /// Finds a frame's bright areas: pixels at or above their tile's threshold that touch, corners included.
 /// Keeps its memory from frame to frame.
 class BrightAreaFinder {
@@ -50,7 +78,7 @@ class BrightAreaFinder {
   /// `gray` is CV_8UC1, of the size that the thresholds are for. The result holds until the next call.
   const BrightAreas& find(const cv::Mat& gray, const LocalThresholds& thresholds);
 
-  [[nodiscard]] const BrightAreas& areas() const { return areas_; }
+  [[nodiscard]] const BrightAreas& areas() const { return connector_.areas(); }
 
   /// The bright pixels of the last frame, by row, then by column.
   [[nodiscard]] std::span<const Run> runs() const { return runs_; }
@@ -64,17 +92,7 @@ class BrightAreaFinder {
   };
   std::vector<ActiveTile> active_;  ///< of one row of tiles
   std::vector<Run> runs_;
-  DisjointSets sets_;
-  std::vector<std::size_t> numbers_;
-  BrightAreas areas_;
+  AreaConnector connector_;
 };
-
-/// Parts runs (by row, then by column) into areas of pixels that touch, corners included.
-BrightAreas connected_areas(std::span<const Run> runs);
-
-/// Erosion by a cross of `side` pixels (odd; 1 leaves all as it is) of an area or of a whole frame: a pixel
-/// stays when those left, right, above and below it within side / 2 are bright. On one connected area the
-/// result is that of eroding the whole image, for a pixel's bright neighbours belong to the pixel's own area.
-std::vector<Run> eroded(std::span<const Run> runs, int side);
 
 }  // namespace lodestar

@@ -2,24 +2,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 
 namespace lodestar {
-namespace {
-
-using ConfidenceTable = std::array<double, 256>;
-
-/// What one pixel adds to Eq. (3) before the division by N.
-ConfidenceTable confidence_of_gray() {
-  ConfidenceTable table{};
-  for (std::size_t gray = lowest_dot_gray; gray < table.size(); ++gray) {
-    table[gray] =
-        (gray_frequency(static_cast<double>(gray)) - confidence_min) / (confidence_max - confidence_min);
-  }
-  return table;
-}
-
-}  // namespace
 
 double gray_frequency(double gray) {
   const double near_white = gray - 245.4;
@@ -28,12 +12,16 @@ double gray_frequency(double gray) {
          525.0 * std::exp(-darker * darker / 791.30);  // (2)
 }
 
-double marker_confidence(const GrayHistogram& histogram) {
-  static const ConfidenceTable table = confidence_of_gray();
-  const auto pixels = std::accumulate(histogram.begin(), histogram.end(), std::uint64_t{0});
-  if (pixels == 0) return 0.0;
-  const double sum = std::inner_product(table.begin(), table.end(), histogram.begin(), 0.0);
-  return sum / static_cast<double>(pixels);  // (3)
+const std::array<double, 256>& confidence_of_gray() {
+  static const std::array<double, 256> table = [] {
+    std::array<double, 256> result{};
+    for (std::size_t gray = lowest_dot_gray; gray < result.size(); ++gray) {
+      result[gray] = (gray_frequency(static_cast<double>(gray)) - confidence_min) /
+                     (confidence_max - confidence_min);  // (3)
+    }
+    return result;
+  }();
+  return table;
 }
 
 }  // namespace lodestar

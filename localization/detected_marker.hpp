@@ -1,7 +1,6 @@
 #pragma once
 
-#include <vector>
-
+#include "localization/inline_vector.hpp"
 #include "maps/geometry.hpp"
 #include "maps/marker.hpp"
 
@@ -15,6 +14,9 @@ struct MarkerDot {
   double sigma_px = 0.0;  ///< standard deviation of each coordinate by the frame's noise; 0: not known
 };
 
+/// At most one for each cell; without memory of their own, so that reading a frame takes none.
+using MarkerDots = InlineVector<MarkerDot, marker_grid_size * marker_grid_size>;
+
 /// A marker that was seen and decoded.
 struct DetectedMarker {
   int id = 0;
@@ -25,7 +27,7 @@ struct DetectedMarker {
   Vec2 o_px = Vec2::Zero();
   Vec2 x_px = Vec2::Zero();
   Vec2 y_px = Vec2::Zero();
-  std::vector<MarkerDot> dots;  ///< those that were seen; O, X and Y among them as a rule
+  MarkerDots dots;  ///< those that were seen; O, X and Y among them as a rule
 };
 
 }  // namespace lodestar

@@ -25,14 +25,21 @@ struct Patch {
   float top_px = 0.0F;
 };
 
+/// Of a value that is not negative.
+int whole_at_least(double value) {
+  const int whole = static_cast<int>(value);
+  return whole < value ? whole + 1 : whole;
+}
+
 /// Blocks may reach beyond the disc, where weights are zero, but not beyond the frame.
 std::optional<Patch> patch_about(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
   if (!(std::abs(center_px.x()) < 1e6 && std::abs(center_px.y()) < 1e6)) return std::nullopt;
-  int left = static_cast<int>(std::ceil(center_px.x() - reach_px));
-  const int right = static_cast<int>(std::floor(center_px.x() + reach_px));
-  const int top = static_cast<int>(std::ceil(center_px.y() - reach_px));
-  const int bottom = static_cast<int>(std::floor(center_px.y() + reach_px));
-  if (left < 0 || top < 0 || right >= gray.cols || bottom >= gray.rows) return std::nullopt;
+  int left = whole_at_least(center_px.x() - reach_px);
+  const int right = static_cast<int>(center_px.x() + reach_px);
+  const int top = whole_at_least(center_px.y() - reach_px);
+  const int bottom = static_cast<int>(center_px.y() + reach_px);
+  if (center_px.x() < reach_px || center_px.y() < reach_px || right >= gray.cols || bottom >= gray.rows)
+    return std::nullopt;
   Patch patch;
   patch.blocks = (right - left + lanes) / lanes;
   left = std::min(left, gray.cols - patch.blocks * lanes);
@@ -45,12 +52,20 @@ std::optional<Patch> patch_about(const cv::Mat& gray, const Vec2& center_px, dou
   return patch;
 }
 
+/// Inlined, so that it is compiled for the processor that its caller is compiled for.
+[[gnu::always_inline]] inline void load(const std::uint8_t* pixels, Floats& light) {
+  Bytes bytes;
+  std::memcpy(&bytes, pixels, lanes);
+  light = __builtin_convertvector(__builtin_convertvector(bytes, Ints), Floats);
+}
+
 constexpr Floats steps{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
 
+/// In pairs, so that no addition waits for the one before it.
 double sum_of(const Floats& v) {
-  double sum = 0.0;
-  for (int i = 0; i < lanes; ++i) sum += static_cast<double>(v[i]);
-  return sum;
+  const float even = (v[0] + v[2]) + (v[4] + v[6]);
+  const float odd = (v[1] + v[3]) + (v[5] + v[7]);
+  return static_cast<double>(even + odd);
 }
 
 struct LightSums {
@@ -59,31 +74,32 @@ struct LightSums {
   Floats moment_y;
 };
 
+/// Adds to sums that are zero.
 LODESTAR_WIDE_REGISTERS
 void sum_light(const Patch& patch, float edge, float slope, float background, LightSums& sums) {
   const Floats zero{};
   const Floats one = zero + 1.0F;
-  Floats mass{};
-  Floats moment_x{};
-  Floats moment_y{};
-  for (int v = 0; v < patch.rows; ++v) {
-    const std::uint8_t* const row = patch.first + static_cast<std::size_t>(v) * patch.stride;
-    const float y = patch.top_px + static_cast<float>(v);
-    for (int block = 0; block < patch.blocks; ++block) {
-      Bytes bytes;
-      std::memcpy(&bytes, row + block * lanes, lanes);
-      const Floats light = __builtin_convertvector(__builtin_convertvector(bytes, Ints), Floats) - background;
-      const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
-      Floats weight = edge - (x * x + y * y) * slope;
+  for (int block = 0; block < patch.blocks; ++block) {
+    const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
+    const Floats squared_x = x * x;
+    const std::uint8_t* pixels = patch.first + static_cast<std::ptrdiff_t>(block) * lanes;
+    Floats columns{};
+    Floats moment_y{};
+    for (int v = 0; v < patch.rows; ++v, pixels += patch.stride) {
+      const float y = patch.top_px + static_cast<float>(v);
+      Floats weight = edge - (squared_x + y * y) * slope;
       weight = weight > zero ? weight : zero;
       weight = weight < one ? weight : one;
-      const Floats part = weight * light;
-      mass += part;
-      moment_x += part * x;
+      Floats light;
+      load(pixels, light);
+      const Floats part = weight * (light - background);
+      columns += part;
       moment_y += part * y;
     }
+    sums.mass += columns;
+    sums.moment_x += columns * x;
+    sums.moment_y += moment_y;
   }
-  sums = {mass, moment_x, moment_y};
 }
 
 struct EdgeSums {
@@ -94,39 +110,44 @@ struct EdgeSums {
   Floats shots;    ///< and of their products with the gray values
 };
 
+/// Adds to sums that are zero.
 LODESTAR_WIDE_REGISTERS
 void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSums& sums) {
   const Floats zero{};
-  Floats along_x{};
-  Floats along_y{};
-  Floats gain{};
-  Floats squares{};
-  Floats shots{};
-  for (int v = 0; v < patch.rows; ++v) {
-    const std::uint8_t* const row = patch.first + static_cast<std::size_t>(v) * patch.stride;
-    const float y = patch.top_px + static_cast<float>(v);
-    for (int block = 0; block < patch.blocks; ++block) {
-      Bytes bytes;
-      std::memcpy(&bytes, row + block * lanes, lanes);
-      const Floats light = __builtin_convertvector(__builtin_convertvector(bytes, Ints), Floats);
-      const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
-      const Floats squared_distance = x * x + y * y;
+  for (int block = 0; block < patch.blocks; ++block) {
+    const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
+    const Floats squared_x = x * x;
+    const std::uint8_t* pixels = patch.first + static_cast<std::ptrdiff_t>(block) * lanes;
+    Floats columns{};
+    Floats along_y{};
+    Floats change{};
+    Floats squares{};
+    Floats shots{};
+    for (int v = 0; v < patch.rows; ++v, pixels += patch.stride) {
+      const float y = patch.top_px + static_cast<float>(v);
+      Floats light;
+      load(pixels, light);
+      const Floats squared_distance = squared_x + y * y;
       const Floats t = (squared_distance - squared_radius) * per_width;
       Floats inside = 1.0F - t * t;
       inside = inside > zero ? inside : zero;
       const Floats cubed = inside * inside * inside;
       const Floats weight = cubed * inside;
       const Floats light_weight = light * weight;
-      along_x += light_weight * x;
+      columns += light_weight;
       along_y += light_weight * y;
-      // d(w x)/dx + d(w y)/dy = 2 w + 2 d^2 dw/d(d^2), and dw/d(d^2) = -8 t (1 - t^2)^3 / width
-      gain += 2.0F * light_weight - (16.0F * per_width) * (light * squared_distance * t * cubed);
+      change += (light * cubed) * (squared_distance * t);
       const Floats square = weight * weight * squared_distance;
       squares += square;
       shots += square * light;
     }
+    sums.along_x += columns * x;
+    sums.along_y += along_y;
+    // d(w x)/dx + d(w y)/dy = 2 w + 2 d^2 dw/d(d^2), and dw/d(d^2) = -8 t (1 - t^2)^3 / width
+    sums.gain += 2.0F * columns - (16.0F * per_width) * change;
+    sums.squares += squares;
+    sums.shots += shots;
   }
-  sums = {along_x, along_y, gain, squares, shots};
 }
 
 }  // namespace
@@ -137,7 +158,7 @@ std::optional<DiscLight> light_in_disc(const cv::Mat& gray, const Vec2& center_p
   const std::optional<Patch> patch = patch_about(gray, center_px, reach);
   if (!patch) return std::nullopt;
   // Weight 1 at radius - 1/2 and 0 at radius + 1/2, linear in d^2.
-  LightSums sums;
+  LightSums sums{};
   sum_light(*patch, static_cast<float>(reach * reach * 0.5 / radius_px), static_cast<float>(0.5 / radius_px),
             static_cast<float>(background_gray), sums);
   DiscLight light{.mass = sum_of(sums.mass), .center_px = center_px};
@@ -154,7 +175,7 @@ std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_
   for (int i = 0; i < options.most_steps; ++i) {
     const std::optional<Patch> patch = patch_about(gray, center.center_px, reach_px);
     if (!patch) return std::nullopt;
-    EdgeSums sums;
+    EdgeSums sums{};
     sum_edge(*patch, static_cast<float>(squared_radius), static_cast<float>(1.0 / width), sums);
     // The sum weighted by w x falls by half the gain as the weight moves on by a pixel.
     const double gain = 0.5 * sum_of(sums.gain);

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
+#include <cstring>
 #include <numbers>
 
 namespace lodestar {
@@ -14,38 +14,57 @@ constexpr int smallest_part_px = 4;      // what erosion parts must each be so l
 constexpr double round_as_a_dot = 1.25;  // aspect ratio: rounder areas are not two dots
 constexpr double binary_sigma_px = 0.1;  // of the centre of a dot's bright pixels
 
+/// Of values that are not negative.
 int rounded(double value) {
-  return static_cast<int>(std::lround(value));
+  return static_cast<int>(value + 0.5);
+}
+
+constexpr std::size_t ring_samples = 16;
+using Samples [[gnu::vector_size(ring_samples)]] = std::uint8_t;
+
+/// The value that `rank` of the samples are smaller than: the greatest of those that no more than so many
+/// are. Counted for all samples at once; there is nothing to sort.
+std::uint8_t of_rank(const Samples& samples, std::uint8_t rank) {
+  Samples smaller{};
+  for (std::size_t i = 0; i < ring_samples; ++i)
+    smaller += static_cast<Samples>(samples > samples[i]) & static_cast<std::uint8_t>(1);
+  Samples v = smaller <= rank ? samples : Samples{};
+  const auto greatest = [](const Samples& a, const Samples& b) { return a > b ? a : b; };
+  v = greatest(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
+  v = greatest(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
+  v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
+  return std::max(v[0], v[1]);
 }
 
 /// The lower third of the pixels on a ring around the dot: neighbouring dots may reach the others. Nearest
 /// pixels in the frame where the ring leaves it.
 double background_around(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
-  static constexpr std::array<std::array<double, 2>, 16> directions{{{1.0, 0.0},
-                                                                     {0.924, 0.383},
-                                                                     {0.707, 0.707},
-                                                                     {0.383, 0.924},
-                                                                     {0.0, 1.0},
-                                                                     {-0.383, 0.924},
-                                                                     {-0.707, 0.707},
-                                                                     {-0.924, 0.383},
-                                                                     {-1.0, 0.0},
-                                                                     {-0.924, -0.383},
-                                                                     {-0.707, -0.707},
-                                                                     {-0.383, -0.924},
-                                                                     {0.0, -1.0},
-                                                                     {0.383, -0.924},
-                                                                     {0.707, -0.707},
-                                                                     {0.924, -0.383}}};
-  std::array<std::uint8_t, directions.size()> samples;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    const int u = static_cast<int>(center_px.x() + reach_px * directions[i][0] + 0.5);
-    const int v = static_cast<int>(center_px.y() + reach_px * directions[i][1] + 0.5);
-    samples[i] = gray.ptr<std::uint8_t>(std::clamp(v, 0, gray.rows - 1))[std::clamp(u, 0, gray.cols - 1)];
+  constexpr std::uint8_t third = ring_samples / 3;
+  const int u = rounded(center_px.x());
+  const int v = rounded(center_px.y());
+  const int full = rounded(reach_px);
+  const int wide = rounded(0.924 * reach_px);  // at 22.5 degrees
+  const int high = rounded(0.383 * reach_px);
+  const int diagonal = rounded(0.707 * reach_px);
+  const std::array<std::array<int, 2>, ring_samples / 4> quarter{
+      {{full, 0}, {wide, high}, {diagonal, diagonal}, {high, wide}}};
+  const bool inside = u >= full && v >= full && u + full < gray.cols && v + full < gray.rows;
+  const auto at = [&](int column, int row) {
+    return inside ? gray.ptr<std::uint8_t>(row)[column]
+                  : gray.ptr<std::uint8_t>(
+                        std::clamp(row, 0, gray.rows - 1))[std::clamp(column, 0, gray.cols - 1)];
+  };
+  std::array<std::uint8_t, ring_samples> ring;
+  for (std::size_t i = 0; i < quarter.size(); ++i) {
+    const auto [du, dv] = quarter[i];
+    ring[4 * i] = at(u + du, v + dv);
+    ring[4 * i + 1] = at(u - dv, v + du);
+    ring[4 * i + 2] = at(u - du, v - dv);
+    ring[4 * i + 3] = at(u + dv, v - du);
   }
-  auto* const third = samples.begin() + samples.size() / 3;
-  std::nth_element(samples.begin(), third, samples.end());
-  return *third;
+  Samples samples;
+  std::memcpy(&samples, ring.data(), sizeof(samples));
+  return of_rank(samples, third);
 }
 
 /// The dot's middle: the mean of the three brightest of the nine pixels there. Less noisy than the brightest
@@ -54,28 +73,33 @@ std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
   const int u = rounded(center_px.x());
   const int v = rounded(center_px.y());
   if (u < 1 || v < 1 || u + 1 >= gray.cols || v + 1 >= gray.rows) return std::nullopt;
-  std::array<std::uint8_t, 9> pixels;
-  auto* end = pixels.begin();
-  for (int j = v - 1; j <= v + 1; ++j) end = std::copy_n(gray.ptr<std::uint8_t>(j) + u - 1, 3, end);
-  std::ranges::partial_sort(pixels, pixels.begin() + 3, std::greater{});
-  return (pixels[0] + pixels[1] + pixels[2]) / 3.0;
+  int first = 0;
+  int second = 0;
+  int third = 0;
+  for (int j = v - 1; j <= v + 1; ++j) {
+    const auto* const row = gray.ptr<std::uint8_t>(j);
+    for (int i = u - 1; i <= u + 1; ++i) {
+      const int value = row[i];
+      third = std::max(third, std::min(second, value));
+      second = std::max(second, std::min(first, value));
+      first = std::max(first, value);
+    }
+  }
+  return (first + second + third) / 3.0;
 }
 
 /// Noise in the dark, and shot noise for the light above it.
-double sigma_of(const DiscCenter& center, double dark_noise_gray, double background_gray,
-                const DotOptions& options) {
-  const double dark = std::max(dark_noise_gray, options.least_noise_gray);
-  const double shot = options.shot_noise_gray_at_255 * options.shot_noise_gray_at_255 / 255.0;
+double sigma_of(const DiscCenter& center, double dark, double variance_per_gray, double background_gray) {
   const double above_background =
       std::max(center.variance_per_gray_px2 - background_gray * center.variance_per_variance_px2, 0.0);
-  return std::sqrt(dark * dark * center.variance_per_variance_px2 + shot * above_background);
+  return std::sqrt(dark * dark * center.variance_per_variance_px2 + variance_per_gray * above_background);
 }
 
 /// The centroid of the gray values above the local background within a disc wide enough to hold all of the
 /// dot's light tells its radius whatever the blur (light = pi r^2 contrast), and where to look for its edge,
 /// which tells its centre. The paper takes the centre of the binary dot, good to a few tenths of a pixel.
 std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, const DotOptions& options,
-                                double dark_noise_gray) {
+                                double dark_noise_gray, double variance_per_gray) {
   Dot dot;
   dot.center_px = {area.mean_u_px, area.mean_v_px};
   const std::optional<double> middle = middle_gray(gray, dot.center_px);
@@ -96,7 +120,7 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
       center_by_edge(gray, light->center_px, dot.radius_px, options.edge);
   if (!center) return std::nullopt;
   dot.center_px = center->center_px;
-  dot.sigma_px = sigma_of(*center, dark_noise_gray, dot.background_gray, options);
+  dot.sigma_px = sigma_of(*center, dark_noise_gray, variance_per_gray, dot.background_gray);
   return dot;
 }
 
@@ -110,15 +134,6 @@ bool is_found_already(const Dot& dot, const BrightArea& area, std::span<const Do
   });
 }
 
-/// The dots that touched in an area, parted by erosion; nothing when it is one piece.
-std::optional<BrightAreas> parts_of(std::span<const Run> runs, int erosion_px) {
-  BrightAreas parts = connected_areas(eroded(runs, erosion_px));
-  const bool several = parts.areas.size() > 1 && std::ranges::all_of(parts.areas, [](const BrightArea& part) {
-                         return part.area_px >= smallest_part_px;
-                       });
-  return several ? std::optional(std::move(parts)) : std::nullopt;
-}
-
 }  // namespace
 
 std::span<const Dot> DotFinder::find(const cv::Mat& gray) {
@@ -127,6 +142,16 @@ std::span<const Dot> DotFinder::find(const cv::Mat& gray) {
   } else {
     thresholds_.find(gray, options_.threshold);
   }
+  return find_by_thresholds(gray);
+}
+
+std::span<const Dot> DotFinder::find_within(std::span<const cv::Rect> parts, const cv::Mat& gray) {
+  if (options_.fixed_threshold) return find(gray);
+  thresholds_.find_within(parts, gray, options_.threshold);
+  return find_by_thresholds(gray);
+}
+
+std::span<const Dot> DotFinder::find_by_thresholds(const cv::Mat& gray) {
   const BrightAreas& bright = area_finder_.find(gray, thresholds_);
   dots_.clear();
   for (std::size_t i = 0; i < bright.areas.size(); ++i) {
@@ -139,19 +164,31 @@ std::span<const Dot> DotFinder::find(const cv::Mat& gray) {
 void DotFinder::append_dots_of_area(const cv::Mat& gray, std::size_t index) {
   const BrightAreas& bright = area_finder_.areas();
   const BrightArea& area = bright.areas[index];
-  if (area.aspect_ratio > round_as_a_dot && area.area_px >= 2 * smallest_part_px) {
-    if (const auto parts = parts_of(bright.runs_of(area), options_.erosion_px)) {
-      for (const BrightArea& part : parts->areas) append_dot(gray, part, index);
-      return;
-    }
-  }
-  append_dot(gray, area, index);
+  const bool may_be_several = area.aspect_ratio > round_as_a_dot && area.area_px >= 2 * smallest_part_px;
+  const std::span<const BrightArea> parts =
+      may_be_several ? parts_of(bright.runs_of(area)) : std::span<const BrightArea>{};
+  if (parts.empty()) append_dot(gray, area, index);
+  for (const BrightArea& part : parts) append_dot(gray, part, index);
+}
+
+/// The dots that touched in an area, parted by erosion; none when it is one piece.
+std::span<const BrightArea> DotFinder::parts_of(std::span<const Run> area) {
+  const std::vector<BrightArea>& parts =
+      part_connector_.connect(eroder_.erode(area, options_.erosion_px)).areas;
+  const bool several = parts.size() > 1 && std::ranges::all_of(parts, [](const BrightArea& part) {
+                         return part.area_px >= smallest_part_px;
+                       });
+  return several ? std::span<const BrightArea>(parts) : std::span<const BrightArea>{};
 }
 
 void DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index) {
   if (area.aspect_ratio > options_.max_aspect_ratio) return;
-  std::optional<Dot> dot = measured_dot(gray, area, options_, thresholds_.noise_gray());
+  const double dark_noise_gray = std::max(thresholds_.noise_gray(), options_.least_noise_gray);
+  std::optional<Dot> dot =
+      measured_dot(gray, area, options_, dark_noise_gray, light_noise_.variance_per_gray());
   if (!dot || is_found_already(*dot, area, dots_)) return;
+  if (dot->radius_px >= options_.flat_radius_px)
+    light_noise_.add(gray, dot->center_px, dot->background_gray, dark_noise_gray);
   dot->area = index;
   dots_.push_back(*dot);
 }

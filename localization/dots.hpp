@@ -8,6 +8,7 @@
 
 #include "localization/bright_areas.hpp"
 #include "localization/disc_light.hpp"
+#include "localization/light_noise.hpp"
 #include "localization/local_threshold.hpp"
 #include "maps/geometry.hpp"
 
@@ -28,7 +29,7 @@ struct DotOptions {
   LocalThresholdOptions threshold;
   bool by_binary_center = false;  ///< the paper's centre: that of the bright pixels, whatever their gray
   /// Shot noise of the sensor, standard deviation at gray 255: 255 / 4 is the root of a full well of 4000
-  /// electrons. The noise in the dark is told by each frame.
+  /// electrons. That is assumed at first, then learned; the noise in the dark is told by each frame.
   double shot_noise_gray_at_255 = 4.0;
   double least_noise_gray = 0.5;  ///< in the dark: rounding to whole gray values, and a little
   double min_area_px = 1.0;       ///< smaller bright areas are noise; faint small dots are a pixel or two
@@ -36,6 +37,7 @@ struct DotOptions {
   double max_area_px = 900.0;     ///< larger ones are tubes and lamps
   double max_aspect_ratio = 2.2;  ///< longer ones are tubes
   int erosion_px = 3;             ///< arm to arm of the cross that parts dots which touch; odd
+  double flat_radius_px = 2.6;    ///< a dot so large is flat about its middle, which then tells of noise
   double tail_px = 1.7;           ///< how far a dot's blurred edge reaches beyond its bright pixels
   EdgeOptions edge;
 };
@@ -44,10 +46,14 @@ struct DotOptions {
 /// section 4.1), and the dots' centres. Keeps its memory from frame to frame.
 class DotFinder {
  public:
-  explicit DotFinder(const DotOptions& options = {}) : options_(options) {}
+  explicit DotFinder(const DotOptions& options = {})
+      : options_(options), light_noise_(options.shot_noise_gray_at_255) {}
 
   /// Dots that the frame's border cuts are left out. `gray` is CV_8UC1. The result holds until the next call.
   std::span<const Dot> find(const cv::Mat& gray);
+
+  /// Dots in the neighbourhood of these parts of the frame. With a fixed threshold, of the whole frame.
+  std::span<const Dot> find_within(std::span<const cv::Rect> parts, const cv::Mat& gray);
 
   /// The last frame's pixels of the dot's bright area.
   [[nodiscard]] std::span<const Run> pixels_of(const Dot& dot) const {
@@ -56,12 +62,17 @@ class DotFinder {
   }
 
  private:
+  std::span<const Dot> find_by_thresholds(const cv::Mat& gray);
   void append_dots_of_area(const cv::Mat& gray, std::size_t index);
+  std::span<const BrightArea> parts_of(std::span<const Run> area);
   void append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index);
 
   DotOptions options_;
   LocalThresholds thresholds_;
   BrightAreaFinder area_finder_;
+  Eroder eroder_;
+  AreaConnector part_connector_;
+  LightNoise light_noise_;
   std::vector<Dot> dots_;
 };
 

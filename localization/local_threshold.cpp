@@ -16,38 +16,63 @@ constexpr int tile = LocalThresholds::tile_px;
 struct Extremes {
   std::uint8_t darkest = 255;
   std::uint8_t brightest = 0;
+  [[nodiscard]] int range() const { return brightest - darkest; }
 };
 
 /// As many pixels as a tile is wide.
 using TileRow [[gnu::vector_size(tile)]] = std::uint8_t;
+using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
 
-/// Of a tile whose whole width lies in the frame.
-LODESTAR_WIDE_REGISTERS
-Extremes extremes_of_tile(const std::uint8_t* pixels, std::size_t stride, int rows) {
-  TileRow low;
-  TileRow high;
-  std::memcpy(&low, pixels, tile);
-  high = low;
-  for (int v = 1; v < rows; ++v) {
-    pixels += stride;
-    TileRow row;
-    std::memcpy(&row, pixels, tile);
-    low = row < low ? row : low;
-    high = row > high ? row : high;
-  }
-  Extremes result;
-  for (int u = 0; u < tile; ++u) {
-    result.darkest = std::min(result.darkest, low[u]);
-    result.brightest = std::max(result.brightest, high[u]);
-  }
-  return result;
+Bytes least_of(const Bytes& a, const Bytes& b) {
+  return a < b ? a : b;
 }
 
-Extremes extremes_of_part(const cv::Mat& gray, int top, int left, int rows) {
+Bytes least_of_halves(const TileRow& row) {
+  static_assert(sizeof(TileRow) == 2 * sizeof(Bytes));
+  std::array<Bytes, 2> halves;
+  std::memcpy(halves.data(), &row, sizeof(row));
+  return least_of(halves[0], halves[1]);
+}
+
+/// Each step halves how many are left, of both at once: the brightest is the least of the complements.
+Extremes extremes_of(const TileRow& low, const TileRow& high) {
+  const Bytes a = least_of_halves(low);
+  const Bytes b = least_of_halves(~high);
+  Bytes v =
+      least_of(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23),
+               __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31));
+  v = least_of(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
+  v = least_of(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
+  return {std::min(v[0], v[1]), static_cast<std::uint8_t>(~std::min(v[8], v[9]))};
+}
+
+/// Of the first, the next but `step`, ... row of neighbouring tiles, whose whole width lies in the frame.
+LODESTAR_WIDE_REGISTERS
+void find_extremes(const std::uint8_t* pixels, std::size_t stride, int rows, int step,
+                   std::span<Extremes> tiles) {
+  const std::size_t step_bytes = static_cast<std::size_t>(step) * stride;
+  for (Extremes& extremes : tiles) {
+    const std::uint8_t* place = pixels;
+    TileRow low;
+    std::memcpy(&low, place, tile);
+    TileRow high = low;
+    for (int v = step; v < rows; v += step) {
+      place += step_bytes;
+      TileRow row;
+      std::memcpy(&row, place, tile);
+      low = row < low ? row : low;
+      high = row > high ? row : high;
+    }
+    extremes = extremes_of(low, high);
+    pixels += tile;
+  }
+}
+
+Extremes extremes_of_part(const cv::Mat& gray, const cv::Rect& part) {
   Extremes result;
-  for (int v = top; v < top + rows; ++v) {
+  for (int v = part.y; v < part.br().y; ++v) {
     const auto* const pixels = gray.ptr<std::uint8_t>(v);
-    for (int u = left; u < gray.cols; ++u) {
+    for (int u = part.x; u < part.br().x; ++u) {
       result.darkest = std::min(result.darkest, pixels[u]);
       result.brightest = std::max(result.brightest, pixels[u]);
     }
@@ -55,79 +80,127 @@ Extremes extremes_of_part(const cv::Mat& gray, int top, int left, int rows) {
   return result;
 }
 
-/// Counted, not sorted: a frame has hundreds of tiles, but only 256 ranges.
-int lower_quartile(const std::vector<std::uint8_t>& darkest, const std::vector<std::uint8_t>& brightest) {
-  std::array<std::size_t, 256> count{};
-  for (std::size_t i = 0; i < darkest.size(); ++i)
-    ++count[static_cast<std::size_t>(brightest[i] - darkest[i])];
-  std::size_t below = 0;
-  for (std::size_t range = 0; range < count.size(); ++range) {
-    below += count[range];
-    if (4 * below >= darkest.size()) return static_cast<int>(range);
+/// Standard deviation of a pixel by the squared differences of neighbours in short stretches of rows spread
+/// over the frame: what the ceiling shows drops out of a difference, which varies twice as much as one
+/// pixel, and dots and lamps are in the noisier stretches. The lower quartile of the stretches is looked at;
+/// of so few differences, each of which shares its pixels with the next, it lies at four fifths of the mean.
+double noise_of(const cv::Mat& gray) {
+  constexpr int most_stretches = 48;
+  constexpr double quartile_to_mean = 0.8;
+  const int columns = gray.cols / tile;
+  if (columns == 0 || gray.rows == 0) return 0.0;
+  const int wanted_rows = std::max(most_stretches / columns, 1);
+  const int row_step = std::max(gray.rows / wanted_rows, 1);
+  const int column_step = (columns + most_stretches - 1) / most_stretches;
+  std::array<int, most_stretches> squares{};
+  std::size_t count = 0;
+  for (int v = row_step / 2; v < gray.rows; v += row_step) {
+    for (int column = 0; column < columns && count < squares.size(); column += column_step) {
+      const auto* const pixels = gray.ptr<std::uint8_t>(v) + static_cast<std::ptrdiff_t>(column) * tile;
+      int sum = 0;
+      for (int u = 0; u + 1 < tile; ++u) {
+        const int difference = pixels[u + 1] - pixels[u];
+        sum += difference * difference;
+      }
+      squares[count++] = sum;
+    }
   }
-  return 255;
+  auto* const quartile = squares.data() + count / 4;
+  std::nth_element(squares.data(), quartile, squares.data() + count);
+  return std::sqrt(*quartile / (quartile_to_mean * 2.0 * (tile - 1)));
+}
+
+const std::uint8_t* pixels_of(const cv::Mat& gray, int row, int column) {
+  return gray.ptr<std::uint8_t>(row * tile) + static_cast<std::ptrdiff_t>(column) * tile;
 }
 
 }  // namespace
 
-void LocalThresholds::resize(const cv::Size& frame) {
+void LocalThresholds::set(const cv::Size& frame, std::uint8_t threshold) {
   rows_ = (frame.height + tile - 1) / tile;
   columns_ = (frame.width + tile - 1) / tile;
-  thresholds_.resize(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_));
-}
-
-/// The difference of two pixels varies twice as much as one; what the ceiling shows drops out of it.
-double LocalThresholds::noise_in_tiles(const cv::Mat& gray, int most_range) const {
-  constexpr int most_tiles = 32;
-  int tiles = 0;
-  int pairs = 0;
-  int squares = 0;
-  for (std::size_t i = 0; i < thresholds_.size() && tiles < most_tiles; ++i) {
-    if (brightest_[i] - darkest_[i] > most_range) continue;
-    const int row = static_cast<int>(i) / columns_ * tile;
-    const int column = static_cast<int>(i) % columns_ * tile;
-    const auto* const pixels = gray.ptr<std::uint8_t>(std::min(row + tile / 2, gray.rows - 1)) + column;
-    const int count = std::min(tile, gray.cols - column) - 1;
-    for (int u = 0; u < count; ++u) {
-      const int difference = pixels[u + 1] - pixels[u];
-      squares += difference * difference;
-    }
-    pairs += count;
-    ++tiles;
-  }
-  return pairs > 0 ? std::sqrt(0.5 * squares / pairs) : 0.0;
-}
-
-void LocalThresholds::set(const cv::Size& frame, std::uint8_t threshold) {
-  resize(frame);
-  std::ranges::fill(thresholds_, threshold);
+  thresholds_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_), threshold);
 }
 
 void LocalThresholds::find(const cv::Mat& gray, const LocalThresholdOptions& options) {
-  resize(gray.size());
-  darkest_.resize(thresholds_.size());
-  brightest_.resize(thresholds_.size());
-  std::size_t i = 0;
-  for (int top = 0; top < gray.rows; top += tile) {
-    const int rows = std::min(tile, gray.rows - top);
-    for (int left = 0; left < gray.cols; left += tile, ++i) {
-      const Extremes extremes = left + tile <= gray.cols
-                                    ? extremes_of_tile(gray.ptr<std::uint8_t>(top) + left, gray.step[0], rows)
-                                    : extremes_of_part(gray, top, left, rows);
-      darkest_[i] = extremes.darkest;
-      brightest_[i] = extremes.brightest;
+  const cv::Rect whole(0, 0, gray.cols, gray.rows);
+  find_within(std::span(&whole, 1), gray, options);
+}
+
+void LocalThresholds::find_within(std::span<const cv::Rect> parts, const cv::Mat& gray,
+                                  const LocalThresholdOptions& options) {
+  set(gray.size(), nothing_bright);
+  ranges_.assign(thresholds_.size(), 0);
+  noise_gray_ = noise_of(gray);
+  least_range_ = std::max(options.min_range_gray,
+                          static_cast<int>(std::lround(options.min_range_to_noise * noise_gray_)));
+  bright_tiles_.clear();
+  for (const cv::Rect& part : parts) {
+    const cv::Rect inside = part & cv::Rect(0, 0, gray.cols, gray.rows);
+    if (inside.empty()) continue;
+    const int first = inside.x / tile;
+    const int last = (inside.br().x - 1) / tile;
+    for (int row = inside.y / tile; row <= (inside.br().y - 1) / tile; ++row)
+      look_at_tiles(gray, row, first, last + 1);
+  }
+  for (const cv::Point& at : bright_tiles_) correct_for_neighbours(gray, at);
+}
+
+/// Every other row tells whether a closer look is worth while: half a pixel above or below its middle even
+/// the smallest dot has more than this share of its light.
+void LocalThresholds::look_at_tiles(const cv::Mat& gray, int row, int first, int end) {
+  constexpr double share_between_rows = 0.65;
+  constexpr std::size_t at_once = 64;
+  const int least_glance = static_cast<int>(share_between_rows * least_range_);
+  const int rows = std::min(tile, gray.rows - row * tile);
+  const int whole_end = std::min(end, gray.cols / tile);
+  std::array<Extremes, at_once> glances;
+  for (int column = first; column < whole_end; column += static_cast<int>(at_once)) {
+    const auto count = std::min(at_once, static_cast<std::size_t>(whole_end - column));
+    find_extremes(pixels_of(gray, row, column), gray.step[0], rows, 2, std::span(glances).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (glances[i].range() < least_glance) continue;
+      Extremes extremes;
+      const int here = column + static_cast<int>(i);
+      find_extremes(pixels_of(gray, row, here), gray.step[0], rows, 1, std::span(&extremes, 1));
+      set_tile({here, row}, extremes.darkest, extremes.brightest);
     }
   }
-  const int quiet_range = lower_quartile(darkest_, brightest_);
-  noise_gray_ = noise_in_tiles(gray, quiet_range);
-  const double by_noise = options.min_range_to_noise * quiet_range;
-  const int least =
-      std::clamp(static_cast<int>(std::lround(by_noise)), options.min_range_gray, options.max_min_range_gray);
-  for (std::size_t k = 0; k < thresholds_.size(); ++k) {
-    const int range = brightest_[k] - darkest_[k];
-    thresholds_[k] =
-        range < least ? nothing_bright : static_cast<std::uint8_t>(darkest_[k] + (range + 1) / 2);
+  if (whole_end == end) return;
+  const int left = whole_end * tile;
+  const Extremes extremes = extremes_of_part(gray, {left, row * tile, gray.cols - left, rows});
+  set_tile({whole_end, row}, extremes.darkest, extremes.brightest);
+}
+
+void LocalThresholds::set_tile(const cv::Point& at, int darkest, int brightest) {
+  const int range = brightest - darkest;
+  if (range < least_range_) return;
+  const std::size_t i = index(at);
+  if (thresholds_[i] != nothing_bright) return;
+  ranges_[i] = static_cast<std::uint8_t>(range);
+  thresholds_[i] = static_cast<std::uint8_t>(darkest + (range + 1) / 2);
+  bright_tiles_.push_back(at);
+}
+
+/// A tile may hold no more than the blurred edge of a dot or lamp that lies in the next one. Then the next
+/// one's threshold tells where it ends.
+void LocalThresholds::correct_for_neighbours(const cv::Mat& gray, const cv::Point& at) {
+  constexpr double clearly_less = 0.75;
+  constexpr int edge_px = 3;
+  const cv::Rect around = cv::Rect(at.x - 1, at.y - 1, 3, 3) & cv::Rect(0, 0, columns_, rows_);
+  std::size_t strongest = index(at);
+  for (int row = around.y; row < around.br().y; ++row) {
+    for (int column = around.x; column < around.br().x; ++column) {
+      const std::size_t i = index({column, row});
+      if (ranges_[i] > ranges_[strongest]) strongest = i;
+    }
   }
+  if (!(ranges_[index(at)] < clearly_less * ranges_[strongest])) return;
+  const cv::Rect inner =
+      cv::Rect(at.x * tile + edge_px, at.y * tile + edge_px, tile - 2 * edge_px, tile - 2 * edge_px) &
+      cv::Rect(0, 0, gray.cols, gray.rows);
+  if (extremes_of_part(gray, inner).range() < least_range_)
+    thresholds_[index(at)] = std::max(thresholds_[index(at)], thresholds_[strongest]);
 }
 
 }  // namespace lodestar

@@ -40,6 +40,7 @@ struct Normal {
   Mat6 information = Mat6::Zero();
   Vec6 gradient = Vec6::Zero();  ///< of half the cost
   double cost = 0.0;
+  bool is_quadratic = true;  ///< no dot is so far off that its loss is linear
 };
 
 /// Huber: quadratic up to `scale` sigmas, linear beyond. The weight is that of the quadratic form.
@@ -54,22 +55,78 @@ Huber huber(double squared_sigmas, double scale) {
   return {scale * (2.0 * sigmas - scale), scale / sigmas};
 }
 
+/// The same in the camera's own axes, where most of the derivative is zero: by_u and by_v are by (position,
+/// rotation) of the camera along and about them.
+struct ProjectionInCamera {
+  Vec2 pixel;
+  Vec6 by_u;
+  Vec6 by_v;
+};
+
+/// The middle of a horizontal disc's image less the image of its middle, as rays at unit depth. With the
+/// disc's points q(s, t) seen at depth z(s, t), s and t along the map's axes, the centroid of its image is
+/// off by r^2 / 4 (laplacian(q) / 2 + grad(q) . grad(ln J)), J the change of area, which is as z^-3. Both
+/// terms are multiples of grad(z) . grad(q) / z: -1 and -3.
+Vec2 disc_offset(const Vec2& normalized, double depth_m, const Eigen::Matrix3d& map_from_camera) {
+  Vec2 sum = Vec2::Zero();
+  for (const Eigen::Index axis : {0, 1}) {
+    const double depth_change = map_from_camera(axis, 2);
+    sum += depth_change * (map_from_camera.row(axis).head<2>().transpose() - depth_change * normalized);
+  }
+  return -square(marker_dot_radius_m / depth_m) * sum;
+}
+
+std::optional<ProjectionInCamera> project_in_camera(const Eigen::Isometry3d& map_from_camera,
+                                                    const Vec3& point_in_map, const CameraModel& camera) {
+  const Vec3 offset = point_in_map - map_from_camera.translation();
+  const Vec3 p = map_from_camera.linear().transpose() * offset;
+  if (!(p.z() > 1e-6)) return std::nullopt;
+  const double per_depth = 1.0 / p.z();
+  const Vec2 normalized = per_depth * p.head<2>();
+  const Eigen::Matrix2d by_normalized = camera.distorted_jacobian(normalized);
+  ProjectionInCamera projection;
+  projection.pixel =
+      camera.distorted(normalized) + by_normalized * disc_offset(normalized, p.z(), map_from_camera.linear());
+  const auto fill = [&](Eigen::Index row, Vec6& derivative) {
+    const double by_x = per_depth * by_normalized(row, 0);
+    const double by_y = per_depth * by_normalized(row, 1);
+    const Vec3 by_point(by_x, by_y, -(by_x * normalized.x() + by_y * normalized.y()));
+    derivative << -by_point, by_point.cross(p);
+  };
+  fill(0, projection.by_u);
+  fill(1, projection.by_v);
+  return projection;
+}
+
+/// From the camera's axes to the map's.
+void turn(Normal& normal, const Eigen::Matrix3d& map_from_camera) {
+  for (const Eigen::Index i : {0, 3}) {
+    for (const Eigen::Index j : {0, 3}) {
+      normal.information.block<3, 3>(i, j) =
+          map_from_camera * normal.information.block<3, 3>(i, j) * map_from_camera.transpose();
+    }
+    normal.gradient.segment<3>(i) = map_from_camera * normal.gradient.segment<3>(i);
+  }
+}
+
 bool add_dots(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, const CameraModel& camera,
               const PoseFixOptions& options, Normal& normal) {
   for (const SurveyedDot& dot : dots) {
     const double per_variance = 1.0 / square(dot.sigma_px);
-    const std::optional<Projection> seen = project_dot(pose, dot.point_in_map, camera);
+    const std::optional<ProjectionInCamera> seen = project_in_camera(pose, dot.point_in_map, camera);
     if (!seen) return false;
     const Vec2 residual = seen->pixel - dot.center_px;
     const Huber loss = huber(residual.squaredNorm() * per_variance, options.robust_scale);
     const double weight = loss.weight * per_variance;
-    const Vec6 by_u = seen->jacobian.row(0);
-    const Vec6 by_v = seen->jacobian.row(1);
     normal.cost += loss.cost;
-    normal.gradient += (weight * residual.x()) * by_u + (weight * residual.y()) * by_v;
-    for (Eigen::Index k = 0; k < 6; ++k)
-      normal.information.col(k) += (weight * by_u[k]) * by_u + (weight * by_v[k]) * by_v;
+    normal.is_quadratic = normal.is_quadratic && loss.weight == 1.0;
+    normal.gradient += (weight * residual.x()) * seen->by_u + (weight * residual.y()) * seen->by_v;
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      normal.information.col(k) +=
+          (weight * seen->by_u[k]) * seen->by_u + (weight * seen->by_v[k]) * seen->by_v;
+    }
   }
+  turn(normal, pose.linear());
   return true;
 }
 
@@ -126,9 +183,11 @@ std::optional<Normal> normal_at(const Eigen::Isometry3d& pose, std::span<const S
 /// The pose with the same place and heading, but with the tilt that the prior says.
 Eigen::Isometry3d with_prior_tilt(const Eigen::Isometry3d& pose, const PosePrior& prior) {
   const Eigen::Matrix3d untilted = pose.linear() * prior.tilt.transpose();
-  const double yaw = std::atan2(untilted(1, 0) - untilted(0, 1), untilted(0, 0) + untilted(1, 1));
+  const Vec2 heading = Vec2(untilted(0, 0) + untilted(1, 1), untilted(1, 0) - untilted(0, 1)).normalized();
+  Eigen::Matrix3d turned;
+  turned << heading.x(), -heading.y(), 0.0, heading.y(), heading.x(), 0.0, 0.0, 0.0, 1.0;
   Eigen::Isometry3d result = pose;
-  result.linear() = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix() * prior.tilt;
+  result.linear() = turned * prior.tilt;
   return result;
 }
 
@@ -175,17 +234,13 @@ Vec3 center_of(std::span<const SurveyedDot> dots) {
   return center;
 }
 
-/// The middle of a horizontal disc's image less the image of its middle, as rays at unit depth. With the
-/// disc's points q(s, t) seen at depth z(s, t), s and t along the map's axes, the centroid of its image is
-/// off by r^2 / 4 (laplacian(q) / 2 + grad(q) . grad(ln J)), J the change of area, which is as z^-3. Both
-/// terms are multiples of grad(z) . grad(q) / z: -1 and -3.
-Vec2 disc_offset(const Vec2& normalized, double depth_m, const Eigen::Matrix3d& map_from_camera) {
-  Vec2 sum = Vec2::Zero();
-  for (const Eigen::Index axis : {0, 1}) {
-    const double depth_change = map_from_camera(axis, 2);
-    sum += depth_change * (map_from_camera.row(axis).head<2>().transpose() - depth_change * normalized);
-  }
-  return -square(marker_dot_radius_m / depth_m) * sum;
+/// How far a dot comes to lie from where the linear view has it after such a step, by the second order of a
+/// perspective view.
+double bend_px(const Vec6& step, const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots,
+               const CameraModel& camera) {
+  const double distance_m = (dots.front().point_in_map - pose.translation()).norm();
+  const double turn_rad = step.head<3>().norm() / distance_m + step.tail<3>().norm();
+  return std::max(camera.fx_px, camera.fy_px) * square(turn_rad);
 }
 
 double log_determinant(const Mat6& covariance) {
@@ -196,20 +251,17 @@ double log_determinant(const Mat6& covariance) {
 
 std::optional<Projection> project_dot(const Eigen::Isometry3d& map_from_camera, const Vec3& point_in_map,
                                       const CameraModel& camera) {
-  const Vec3 offset = point_in_map - map_from_camera.translation();
-  const Vec3 p = map_from_camera.linear().transpose() * offset;
-  if (!(p.z() > 1e-6)) return std::nullopt;
-  const Vec2 normalized = p.head<2>() / p.z();
-  const Eigen::Matrix2d by_normalized = camera.distorted_jacobian(normalized);
-  const Eigen::Matrix2d by_point = by_normalized / p.z();
-  Projection projection;
-  projection.pixel =
-      camera.distorted(normalized) + by_normalized * disc_offset(normalized, p.z(), map_from_camera.linear());
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const Vec3 by_point_in_camera(by_point(k, 0), by_point(k, 1), -by_point.row(k).dot(normalized));
-    const Vec3 by_point_in_map = map_from_camera.linear() * by_point_in_camera;
-    projection.jacobian.row(k) << -by_point_in_map.transpose(), by_point_in_map.cross(offset).transpose();
-  }
+  const auto in_camera = project_in_camera(map_from_camera, point_in_map, camera);
+  if (!in_camera) return std::nullopt;
+  Projection projection{.pixel = in_camera->pixel, .jacobian = {}};
+  const auto in_map = [&](const Vec6& derivative) {
+    Vec6 result;
+    result << map_from_camera.linear() * derivative.head<3>(),
+        map_from_camera.linear() * derivative.tail<3>();
+    return result;
+  };
+  projection.jacobian.row(0) = in_map(in_camera->by_u);
+  projection.jacobian.row(1) = in_map(in_camera->by_v);
   return projection;
 }
 
@@ -245,6 +297,7 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   double damping = 1e-6;
   constexpr int max_iterations = 40;
   constexpr double small_gain = 1e-6;  // of the cost: a step of a thousandth of a sigma
+  constexpr double negligible_bend_px = 1e-4;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     Mat6 damped = normal->information;
     damped.diagonal() *= 1.0 + damping;
@@ -252,8 +305,10 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
     if (!step.allFinite()) return std::nullopt;
     const Eigen::Isometry3d candidate = moved(pose, step);
     const double expected_gain = -step.dot(normal->gradient);
-    if (damping < 1e-3 && expected_gain < small_gain) {
+    const bool is_straight = normal->is_quadratic && bend_px(step, pose, dots, camera) < negligible_bend_px;
+    if (damping < 1e-3 && (expected_gain < small_gain || is_straight)) {
       pose = candidate;  // Newton's last step; where it starts is near enough for the covariance
+      normal->cost -= expected_gain;
       break;
     }
     const std::optional<Normal> next = normal_at(candidate, dots, camera, options);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "localization/disjoint_sets.hpp"
 #include "maps/marker.hpp"
 
 namespace lodestar {
@@ -20,41 +19,46 @@ double join_distance_px(double radius_px, const MarkerAreaOptions& options) {
 bool joins(const Dot& a, const Dot& b, const MarkerAreaOptions& options) {
   const auto [small, large] = std::minmax(a.radius_px, b.radius_px);
   const double mean_radius_px = 0.5 * (small + large);
+  const double reach_px = join_distance_px(mean_radius_px, options);
   return large <= options.max_size_ratio * small &&
-         (a.center_px - b.center_px).norm() < join_distance_px(mean_radius_px, options);
-}
-
-/// By rows of the image, so that only dots of nearby rows have to be compared.
-std::vector<std::size_t> from_top_to_bottom(std::span<const Dot> dots) {
-  std::vector<std::size_t> order(dots.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return dots[i].center_px.y(); });
-  return order;
+         (a.center_px - b.center_px).squaredNorm() < reach_px * reach_px;
 }
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> dilated_areas(std::span<const Dot> dots,
-                                                    const MarkerAreaOptions& options) {
-  DisjointSets sets(dots.size());
-  const std::vector<std::size_t> order = from_top_to_bottom(dots);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Dot& dot = dots[order[i]];
-    const double reach_px = join_distance_px(options.max_size_ratio * dot.radius_px, options);
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const Dot& other = dots[order[j]];
+std::size_t MarkerAreaFinder::find(std::span<const Dot> dots) {
+  join(dots);
+  sets_.number(numbers_);
+  const std::size_t areas = numbers_.empty() ? 0 : *std::ranges::max_element(numbers_) + 1;
+  // Each area's first place, which moves on to its end as the dots are put there.
+  ends_.assign(areas + 1, 0);
+  for (const std::size_t number : numbers_) ++ends_[number + 1];
+  std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+  dots_.resize(dots.size());
+  for (std::size_t i = 0; i < dots.size(); ++i) dots_[ends_[numbers_[i]]++] = dots[i];
+  return areas;
+}
+
+std::span<const Dot> MarkerAreaFinder::dots_of(std::size_t area) const {
+  const std::size_t first = area > 0 ? ends_[area - 1] : 0;
+  return std::span(dots_).subspan(first, ends_[area] - first);
+}
+
+/// By rows of the image, so that only dots of nearby rows have to be compared.
+void MarkerAreaFinder::join(std::span<const Dot> dots) {
+  sets_.reset(dots.size());
+  order_.resize(dots.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::ranges::sort(order_, {}, [&](std::size_t i) { return dots[i].center_px.y(); });
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const Dot& dot = dots[order_[i]];
+    const double reach_px = join_distance_px(options_.max_size_ratio * dot.radius_px, options_);
+    for (std::size_t j = i + 1; j < order_.size(); ++j) {
+      const Dot& other = dots[order_[j]];
       if (other.center_px.y() - dot.center_px.y() > reach_px) break;
-      if (joins(dot, other, options)) sets.join(order[i], order[j]);
+      if (joins(dot, other, options_)) sets_.join(order_[i], order_[j]);
     }
   }
-  std::vector<std::vector<std::size_t>> areas;
-  std::vector<std::size_t> number;
-  sets.number(number);
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (number[i] == areas.size()) areas.emplace_back();
-    areas[number[i]].push_back(i);
-  }
-  return areas;
 }
 
 }  // namespace lodestar

@@ -13,10 +13,6 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-bool nearly_equal(double a, double b, double tolerance) {
-  return a > 0.0 && b > 0.0 && std::max(a, b) <= (1.0 + tolerance) * std::min(a, b);
-}
-
 std::pair<std::size_t, std::size_t> farthest_pair(std::span<const Dot> dots) {
   std::pair<std::size_t, std::size_t> best;
   double longest = -1.0;
@@ -56,8 +52,10 @@ bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
   if (ox.squaredNorm() + oy.squaredNorm() > (least_cosine + 1.0 / least_cosine) * area) return false;
   const double radius_px =
       (dots[direction.o].radius_px + dots[direction.x].radius_px + dots[direction.y].radius_px) / 3.0;
-  return nearly_equal(std::sqrt(area) / (marker_grid_size - 1), radii_per_pitch * radius_px,
-                      options.size_tolerance + options.alike_tolerance_px / radius_px);
+  const double wanted_px = std::sqrt(area) / (marker_grid_size - 1) / radii_per_pitch;
+  const double tolerance = 1.0 + options.size_tolerance;
+  return radius_px <= (tolerance + options.growth_px / radius_px) * wanted_px &&
+         wanted_px <= (tolerance + options.alike_tolerance_px / radius_px) * radius_px;
 }
 
 bool sizes_are_alike(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
@@ -67,10 +65,9 @@ bool sizes_are_alike(std::span<const Dot> dots, const MarkerDecoderOptions& opti
 }
 
 /// One cell for each dot; nothing when a dot has none, or another dot's, or the corner that is always empty.
-std::vector<MarkerDot> dots_in_cells(std::span<const Dot> dots, const MarkerGrid& grid, double tolerance) {
+MarkerDots dots_in_cells(std::span<const Dot> dots, const MarkerGrid& grid, double tolerance) {
   std::array<bool, marker_grid_size * marker_grid_size> taken{};
-  std::vector<MarkerDot> result;
-  result.reserve(dots.size());
+  MarkerDots result;
   for (const Dot& dot : dots) {
     const std::optional<GridCell> cell = grid.cell_at(dot.center_px, tolerance);
     if (!cell || *cell == cell_always_empty) return {};
@@ -88,17 +85,20 @@ bool fits(const MarkerGrid& grid, std::span<const MarkerDot> dots, double tolera
   });
 }
 
-/// The dots of the square that the direction dots span, with a margin that must be clear around it.
-std::vector<std::size_t> dots_about(std::span<const Dot> dots, const DirectionDots& direction, double guard) {
+/// The dots of the square that the direction dots span, with a margin that must be clear around it; none when
+/// they are too many for one marker.
+MarkerDotIndices dots_about(std::span<const Dot> dots, const DirectionDots& direction, double guard) {
   const Vec2 o = dots[direction.o].center_px;
   Eigen::Matrix2d px_from_pitches;
   px_from_pitches << dots[direction.x].center_px - o, dots[direction.y].center_px - o;
   px_from_pitches /= marker_grid_size - 1;
   const Eigen::Matrix2d pitches_from_px = px_from_pitches.inverse();
-  std::vector<std::size_t> indices;
+  MarkerDotIndices indices;
   for (std::size_t i = 0; i < dots.size(); ++i) {
     const Vec2 q = pitches_from_px * (dots[i].center_px - o);
-    if (q.minCoeff() > -guard && q.maxCoeff() < marker_grid_size - 1 + guard) indices.push_back(i);
+    if (!(q.minCoeff() > -guard && q.maxCoeff() < marker_grid_size - 1 + guard)) continue;
+    if (indices.full()) return {};
+    indices.push_back(i);
   }
   return indices;
 }
@@ -107,9 +107,9 @@ std::vector<std::size_t> dots_about(std::span<const Dot> dots, const DirectionDo
 std::optional<MarkerReading> read_marker_among(std::span<const Dot> dots, const DirectionDots& direction,
                                                const MarkerDecoderOptions& options) {
   if (!spans_a_grid(dots, direction, options)) return std::nullopt;
-  const std::vector<std::size_t> indices = dots_about(dots, direction, options.guard_pitches);
+  const MarkerDotIndices indices = dots_about(dots, direction, options.guard_pitches);
   if (indices.size() < options.least_dots_in_a_crowd) return std::nullopt;
-  std::vector<Dot> members;
+  InlineVector<Dot, MarkerDotIndices::capacity> members;
   for (const std::size_t i : indices) members.push_back(dots[i]);
   const auto among_members = [&](std::size_t i) {
     return static_cast<std::size_t>(std::ranges::lower_bound(indices, i) - indices.begin());
@@ -124,60 +124,10 @@ bool share_a_dot(const MarkerReading& a, const MarkerReading& b) {
   return std::ranges::find_first_of(a.indices, b.indices) != a.indices.end();
 }
 
-std::vector<MarkerReading> without_conflicts(const std::vector<MarkerReading>& readings) {
-  std::vector<MarkerReading> result;
-  for (const MarkerReading& reading : readings) {
-    const auto conflicts = [&](const MarkerReading& other) {
-      return &other != &reading && share_a_dot(reading, other);
-    };
-    if (std::ranges::none_of(readings, conflicts)) result.push_back(reading);
-  }
-  return result;
-}
-
 /// May these two be the ends of an axis, by the dots' size? Tilt shortens an axis more than it narrows dots.
 bool may_span_an_axis(const Dot& a, const Dot& b) {
   const double pitches = (a.center_px - b.center_px).norm() / (radii_per_pitch * a.radius_px);
   return std::abs(pitches - (marker_grid_size - 1)) < 1.5;
-}
-
-/// What the other readings leave over may be one marker more, with too few dots to be found in a crowd.
-void read_the_rest(std::span<const Dot> dots, const MarkerDecoderOptions& options,
-                   std::vector<MarkerReading>& readings) {
-  std::vector<Dot> rest;
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < dots.size(); ++i) {
-    if (std::ranges::any_of(readings, [i](const MarkerReading& reading) {
-          return std::ranges::find(reading.indices, i) != reading.indices.end();
-        })) {
-      continue;
-    }
-    rest.push_back(dots[i]);
-    indices.push_back(i);
-  }
-  const std::optional<DirectionDots> direction = direction_dots(rest);
-  std::optional<MarkerReading> reading = direction ? read_marker(rest, *direction, options) : std::nullopt;
-  if (!reading) return;
-  reading->indices = std::move(indices);
-  readings.push_back(*std::move(reading));
-}
-
-std::vector<MarkerReading> read_every_corner(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
-  std::vector<MarkerReading> readings;
-  std::vector<std::size_t> ends;  // of axes from o
-  for (std::size_t o = 0; o < dots.size(); ++o) {
-    ends.clear();
-    for (std::size_t i = 0; i < dots.size(); ++i) {
-      if (i != o && may_span_an_axis(dots[o], dots[i])) ends.push_back(i);
-    }
-    for (const std::size_t x : ends) {
-      for (const std::size_t y : ends) {
-        std::optional<MarkerReading> reading = read_marker_among(dots, {o, x, y}, options);
-        if (reading) readings.push_back(*std::move(reading));
-      }
-    }
-  }
-  return without_conflicts(readings);
 }
 
 }  // namespace
@@ -210,23 +160,72 @@ std::optional<MarkerReading> read_marker(std::span<const Dot> dots, const Direct
   }
   const MarkerGrid through_direction_dots(dots[direction.o].center_px, dots[direction.x].center_px,
                                           dots[direction.y].center_px);
-  std::vector<MarkerDot> in_cells = dots_in_cells(dots, through_direction_dots, options.cell_tolerance);
+  const MarkerDots in_cells = dots_in_cells(dots, through_direction_dots, options.cell_tolerance);
   if (in_cells.empty()) return std::nullopt;
   const MarkerGrid grid = MarkerGrid::fitted(in_cells, through_direction_dots);
   if (!fits(grid, in_cells, options.fit_tolerance * grid.pitch_px())) return std::nullopt;
-  std::vector<std::size_t> indices(dots.size());
-  for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = i;
-  return MarkerReading{id_of(in_cells), grid, std::move(in_cells), std::move(indices)};
+  MarkerDotIndices indices;
+  for (std::size_t i = 0; i < in_cells.size(); ++i) indices.push_back(i);
+  return MarkerReading{id_of(in_cells), grid, in_cells, indices};
 }
 
-std::vector<MarkerReading> read_area(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
-  if (dots.size() < 3 || dots.size() > options.most_dots) return {};
+std::span<const MarkerReading> AreaReader::read(std::span<const Dot> dots) {
+  readings_.clear();
+  if (dots.size() < 3 || dots.size() > options_.most_dots) return {};
   if (const auto direction = direction_dots(dots)) {
-    if (std::optional<MarkerReading> reading = read_marker(dots, *direction, options)) return {*reading};
+    if (const std::optional<MarkerReading> reading = read_marker(dots, *direction, options_)) {
+      readings_.push_back(*reading);
+      return readings_;
+    }
   }
-  std::vector<MarkerReading> readings = read_every_corner(dots, options);
-  if (!readings.empty()) read_the_rest(dots, options, readings);
-  return readings;
+  read_every_corner(dots);
+  leave_out_conflicts();
+  if (!readings_.empty()) read_the_rest(dots);
+  return readings_;
+}
+
+void AreaReader::read_every_corner(std::span<const Dot> dots) {
+  tried_.clear();
+  for (std::size_t o = 0; o < dots.size(); ++o) {
+    ends_.clear();
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+      if (i != o && may_span_an_axis(dots[o], dots[i])) ends_.push_back(i);
+    }
+    for (const std::size_t x : ends_) {
+      for (const std::size_t y : ends_) {
+        const std::optional<MarkerReading> reading = read_marker_among(dots, {o, x, y}, options_);
+        if (reading) tried_.push_back(*reading);
+      }
+    }
+  }
+}
+
+void AreaReader::leave_out_conflicts() {
+  for (const MarkerReading& reading : tried_) {
+    const auto conflicts = [&](const MarkerReading& other) {
+      return &other != &reading && share_a_dot(reading, other);
+    };
+    if (std::ranges::none_of(tried_, conflicts)) readings_.push_back(reading);
+  }
+}
+
+/// What the other readings leave over may be one marker more, with too few dots to be found in a crowd.
+void AreaReader::read_the_rest(std::span<const Dot> dots) {
+  rest_.clear();
+  rest_indices_.clear();
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    const bool is_taken = std::ranges::any_of(readings_, [i](const MarkerReading& reading) {
+      return std::ranges::find(reading.indices, i) != reading.indices.end();
+    });
+    if (is_taken) continue;
+    rest_.push_back(dots[i]);
+    rest_indices_.push_back(i);
+  }
+  const std::optional<DirectionDots> direction = direction_dots(rest_);
+  std::optional<MarkerReading> reading = direction ? read_marker(rest_, *direction, options_) : std::nullopt;
+  if (!reading) return;
+  for (std::size_t& index : reading->indices) index = rest_indices_[index];
+  readings_.push_back(*reading);
 }
 
 }  // namespace lodestar

@@ -7,6 +7,7 @@
 
 #include "localization/detected_marker.hpp"
 #include "localization/dots.hpp"
+#include "localization/inline_vector.hpp"
 #include "localization/marker_grid.hpp"
 
 namespace lodestar {
@@ -23,7 +24,10 @@ struct MarkerDecoderOptions {
       0.2;  ///< how far a dot may be from its cell, in pitches, before perspective is known
   double fit_tolerance = 0.08;  ///< and after
   double size_tolerance = 0.2;  ///< how near 4 radii must be to a pitch
-  double guard_pitches = 1.0;   ///< about a marker that shares its area with others, so much must be clear
+  /// By so much more a dot may look too large, saturated or blurred. Dots two pitches apart that are taken
+  /// for O and X make theirs too large by half, and by more than this allows.
+  double growth_px = 0.35;
+  double guard_pitches = 1.0;  ///< about a marker that shares its area with others, so much must be clear
   std::size_t least_dots_in_a_crowd = 5;  ///< and so many dots agree: three always fit some grid
   std::size_t most_dots = 48;             ///< an area with more holds no markers
 };
@@ -45,12 +49,15 @@ std::optional<DirectionDots> direction_dots(std::span<const Dot> dots);
 /// The ID that these cells' dots stand for, Eq. (9).
 int id_of(std::span<const MarkerDot> dots);
 
+/// Of a marker's dots among others.
+using MarkerDotIndices = InlineVector<std::size_t, MarkerDots::capacity>;
+
 /// A marker read from dots.
 struct MarkerReading {
   int id = 0;
   MarkerGrid grid;
-  std::vector<MarkerDot> dots;
-  std::vector<std::size_t> indices;  ///< of the same dots among those given
+  MarkerDots dots;
+  MarkerDotIndices indices;  ///< of the same dots among those given
 };
 
 /// Reads dots that are all of one marker: each must stand in a cell of its own, and none in the corner
@@ -60,9 +67,27 @@ struct MarkerReading {
 std::optional<MarkerReading> read_marker(std::span<const Dot> dots, const DirectionDots& direction,
                                          const MarkerDecoderOptions& options = {});
 
-/// All markers of one dilated area. As a rule it holds one, which the paper's rule reads; when that fails
-/// (markers too near each other, a glint beside one, a steep view) every dot is tried as O. Two readings that
-/// share a dot are both refused.
-std::vector<MarkerReading> read_area(std::span<const Dot> dots, const MarkerDecoderOptions& options = {});
+/// Reads all markers of one dilated area. As a rule it holds one, which the paper's rule reads; when that
+/// fails (markers too near each other, a glint beside one, a steep view) every dot is tried as O. Two
+/// readings that share a dot are both refused. Keeps its memory from area to area.
+class AreaReader {
+ public:
+  explicit AreaReader(const MarkerDecoderOptions& options = {}) : options_(options) {}
+
+  /// The result holds until the next call.
+  std::span<const MarkerReading> read(std::span<const Dot> dots);
+
+ private:
+  void read_every_corner(std::span<const Dot> dots);
+  void leave_out_conflicts();
+  void read_the_rest(std::span<const Dot> dots);
+
+  MarkerDecoderOptions options_;
+  std::vector<MarkerReading> tried_;
+  std::vector<MarkerReading> readings_;
+  std::vector<std::size_t> ends_;  ///< of axes from one O
+  std::vector<Dot> rest_;
+  std::vector<std::size_t> rest_indices_;
+};
 
 }  // namespace lodestar

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
+#include <cstring>
 #include <stdexcept>
 
 #include "localization/confidence.hpp"
@@ -11,7 +11,8 @@
 namespace lodestar {
 namespace {
 
-using Indices = std::vector<std::size_t>;
+using DotsOfMarker = InlineVector<Dot, MarkerDots::capacity>;
+using DotsOfArea = InlineVector<Dot, 48>;
 
 void require_gray(const cv::Mat& gray) {
   if (!gray.empty() && gray.type() != CV_8UC1) {
@@ -20,16 +21,15 @@ void require_gray(const cv::Mat& gray) {
   }
 }
 
-std::vector<Dot> dots_at(std::span<const Dot> dots, const Indices& indices) {
-  std::vector<Dot> result;
-  result.reserve(indices.size());
+DotsOfMarker dots_at(std::span<const Dot> dots, const MarkerDotIndices& indices) {
+  DotsOfMarker result;
   for (const std::size_t i : indices) result.push_back(dots[i]);
   return result;
 }
 
 /// `grid_place` tells where a direction dot must be that was not seen.
 template <typename GridPlace>
-DetectedMarker detected(int id, double probability, double confidence, std::vector<MarkerDot> dots,
+DetectedMarker detected(int id, double probability, double confidence, const MarkerDots& dots,
                         const GridPlace& grid_place) {
   const auto place = [&](GridCell cell) -> Vec2 {
     const auto dot = std::ranges::find(dots, cell, &MarkerDot::cell);
@@ -40,36 +40,36 @@ DetectedMarker detected(int id, double probability, double confidence, std::vect
   marker.x_px = place(cell_of_x);
   marker.y_px = place(cell_of_y);
   marker.center_px = 0.5 * (marker.x_px + marker.y_px);
-  marker.dots = std::move(dots);
+  marker.dots = dots;
   return marker;
 }
 
 /// Eq. (1): the marker nearest to the image centre is the optimal one.
 void sort_by_distance_to_center(std::vector<DetectedMarker>& markers, const cv::Size& size) {
   const Vec2 center(0.5 * (size.width - 1), 0.5 * (size.height - 1));
-  std::ranges::stable_sort(markers, {},
-                           [&](const DetectedMarker& marker) { return (marker.center_px - center).norm(); });
+  std::ranges::sort(markers, {},
+                    [&](const DetectedMarker& marker) { return (marker.center_px - center).squaredNorm(); });
 }
 
 /// A dot of another size is a glint or a lamp.
-std::vector<Dot> dots_of_usual_size(const std::vector<Dot>& dots) {
+DotsOfArea dots_of_usual_size(std::span<const Dot> dots) {
   constexpr double most_ratio = 1.3;
-  std::vector<double> radii;
+  InlineVector<double, DotsOfArea::capacity> radii;
   for (const Dot& dot : dots) radii.push_back(dot.radius_px);
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  auto* const middle = radii.begin() + radii.size() / 2;
   std::nth_element(radii.begin(), middle, radii.end());
-  std::vector<Dot> result;
-  std::ranges::copy_if(dots, std::back_inserter(result), [&](const Dot& dot) {
-    return dot.radius_px < most_ratio * *middle && *middle < most_ratio * dot.radius_px;
-  });
+  DotsOfArea result;
+  for (const Dot& dot : dots) {
+    if (dot.radius_px < most_ratio * *middle && *middle < most_ratio * dot.radius_px) result.push_back(dot);
+  }
   return result;
 }
 
 /// Four by four places of a lattice, and how a marker may hang in them.
 struct Square {
   MarkerGrid grid;  ///< of the square as it stands, its lower left place taken for O
-  std::vector<MarkerDot> dots;
-  std::vector<Dot> measured;
+  MarkerDots dots;
+  DotsOfMarker measured;
 };
 
 constexpr int quarter_turns = 4;
@@ -90,34 +90,37 @@ CellEvidence evidence_turned(const CellEvidence& square, int quarters) {
   return marker;
 }
 
-std::vector<MarkerDot> turned_back(std::vector<MarkerDot> dots, int quarters) {
+MarkerDots turned_back(MarkerDots dots, int quarters) {
   for (MarkerDot& dot : dots) dot.cell = turned(dot.cell, quarter_turns - quarters);
   return dots;
 }
 
-/// All squares that hold all of the lattice's dots.
-std::vector<Square> squares_of(const DotLattice& lattice, std::span<const Dot> dots) {
+/// The square whose top left place is this one of a lattice.
+Square square_at(const DotLattice& lattice, std::span<const Dot> dots, int column, int row) {
+  const auto place = [&](int c, int r) -> Vec2 {
+    return lattice.origin_px + (column + c) * lattice.column_px + (row + r) * lattice.row_px;
+  };
+  const int last = marker_grid_size - 1;
+  Square square{
+      .grid = MarkerGrid(place(0, last), place(last, last), place(0, 0)), .dots = {}, .measured = {}};
+  for (const LatticeDot& dot : lattice.dots) {
+    const Dot& seen = dots[dot.index];
+    square.dots.push_back({{dot.row - row, dot.column - column}, seen.center_px, seen.sigma_px});
+    square.measured.push_back(seen);
+  }
+  square.grid = MarkerGrid::fitted(square.dots, square.grid);
+  return square;
+}
+
+/// Does for all squares that hold all of the lattice's dots.
+template <typename Work>
+void for_each_square(const DotLattice& lattice, std::span<const Dot> dots, const Work& work) {
   const auto [left, right] = std::ranges::minmax(lattice.dots, {}, &LatticeDot::column);
   const auto [top, bottom] = std::ranges::minmax(lattice.dots, {}, &LatticeDot::row);
-  std::vector<Square> squares;
   for (int column = right.column - marker_grid_size + 1; column <= left.column; ++column) {
-    for (int row = bottom.row - marker_grid_size + 1; row <= top.row; ++row) {
-      const auto place = [&](int c, int r) -> Vec2 {
-        return lattice.origin_px + (column + c) * lattice.column_px + (row + r) * lattice.row_px;
-      };
-      const int last = marker_grid_size - 1;
-      Square square{
-          .grid = MarkerGrid(place(0, last), place(last, last), place(0, 0)), .dots = {}, .measured = {}};
-      for (const LatticeDot& dot : lattice.dots) {
-        const Dot& seen = dots[dot.index];
-        square.dots.push_back({{dot.row - row, dot.column - column}, seen.center_px, seen.sigma_px});
-        square.measured.push_back(seen);
-      }
-      square.grid = MarkerGrid::fitted(square.dots, square.grid);
-      squares.push_back(std::move(square));
-    }
+    for (int row = bottom.row - marker_grid_size + 1; row <= top.row; ++row)
+      work(square_at(lattice, dots, column, row));
   }
-  return squares;
 }
 
 /// Of the dots beside the lattice, those that lie within the marker or right beside it.
@@ -148,13 +151,39 @@ bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& d
          4 * strangers <= dots && (!contradicted || dots >= options.least_dots_contradicted);
 }
 
-/// Is the pixel in the paper's binary image of a dot after its erosion by a cross of three?
-bool is_inner(const cv::Mat& gray, int u, int v) {
-  const auto bright = [&](int column, int row) {
-    return gray.ptr<std::uint8_t>(row)[column] >= lowest_dot_gray;
-  };
-  return u > 0 && v > 0 && u + 1 < gray.cols && v + 1 < gray.rows && bright(u, v) && bright(u - 1, v) &&
-         bright(u + 1, v) && bright(u, v - 1) && bright(u, v + 1);
+constexpr int pixels_at_once = 16;
+using Bytes [[gnu::vector_size(pixels_at_once)]] = std::uint8_t;
+
+Bytes darker(const Bytes& a, const std::uint8_t* pixels) {
+  Bytes b;
+  std::memcpy(&b, pixels, sizeof(b));
+  return a < b ? a : b;
+}
+
+/// The darkest of each pixel and its four neighbours, for pixels in a row from here on.
+std::array<std::uint8_t, pixels_at_once> eroded(const std::uint8_t* pixels, std::size_t stride) {
+  Bytes least;
+  std::memcpy(&least, pixels, sizeof(least));
+  least = darker(darker(least, pixels - 1), pixels + 1);
+  least = darker(darker(least, pixels - stride), pixels + stride);
+  std::array<std::uint8_t, pixels_at_once> result;
+  std::memcpy(result.data(), &least, sizeof(least));
+  return result;
+}
+
+/// Adds the pixels of a run that are in the paper's binary image after its erosion by a cross of three. A
+/// frame narrower than what is looked at together has no room for a marker.
+void add_inner_pixels(const cv::Mat& gray, const Run& run, ConfidenceSum& confidence) {
+  if (run.row == 0 || run.row + 1 == gray.rows) return;
+  const auto* const row = gray.ptr<std::uint8_t>(run.row);
+  for (int u = std::max(run.begin, 1); u < run.end; u += pixels_at_once) {
+    const int from = std::min(u, gray.cols - pixels_at_once - 1);
+    if (from < 1) return;
+    const std::array<std::uint8_t, pixels_at_once> least = eroded(row + from, gray.step[0]);
+    const int end = std::min({run.end, from + pixels_at_once, gray.cols - 1});
+    for (int i = u; i < end; ++i)
+      if (least[static_cast<std::size_t>(i - from)] >= lowest_dot_gray) confidence.add(row[i]);
+  }
 }
 
 }  // namespace
@@ -175,80 +204,93 @@ DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions option
 }
 
 MarkerDetector::MarkerDetector(const DetectorOptions& options)
-    : options_(options), dot_finder_(options.dots), id_decoder_(options.registered_ids) {}
+    : options_(options),
+      dot_finder_(options.dots),
+      area_finder_(options.areas),
+      area_reader_(options.decoder),
+      id_decoder_(options.registered_ids) {}
 
-std::vector<DetectedMarker> MarkerDetector::detect(const cv::Mat& gray) {
+std::span<const DetectedMarker> MarkerDetector::detect(const cv::Mat& gray) {
   require_gray(gray);
-  const std::span<const Dot> dots = dot_finder_.find(gray);
-  std::vector<DetectedMarker> markers;
-  for (const Indices& area : dilated_areas(dots, options_.areas)) {
-    if (area.size() >= 3) append_markers_of_area(gray, dots_at(dots, area), markers);
-  }
-  sort_by_distance_to_center(markers, gray.size());
-  return markers;
+  return read(gray, dot_finder_.find(gray));
 }
 
-void MarkerDetector::append_markers_of_area(const cv::Mat& gray, const std::vector<Dot>& dots,
-                                            std::vector<DetectedMarker>& markers) {
-  const std::vector<MarkerReading> readings = read_area(dots, options_.decoder);
+std::span<const DetectedMarker> MarkerDetector::detect_within(std::span<const cv::Rect> parts,
+                                                              const cv::Mat& gray) {
+  require_gray(gray);
+  return read(gray, dot_finder_.find_within(parts, gray));
+}
+
+std::span<const DetectedMarker> MarkerDetector::read(const cv::Mat& gray, std::span<const Dot> dots) {
+  markers_.clear();
+  const std::size_t areas = area_finder_.find(dots);
+  for (std::size_t i = 0; i < areas; ++i) {
+    const std::span<const Dot> area = area_finder_.dots_of(i);
+    if (area.size() >= 3) append_markers_of_area(gray, area);
+  }
+  sort_by_distance_to_center(markers_, gray.size());
+  return markers_;
+}
+
+void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots) {
+  const std::span<const MarkerReading> readings = area_reader_.read(dots);
   for (const MarkerReading& reading : readings) {
-    const std::vector<Dot> own = dots_at(dots, reading.indices);
+    const DotsOfMarker own = dots_at(dots, reading.indices);
     const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
     const IdReading id = id_decoder_.read(cells);
     const double probability = id.weight / id.all_weight;
     if (probability < options_.least_probability || cells.undecided() > options_.most_undecided) continue;
-    markers.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
-                               [&](GridCell cell) { return reading.grid.center_px(cell); }));
+    markers_.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
+                                [&](GridCell cell) { return reading.grid.center_px(cell); }));
   }
-  if (readings.empty() && options_.lattice_search) append_marker_of_lattice(gray, dots, markers);
+  if (readings.empty() && options_.lattice_search) append_marker_of_lattice(gray, dots);
 }
 
 /// Every way that a marker may hang on the lattice is weighed against all others.
-void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, const std::vector<Dot>& dots,
-                                              std::vector<DetectedMarker>& markers) {
-  const std::vector<Dot> usual = dots_of_usual_size(dots);
+void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots) {
+  if (dots.size() > DotsOfArea::capacity) return;
+  const DotsOfArea usual = dots_of_usual_size(dots);
   const std::optional<DotLattice> lattice = find_lattice(usual, options_.lattice);
   if (!lattice) return;
   std::optional<Hanging> best;
   double all_weight = 0.0;
-  for (Square& square : squares_of(*lattice, usual)) {
+  bool is_decided = true;
+  for_each_square(*lattice, usual, [&](const Square& square) {
     const CellEvidence cells =
         look_at_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
-    if (cells.undecided() > options_.most_undecided) return;  // any of the squares may be the one
+    is_decided = is_decided && cells.undecided() <= options_.most_undecided;
     for (int turn = 0; turn < quarter_turns; ++turn) {
       const IdReading id = id_decoder_.read(evidence_turned(cells, turn));
       all_weight += id.all_weight;
       if (!best || id.weight > best->id.weight) best = Hanging{square, turn, id};
     }
-  }
-  if (!best) return;
+  });
+  if (!best || !is_decided) return;  // any of the squares may be the one
   const double probability = best->id.weight / all_weight;
   if (probability < options_.lattice.least_probability ||
       !is_trusted(*best, strangers_in(best->square, dots), id_decoder_, options_.lattice)) {
     return;
   }
-  markers.push_back(detected(best->id.id, probability, confidence_of(gray, best->square.measured),
-                             turned_back(best->square.dots, best->quarters), [&](GridCell cell) {
-                               return best->square.grid.center_px(turned(cell, best->quarters));
-                             }));
+  markers_.push_back(detected(best->id.id, probability, confidence_of(gray, best->square.measured),
+                              turned_back(best->square.dots, best->quarters), [&](GridCell cell) {
+                                return best->square.grid.center_px(turned(cell, best->quarters));
+                              }));
 }
 
 /// The local 'and' of dilation area and eroded image (Fig. 2d) leaves the eroded dots of this marker, whose
 /// gray values Eq. (3) counts. Whatever threshold found them, the paper's is 200.
-double MarkerDetector::confidence_of(const cv::Mat& gray, const std::vector<Dot>& dots) const {
-  GrayHistogram histogram{};
+double MarkerDetector::confidence_of(const cv::Mat& gray, std::span<const Dot> dots) const {
+  ConfidenceSum confidence;
   for (const Dot& dot : dots) {
-    for (const Run& run : dot_finder_.pixels_of(dot)) {
-      for (int u = run.begin; u < run.end; ++u) {
-        if (is_inner(gray, u, run.row)) ++histogram[gray.ptr<std::uint8_t>(run.row)[u]];
-      }
-    }
+    for (const Run& run : dot_finder_.pixels_of(dot)) add_inner_pixels(gray, run, confidence);
   }
-  return marker_confidence(histogram);
+  return confidence.value();
 }
 
 std::vector<DetectedMarker> detect_markers(const cv::Mat& gray, const DetectorOptions& options) {
-  return MarkerDetector(options).detect(gray);
+  MarkerDetector detector(options);
+  const std::span<const DetectedMarker> markers = detector.detect(gray);
+  return {markers.begin(), markers.end()};
 }
 
 }  // namespace lodestar

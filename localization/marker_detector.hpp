@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <vector>
 
 #include "localization/cell_evidence.hpp"
@@ -39,26 +40,32 @@ DetectorOptions paper_method();
 /// The same, with the registry's markers expected.
 DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options = {});
 
-/// Reads the markers of frame after frame. Keeps its memory from one to the next.
+/// Reads the markers of frame after frame. Keeps its memory from one to the next: after the first few frames
+/// it takes none.
 class MarkerDetector {
  public:
   explicit MarkerDetector(const DetectorOptions& options = {});
 
   /// Every marker that could be decoded, the optimal one (nearest to the image centre, Eq. (1)) first. `gray`
   /// is CV_8UC1, of any size, and may be a part of a larger frame; any other type throws
-  /// std::invalid_argument.
-  std::vector<DetectedMarker> detect(const cv::Mat& gray);
+  /// std::invalid_argument. The result holds until the next call.
+  std::span<const DetectedMarker> detect(const cv::Mat& gray);
+
+  /// The same for markers within these parts of the frame; beside them a marker may be missed.
+  std::span<const DetectedMarker> detect_within(std::span<const cv::Rect> parts, const cv::Mat& gray);
 
  private:
-  void append_markers_of_area(const cv::Mat& gray, const std::vector<Dot>& dots,
-                              std::vector<DetectedMarker>& markers);
-  void append_marker_of_lattice(const cv::Mat& gray, const std::vector<Dot>& dots,
-                                std::vector<DetectedMarker>& markers);
-  [[nodiscard]] double confidence_of(const cv::Mat& gray, const std::vector<Dot>& dots) const;
+  std::span<const DetectedMarker> read(const cv::Mat& gray, std::span<const Dot> dots);
+  void append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots);
+  void append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots);
+  [[nodiscard]] double confidence_of(const cv::Mat& gray, std::span<const Dot> dots) const;
 
   DetectorOptions options_;
   DotFinder dot_finder_;
+  MarkerAreaFinder area_finder_;
+  AreaReader area_reader_;
   IdDecoder id_decoder_;
+  std::vector<DetectedMarker> markers_;
 };
 
 /// The markers of a single frame.

@@ -1,8 +1,9 @@
 #include "localization/marker_grid.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace lodestar {
 namespace {
@@ -22,31 +23,44 @@ MarkerGrid::MarkerGrid(const Vec2& o_px, const Vec2& x_px, const Vec2& y_px)
 }
 
 /// With q the cell's place in pitches and d the dot's place from the middle in pixels: d = (m + A q) / (1 +
-/// w.q). Times the denominator this is linear in m, A and w, solved by normal equations. w is drawn to zero
-/// by a prior that a dot noise of 0.02 pitches and a perspective of 0.02 a pitch (12 cm of marker tilted by
-/// 40 degrees at 1.3 m) balance.
+/// w.q). Times the denominator this is linear in m, A and w, solved by normal equations, in which the rows of
+/// (m A) share one matrix and only meet in w: eliminating them leaves two equations. w is drawn to zero by a
+/// prior that a dot noise of 0.02 pitches and a perspective of 0.02 a pitch (12 cm of marker tilted by 40
+/// degrees at 1.3 m) balance.
 MarkerGrid MarkerGrid::fitted(std::span<const MarkerDot> dots, const MarkerGrid& start) {
-  using Row = Eigen::Matrix<double, 8, 1>;
-  Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
-  Row right = Row::Zero();
+  using Rows = Eigen::Matrix<double, 3, 2>;  // one column for u, one for v; or for the parts of w
+  Eigen::Matrix3d places = Eigen::Matrix3d::Zero();
+  std::array<Rows, 2> mixed{Rows::Zero(), Rows::Zero()};
+  Eigen::Matrix2d perspective = Eigen::Matrix2d::Identity();
+  Rows right = Rows::Zero();
+  Vec2 perspective_right = Vec2::Zero();
   const double pitch_px = start.pitch_px();
   for (const MarkerDot& dot : dots) {
     const Vec2 q = in_pitches(dot.cell);
+    const Vec3 place(1.0, q.x(), q.y());
     const Vec2 d = (dot.center_px - start.middle_px_) / pitch_px;
-    Row row_u, row_v;
-    row_u << 1.0, q.x(), q.y(), 0.0, 0.0, 0.0, -q.x() * d.x(), -q.y() * d.x();
-    row_v << 0.0, 0.0, 0.0, 1.0, q.x(), q.y(), -q.x() * d.y(), -q.y() * d.y();
-    normal += row_u * row_u.transpose() + row_v * row_v.transpose();
-    right += row_u * d.x() + row_v * d.y();
+    places += place * place.transpose();
+    mixed[0] -= place * (d.x() * q).transpose();
+    mixed[1] -= place * (d.y() * q).transpose();
+    perspective += d.squaredNorm() * q * q.transpose();
+    right += place * d.transpose();
+    perspective_right -= d.squaredNorm() * q;
   }
-  normal.diagonal().tail<2>().array() += 1.0;
-  const Row s = normal.ldlt().solve(right);
+  const Eigen::Matrix3d from_places = places.inverse();
+  for (Eigen::Index axis : {0, 1}) {
+    const Rows& m = mixed[static_cast<std::size_t>(axis)];
+    perspective -= m.transpose() * from_places * m;
+    perspective_right -= m.transpose() * from_places * right.col(axis);
+  }
+  const Vec2 w = perspective.inverse() * perspective_right;
+  const Vec3 u = from_places * (right.col(0) - mixed[0] * w);
+  const Vec3 v = from_places * (right.col(1) - mixed[1] * w);
   MarkerGrid grid = start;
-  grid.middle_px_ += pitch_px * Vec2(s[0], s[3]);
-  grid.px_from_pitches_ << s[1], s[2], s[4], s[5];
+  grid.middle_px_ += pitch_px * Vec2(u[0], v[0]);
+  grid.px_from_pitches_ << u[1], u[2], v[1], v[2];
   grid.px_from_pitches_ *= pitch_px;
   // (m + A q) / (1 + w.q) = m + (A - m w^T) q / (1 + w.q)
-  grid.perspective_ = s.tail<2>();
+  grid.perspective_ = w;
   grid.px_from_pitches_ -= (grid.middle_px_ - start.middle_px_) * grid.perspective_.transpose();
   return grid;
 }

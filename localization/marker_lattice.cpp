@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include "maps/marker.hpp"
 
@@ -27,13 +26,13 @@ Basis square_basis(const Dot& a, const Dot& b, int places) {
 }
 
 /// Dots whose place is near a whole one, each place taken once by the nearest.
-std::vector<LatticeDot> dots_on(std::span<const Dot> dots, const Basis& basis, double tolerance) {
+LatticeDots dots_on(std::span<const Dot> dots, const Basis& basis, double tolerance) {
   const Eigen::Matrix2d places_from_px = basis.px_from_places.inverse();
   struct Taken {
     LatticeDot dot;
     double distance = 0.0;
   };
-  std::vector<Taken> taken;
+  InlineVector<Taken, LatticeDots::capacity> taken;
   for (std::size_t i = 0; i < dots.size(); ++i) {
     const Vec2 place = places_from_px * (dots[i].center_px - basis.origin_px);
     const Vec2 whole(std::round(place.x()), std::round(place.y()));
@@ -49,7 +48,7 @@ std::vector<LatticeDot> dots_on(std::span<const Dot> dots, const Basis& basis, d
       *same = {dot, distance};
     }
   }
-  std::vector<LatticeDot> result;
+  LatticeDots result;
   for (const Taken& t : taken) result.push_back(t.dot);
   return result;
 }
@@ -60,7 +59,7 @@ bool is_inside(const LatticeDot& dot, int left, int top) {
 }
 
 /// Those of them in the square of four by four places that holds most.
-std::vector<LatticeDot> in_best_square(const std::vector<LatticeDot>& dots) {
+LatticeDots in_best_square(const LatticeDots& dots) {
   std::ptrdiff_t most = 0;
   int best_left = 0;
   int best_top = 0;
@@ -74,14 +73,14 @@ std::vector<LatticeDot> in_best_square(const std::vector<LatticeDot>& dots) {
       best_top = top.row;
     }
   }
-  std::vector<LatticeDot> inside;
-  std::ranges::copy_if(dots, std::back_inserter(inside),
-                       [&](const LatticeDot& dot) { return is_inside(dot, best_left, best_top); });
+  LatticeDots inside;
+  for (const LatticeDot& dot : dots)
+    if (is_inside(dot, best_left, best_top)) inside.push_back(dot);
   return inside;
 }
 
 /// The affine lattice nearest to the dots, by least squares. Nothing for dots in one line.
-std::optional<Basis> fitted(std::span<const Dot> dots, const std::vector<LatticeDot>& on) {
+std::optional<Basis> fitted(std::span<const Dot> dots, const LatticeDots& on) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
   for (const LatticeDot& dot : on) {
@@ -97,7 +96,7 @@ std::optional<Basis> fitted(std::span<const Dot> dots, const std::vector<Lattice
   return basis;
 }
 
-double mean_radius_px(std::span<const Dot> dots, const std::vector<LatticeDot>& on) {
+double mean_radius_px(std::span<const Dot> dots, const LatticeDots& on) {
   double sum = 0.0;
   for (const LatticeDot& dot : on) sum += dots[dot.index].radius_px;
   return sum / static_cast<double>(on.size());
@@ -115,7 +114,7 @@ bool is_plausible(const Basis& basis, double radius_px, const LatticeOptions& op
 
 std::optional<DotLattice> lattice_from(std::span<const Dot> dots, const Basis& start,
                                        const LatticeOptions& options) {
-  std::vector<LatticeDot> on = in_best_square(dots_on(dots, start, options.first_tolerance));
+  LatticeDots on = in_best_square(dots_on(dots, start, options.first_tolerance));
   if (on.size() < options.least_dots) return std::nullopt;
   std::optional<Basis> basis = fitted(dots, on);
   if (!basis) return std::nullopt;
@@ -126,13 +125,14 @@ std::optional<DotLattice> lattice_from(std::span<const Dot> dots, const Basis& s
   return DotLattice{.origin_px = basis->origin_px,
                     .column_px = basis->px_from_places.col(0),
                     .row_px = basis->px_from_places.col(1),
-                    .dots = std::move(on)};
+                    .dots = on};
 }
 
 }  // namespace
 
 std::optional<DotLattice> find_lattice(std::span<const Dot> dots, const LatticeOptions& options) {
-  if (dots.size() < options.least_dots || dots.size() > options.most_dots) return std::nullopt;
+  if (dots.size() < options.least_dots || dots.size() > std::min(options.most_dots, LatticeDots::capacity))
+    return std::nullopt;
   std::optional<DotLattice> best;
   for (std::size_t a = 0; a < dots.size(); ++a) {
     for (std::size_t b = a + 1; b < dots.size(); ++b) {
@@ -143,9 +143,10 @@ std::optional<DotLattice> find_lattice(std::span<const Dot> dots, const LatticeO
           std::abs(pitches - places) > options.size_tolerance * places) {
         continue;
       }
-      std::optional<DotLattice> lattice = lattice_from(dots, square_basis(dots[a], dots[b], places), options);
+      const std::optional<DotLattice> lattice =
+          lattice_from(dots, square_basis(dots[a], dots[b], places), options);
       if (!lattice || (best && lattice->dots.size() <= best->dots.size())) continue;
-      best = std::move(lattice);
+      best = lattice;
       if (best->dots.size() == dots.size()) return best;
     }
   }

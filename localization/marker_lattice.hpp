@@ -3,16 +3,27 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "localization/dots.hpp"
+#include "localization/inline_vector.hpp"
 #include "localization/marker_grid.hpp"
 
 namespace lodestar {
 
+/// A dot and its whole-numbered place on a lattice, `column` to the right and `row` down.
+struct LatticeDot {
+  std::size_t index = 0;  ///< of the dot
+  int column = 0;
+  int row = 0;
+};
+
+/// Without memory of their own.
+using LatticeDots = InlineVector<LatticeDot, 24>;
+
 struct LatticeOptions {
-  std::size_t least_dots = 5;     ///< fewer always fit some lattice
-  std::size_t most_dots = 24;     ///< an area with more holds no single marker
+  std::size_t least_dots = 5;  ///< fewer always fit some lattice
+  /// An area with more holds no single marker.
+  std::size_t most_dots = LatticeDots::capacity;
   double size_tolerance = 0.25;   ///< how near 4 radii must be to a pitch, foreshortened or not
   double first_tolerance = 0.28;  ///< how far a dot may be from its place, in pitches, on the square lattice
   double tolerance = 0.12;        ///< and on the fitted one
@@ -24,19 +35,12 @@ struct LatticeOptions {
   double least_cosine = 0.88;  ///< of the tilt: a lattice that is more oblong is none
 };
 
-/// A dot and its whole-numbered place on a lattice, `column` to the right and `row` down.
-struct LatticeDot {
-  std::size_t index = 0;  ///< of the dot
-  int column = 0;
-  int row = 0;
-};
-
 /// A square lattice, seen tilted, that dots stand on. Which of its places are the marker's grid is open.
 struct DotLattice {
   Vec2 origin_px = Vec2::Zero();  ///< place (0, 0)
   Vec2 column_px = Vec2::Zero();  ///< one place to the right
   Vec2 row_px = Vec2::Zero();     ///< one place down: a quarter clockwise in the image
-  std::vector<LatticeDot> dots;   ///< at least `least_dots`, in a square of four by four
+  LatticeDots dots;               ///< at least `least_dots`, in a square of four by four
 };
 
 /// The lattice that most of the dots stand on, whatever stands between: glints do no harm, and no dot is

@@ -133,6 +133,17 @@ std::optional<PoseEstimate> PoseFilter::estimate() const {
                       .last_fix = last_fix_};
 }
 
+std::optional<PoseEstimate> PoseFilter::estimate_at(Stamp stamp) const {
+  const std::optional<PlacedFix> origin = placed({.stamp = stamp});  // a robot at the map's origin then
+  if (!origin || !believed_) return std::nullopt;
+  const std::optional<Belief> belief = believed_->at(origin->travel, options_);
+  if (!belief) return std::nullopt;
+  return PoseEstimate{.stamp = stamp,
+                      .map_from_base = belief->map_from_base() * inverse(origin->fix.map_from_base),
+                      .covariance = pose_covariance(*belief, options_) + origin->fix.covariance,
+                      .last_fix = last_fix_};
+}
+
 WheelScales PoseFilter::scales() const {
   return believed_ ? believed_->newest().scales() : scales_as_built(options_);
 }

@@ -60,6 +60,10 @@ class PoseFilter {
   /// The belief at the newest wheel travel; nothing before the filter has started.
   [[nodiscard]] std::optional<PoseEstimate> estimate() const;
 
+  /// The belief at another time within the history, or a little ahead of it: what to expect of a frame taken
+  /// then. Nothing before the start and beyond that reach.
+  [[nodiscard]] std::optional<PoseEstimate> estimate_at(Stamp stamp) const;
+
   /// Learned scales (true travel over reported travel), left and right.
   [[nodiscard]] Vec2 wheel_scales() const { return scales().mean.head<2>(); }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "localization/detected_marker.hpp"
@@ -27,9 +28,10 @@ struct PosePrior {
 
 struct PoseFixOptions {
   PosePrior prior;
-  double dot_sigma_px = 0.03;     ///< standard deviation of a dot's coordinate, where the dot does not tell
-  double model_sigma_px = 0.004;  ///< added to what it tells: print, lens, pixels that sample an edge
-  double max_residual_px = 1.5;   ///< a fix whose dots miss by more (root mean square) is refused
+  double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, where the dot does not tell
+  double model_sigma_px =
+      0.0015;  ///< added to what it tells: pixels sample an edge, and one step leaves a little
+  double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
   /// And one that explains the dots only by a tilt and height that the prior all but excludes (chi-square): a
   /// marker that hangs a few centimetres elsewhere than surveyed leaves small residuals on a tilted robot.
   double max_prior_chi2 = 30.0;
@@ -48,15 +50,8 @@ struct PoseFix {
   double residual_px = 0.0;  ///< root mean square
 };
 
-/// The camera's pose. P3P on the optimal (first registered) marker's O, X and Y (Eq. (10)-(15)), and the pose
-/// with the prior's tilt, are scored by all dots; from the best one on, the maximum a posteriori estimate
-/// over all dots of all registered markers with the prior. Where a mirrored view explains the dots almost as
-/// well, the covariance covers both.
-///
-/// A marker that contradicts those which agree (it hangs elsewhere than surveyed) is left out, and so is an
-/// ID that is seen twice. Nothing when no registered marker is left, when two contradict each other, or when
-/// the dots agree with no pose.
-std::optional<PoseFix> fix_pose(Stamp stamp, const std::vector<DetectedMarker>& markers,
+/// The camera's pose by one frame's markers, as PoseFixer finds it.
+std::optional<PoseFix> fix_pose(Stamp stamp, std::span<const DetectedMarker> markers,
                                 const MarkerRegistry& registry, const CameraModel& camera,
                                 const PoseFixOptions& options);
 

@@ -14,9 +14,9 @@ std::optional<Vec3> ray_through(const Vec2& pixel, const CameraModel& camera) {
 
 /// Where the ray pierces the plane at unit height above a camera whose tilt is undone.
 std::optional<Vec2> level_ray(const Vec2& pixel, const CameraModel& camera, const Eigen::Matrix3d& tilt) {
-  const std::optional<Vec3> ray = ray_through(pixel, camera);
-  if (!ray) return std::nullopt;
-  const Vec3 level = tilt * *ray;
+  const std::optional<Vec2> normalized = camera.normalized(pixel);
+  if (!normalized) return std::nullopt;
+  const Vec3 level = tilt * normalized->homogeneous();
   if (!(level.z() > 0.0)) return std::nullopt;
   return Vec2(level.head<2>() / level.z());
 }
@@ -61,13 +61,14 @@ std::optional<Eigen::Isometry3d> level_guess(std::span<const SurveyedDot> dots, 
   along -= per_dot * ray_sum.dot(point_sum.head<2>());
   across -= per_dot * (ray_sum.x() * point_sum.y() - ray_sum.y() * point_sum.x());
   spread -= per_dot * ray_sum.squaredNorm();
-  const double distance_m = std::hypot(along, across) / spread;
+  const double distance_m = Vec2(along, across).norm() / spread;
   if (!std::isfinite(distance_m) || distance_m <= 0.0) return std::nullopt;
 
   const Vec2 mean_ray = *first_ray + per_dot * ray_sum;
   const Vec3 mean_point = first_point + per_dot * point_sum;
-  const Eigen::Matrix3d heading =
-      Eigen::AngleAxisd(std::atan2(across, along), Vec3::UnitZ()).toRotationMatrix();
+  const Vec2 direction = Vec2(along, across).normalized();
+  Eigen::Matrix3d heading;
+  heading << direction.x(), -direction.y(), 0.0, direction.y(), direction.x(), 0.0, 0.0, 0.0, 1.0;
   Eigen::Isometry3d guess = Eigen::Isometry3d::Identity();
   guess.linear() = heading * prior.tilt;
   guess.translation() = mean_point - heading * Vec3(mean_ray.x(), mean_ray.y(), 1.0) * distance_m;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <span>
 
@@ -37,8 +38,29 @@ class SpreadSum {
   double yaw_rad2_ = 0.0;
 };
 
+constexpr int runs_of_a_frame = 5;
+
+/// The least of a few runs: neither the first, which finds nothing in the cache, nor one that was
+/// interrupted.
 double microseconds_of_threshold(const cv::Mat& gray, cv::Mat& binary) {
-  return microseconds_of([&] { cv::threshold(gray, binary, 199.0, 255.0, cv::THRESH_BINARY); });
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < runs_of_a_frame; ++i) {
+    least = std::min(least,
+                     microseconds_of([&] { cv::threshold(gray, binary, 199.0, 255.0, cv::THRESH_BINARY); }));
+  }
+  return least;
+}
+
+/// The same of a method. One that takes milliseconds is run once: to it, neither matters.
+MethodResult run_method(BenchMethod& method, const cv::Mat& gray, const MarkerRegistry& registry,
+                        const CameraModel& camera, const Eigen::Matrix3d& tilt) {
+  constexpr double quick_us = 1000.0;
+  MethodResult result = method.run(gray, registry, camera, tilt);
+  for (int i = 1; i < runs_of_a_frame && result.microseconds < quick_us; ++i) {
+    MethodResult again = method.run(gray, registry, camera, tilt);
+    if (again.microseconds < result.microseconds) result = std::move(again);
+  }
+  return result;
 }
 
 double median(const std::vector<double>& values) {
@@ -135,9 +157,8 @@ ScenePoint measure(const BenchScene& scene, const MethodChoice& choice, int tria
     former.cover(view.covers);
     const cv::Mat gray =
         former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(trial));
-    microseconds_of_threshold(gray, binary);  // so that neither meets a frame that is not in the cache
     threshold_us.push_back(microseconds_of_threshold(gray, binary));
-    const MethodResult result = method->run(gray, registry, camera, view.tilt);
+    const MethodResult result = run_method(*method, gray, registry, camera, view.tilt);
     method_us.push_back(result.microseconds);
 
     const ReadingCount count =

@@ -90,6 +90,15 @@ Json bench_localize_json(const BenchLocalizeResult& result) {
                                           {"empty", counts_json(counts.empty)},
                                           {"direction_dot_lost", counts_json(counts.direction_dot_lost)}};
   }
+  json["consistency"] = Json::array();
+  for (const Consistency& one : result.consistency) {
+    json["consistency"].push_back({{"conditions", one.conditions},
+                                   {"frames", one.frames},
+                                   {"poses", one.poses},
+                                   {"degrees_of_freedom", one.degrees_of_freedom},
+                                   {"mean_nees_per_degree", one.per_degree()},
+                                   {"half_band_per_degree", one.half_band_per_degree()}});
+  }
   json["settings_tried"] = Json::array();
   for (const TriedSettings& tried : result.tried) {
     Json row{{"name", tried.choice.name}, {"settings", tried.choice.settings}};

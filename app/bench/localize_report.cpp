@@ -1,6 +1,7 @@
 #include "app/bench/localize_report.hpp"
 
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "app/report/page.hpp"
@@ -81,6 +82,20 @@ Table counts_table(const BenchLocalizeResult& result) {
   return table;
 }
 
+Table consistency_table(const BenchLocalizeResult& result) {
+  Table table{"Errors beside the stated covariance: normalized squared error a degree of freedom",
+              {"", "poses", "mean", "95 % band", ""},
+              {}};
+  for (const Consistency& one : result.consistency) {
+    const double band = one.half_band_per_degree();
+    table.rows.push_back({one.conditions, fmt::format("{}", one.poses),
+                          fmt::format("{:.3f}", one.per_degree()),
+                          fmt::format("{:.3f} to {:.3f}", 1.0 - band, 1.0 + band),
+                          std::abs(one.per_degree() - 1.0) <= band ? "within" : "outside"});
+  }
+  return table;
+}
+
 Table reliability_table(const BenchLocalizeResult& result) {
   const std::vector<StatedOutcome>& stated = result.counts.front().adverse.stated;
   Table table{fmt::format("Stated confidence and share right, Brier score {:.4f}", brier_score(stated)),
@@ -110,7 +125,8 @@ std::vector<Table> tables_of(const BenchLocalizeResult& result) {
                             scene_table(result, "One marker 0.7 m aside", result.off_axis),
                             scene_table(result, "Three markers in view", result.three),
                             counts_table(result),
-                            reliability_table(result)};
+                            reliability_table(result),
+                            consistency_table(result)};
   if (!result.tried.empty()) tables.push_back(tried_table(result));
   return tables;
 }

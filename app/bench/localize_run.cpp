@@ -32,7 +32,8 @@ class Work {
     const auto methods = static_cast<double>(1 + options.peers.size());
     double points = 3.0 * methods + 4.0 * static_cast<double>(options.peers.size());
     for (const std::string& sweep : options.sweeps) points += methods * static_cast<double>(points_of(sweep));
-    return points * options.trials + 3.0 * methods * options.frames;
+    return points * options.trials +
+           (3.0 * methods + static_cast<double>(consistency_conditions())) * options.frames;
   }
 
   const std::function<void(double)>& progress_;
@@ -160,6 +161,8 @@ BenchLocalizeResult bench_localize(const BenchLocalizeOptions& options,
     result.sweeps.push_back(run_sweep(name, result.methods, options.trials, options.seed, done));
   }
   count_hard_frames(result, work);
+  result.consistency =
+      measure_consistency(options.frames, options.seed, [&work](int frames) { work.did(frames); });
   judge(result);
   return result;
 }

@@ -1,14 +1,15 @@
 #include "app/bench/method.hpp"
 
+#include "app/bench/scene.hpp"
 #include "app/bench/square_tags.hpp"
 #include "app/stopwatch.hpp"
 #include "localization/marker_detector.hpp"
-#include "localization/pose_fix.hpp"
+#include "localization/pose_fixer.hpp"
 
 namespace lodestar {
 namespace {
 
-std::vector<ReadMarker> readings_of(const std::vector<DetectedMarker>& markers) {
+std::vector<ReadMarker> readings_of(std::span<const DetectedMarker> markers) {
   std::vector<ReadMarker> readings;
   readings.reserve(markers.size());
   for (const DetectedMarker& marker : markers)
@@ -20,6 +21,7 @@ class Lodestar final : public BenchMethod {
  public:
   void hang(const MarkerRegistry& registry, ImageFormer& /*former*/) override {
     detector_ = MarkerDetector(expecting(registry));
+    fixer_.emplace(registry, bench_camera());
   }
 
   [[nodiscard]] int id_at(const MarkerRegistry& registry, std::size_t i) const override {
@@ -28,24 +30,24 @@ class Lodestar final : public BenchMethod {
 
   std::vector<ReadMarker> read(const cv::Mat& gray) override { return readings_of(detector_.detect(gray)); }
 
-  MethodResult run(const cv::Mat& gray, const MarkerRegistry& registry, const CameraModel& camera,
+  MethodResult run(const cv::Mat& gray, const MarkerRegistry& /*registry*/, const CameraModel& /*camera*/,
                    const Eigen::Matrix3d& tilt) override {
     PoseFixOptions upright;
     upright.prior.tilt = tilt;
     upright.prior.tilt_sigma_rad = 0.0;
     const Stopwatch watch;
-    const std::vector<DetectedMarker> markers = detector_.detect(gray);
-    const std::optional<PoseFix> fix = fix_pose(Stamp{}, markers, registry, camera, upright);
+    const std::span<const DetectedMarker> markers = detector_.detect(gray);
+    const PoseFix* const fix = fixer_->fix(Stamp{}, markers, upright);
     MethodResult result{.microseconds = watch.microseconds()};
-    if (fix) result.upright = fix->map_from_camera;
-    if (const auto free = fix_pose(Stamp{}, markers, registry, camera, {}))
-      result.free = free->map_from_camera;
+    if (fix != nullptr) result.upright = fix->map_from_camera;
+    if (const PoseFix* const free = fixer_->fix(Stamp{}, markers, {})) result.free = free->map_from_camera;
     result.markers = readings_of(markers);
     return result;
   }
 
  private:
   MarkerDetector detector_;
+  std::optional<PoseFixer> fixer_;
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ nlohmann::ordered_json as_json(const Vec2& point) {
   return {point.x(), point.y()};
 }
 
-void print_json(const std::string& file, const std::vector<DetectedMarker>& markers) {
+void print_json(const std::string& file, std::span<const DetectedMarker> markers) {
   nlohmann::ordered_json line{{"file", file}, {"markers", nlohmann::ordered_json::array()}};
   for (const DetectedMarker& marker : markers) {
     line["markers"].push_back({{"id", marker.id},
@@ -41,7 +41,7 @@ void print_json(const std::string& file, const std::vector<DetectedMarker>& mark
   fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-Overlay overlay_of(const SourceFrame& frame, const std::vector<DetectedMarker>& markers) {
+Overlay overlay_of(const SourceFrame& frame, std::span<const DetectedMarker> markers) {
   Overlay overlay{.gray = frame.gray, .markers = {}, .words = {}, .accepted = !markers.empty()};
   std::vector<int> ids;
   for (const DetectedMarker& marker : markers) {
@@ -66,7 +66,7 @@ ExitCode detect(const DetectArguments& arguments) {
   int frames = 0;
   int frames_with_markers = 0;
   while (const std::optional<SourceFrame> frame = inputs.next()) {
-    const std::vector<DetectedMarker> markers = detector.detect(frame->gray);
+    const std::span<const DetectedMarker> markers = detector.detect(frame->gray);
     ++frames;
     if (!markers.empty()) ++frames_with_markers;
     if (csv) {

@@ -9,9 +9,10 @@
 #include "app/commands/command.hpp"
 #include "app/commands/frame_arguments.hpp"
 #include "app/site.hpp"
-#include "localization/marker_detector.hpp"
+#include "localization/expected_view.hpp"
+#include "localization/marker_tracker.hpp"
 #include "localization/mount.hpp"
-#include "localization/pose_fix.hpp"
+#include "localization/pose_fixer.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -24,6 +25,7 @@ struct LocalizeArguments {
   std::string format = "csv";
   bool upright = false;
   double tilt_sigma_deg = -1.0;
+  bool track = false;
   FrameArguments frames;
 };
 
@@ -113,10 +115,9 @@ void print_row(const std::string& format, const Row& row) {
 }
 
 /// Why a marker that was read says nothing of the pose; empty when it does.
-std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry,
-                         const std::optional<PoseFix>& fix) {
+std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry, const PoseFix* fix) {
   if (registry.find(marker.id) == nullptr) return "not registered";
-  if (fix && !std::ranges::count(fix->ids, marker.id)) return "contradicts the others";
+  if (fix != nullptr && !std::ranges::count(fix->ids, marker.id)) return "contradicts the others";
   return {};
 }
 
@@ -144,19 +145,22 @@ std::vector<std::string> words_of_pose(const Row& row, const char* who) {
                       fmt::join(row.ids, "+"))};
 }
 
-Overlay overlay_of(const SourceFrame& frame, const std::vector<DetectedMarker>& markers,
-                   const MarkerRegistry& registry, const std::optional<PoseFix>& fix,
-                   const std::optional<Robot>& robot) {
-  Overlay overlay{.gray = frame.gray, .markers = {}, .words = {}, .accepted = fix.has_value()};
+Overlay overlay_of(const SourceFrame& frame, std::span<const DetectedMarker> markers,
+                   const MarkerRegistry& registry, const PoseFix* fix, const std::optional<Robot>& robot) {
+  Overlay overlay{.gray = frame.gray, .markers = {}, .words = {}, .accepted = fix != nullptr};
   for (const DetectedMarker& marker : markers)
     overlay.markers.push_back({marker, objection_to(marker, registry, fix)});
-  if (fix) {
+  if (fix != nullptr) {
     overlay.words = words_of_pose(row_of(frame, *fix, robot), robot ? "Robot" : "Camera");
   } else {
     overlay.words = {words_of_refusal(overlay.markers)};
   }
   overlay.words.push_back(fmt::format("{}   {:.3f} s", frame.name, seconds(frame.stamp)));
   return overlay;
+}
+
+std::optional<ExpectedView> view_expected(const SourceFrame& frame, const std::optional<PoseFix>& last) {
+  return last ? std::optional(expected_view(*last, frame.stamp - last->stamp)) : std::nullopt;
 }
 
 ExitCode localize(const LocalizeArguments& arguments) {
@@ -172,16 +176,19 @@ ExitCode localize(const LocalizeArguments& arguments) {
     fmt::print(
         "file,stamp,ids,x,y,z,yaw_deg,roll_deg,pitch_deg,sigma_x,sigma_y,sigma_yaw_deg,confidence,dots\n");
   }
-  MarkerDetector detector(expecting(registry, detector_options(arguments.frames)));
+  MarkerTracker tracker(registry, camera, detector_options(arguments.frames));
+  PoseFixer fixer(registry, camera);
   int frames = 0;
   int found = 0;
+  std::optional<PoseFix> last;
   while (const std::optional<SourceFrame> frame = inputs.next()) {
-    const std::vector<DetectedMarker> markers = detector.detect(frame->gray);
-    const std::optional<PoseFix> fix = fix_pose(frame->stamp, markers, registry, camera, options);
+    const std::span<const DetectedMarker> markers = tracker.detect(frame->gray, view_expected(*frame, last));
+    const PoseFix* const fix = fixer.fix(frame->stamp, markers, options);
     ++frames;
     if (overlays) overlays->write(*frame, draw_overlay(overlay_of(*frame, markers, registry, fix, robot)));
-    if (!fix) continue;
+    if (fix == nullptr) continue;
     ++found;
+    if (arguments.track) last = *fix;
     print_row(arguments.format, row_of(*frame, *fix, robot));
     if (inputs.live()) std::fflush(stdout);
   }
@@ -207,6 +214,8 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
                    "The tilt is that of the mount, within so much")
       ->check(CLI::Range(0.0, 45.0))
       ->excludes(upright);
+  command->add_flag("--track", arguments->track,
+                    "The frames are a sequence: look first where the last pose has the markers");
   command
       ->add_option("--format", arguments->format,
                    "One line a frame with a pose. csv; json; tum: stamp x y z qx qy qz qw")

@@ -4,6 +4,7 @@
 
 #include "localization/bright_areas.hpp"
 #include "localization/marker_detector.hpp"
+#include "localization/pose_fixer.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 
@@ -13,13 +14,21 @@ namespace {
 
 using namespace lodestar;
 
+constexpr double ceiling_m = 2.6;
+
+/// K of Eq. (16), its pixels made square.
+CameraModel paper_camera() {
+  return {.width_px = 640, .height_px = 480, .fx_px = 755.0, .fy_px = 755.0, .cx_px = 320.0, .cy_px = 240.0};
+}
+
 /// Light of a blurred disc's edge, `distance` from its middle.
 double edge(double distance_px, double radius_px) {
   constexpr double blur_sigma_px = 0.67;
   return 0.5 * std::erfc((distance_px - radius_px) / (std::sqrt(2.0) * blur_sigma_px));
 }
 
-void draw_marker(cv::Mat& frame, int id, const Vec2& o_px, double turn_rad, double pitch_px) {
+void draw_marker(cv::Mat& frame, int id, const Vec2& o_px, double turn_rad) {
+  const double pitch_px = paper_camera().fx_px * marker_pitch_m / ceiling_m;
   const Eigen::Rotation2Dd turn(turn_rad);
   for (const GridCell cell : dots_of(id)) {
     const Vec2 center = o_px + turn * Vec2(cell.column * pitch_px, (cell.row - 3) * pitch_px);
@@ -36,9 +45,9 @@ void draw_marker(cv::Mat& frame, int id, const Vec2& o_px, double turn_rad, doub
 cv::Mat frame_of_three_markers() {
   Random random(1);
   cv::Mat frame(480, 640, CV_32FC1, cv::Scalar(35.0));
-  draw_marker(frame, 1782, {300.0, 250.0}, 0.3, 11.6);
-  draw_marker(frame, 447, {120.0, 140.0}, 2.0, 11.6);
-  draw_marker(frame, 3003, {500.0, 350.0}, 4.0, 11.6);
+  draw_marker(frame, 1782, {300.0, 250.0}, 0.3);
+  draw_marker(frame, 447, {120.0, 140.0}, 2.0);
+  draw_marker(frame, 3003, {500.0, 350.0}, 4.0);
   cv::Mat gray(frame.size(), CV_8UC1);
   for (int v = 0; v < gray.rows; ++v) {
     for (int u = 0; u < gray.cols; ++u) {
@@ -81,12 +90,39 @@ void markers_of_a_frame(benchmark::State& state) {
   const cv::Mat frame = frame_of_three_markers();
   MarkerDetector detector;
   for ([[maybe_unused]] auto _ : state) {
-    const std::vector<DetectedMarker> markers = detector.detect(frame);
+    const std::span<const DetectedMarker> markers = detector.detect(frame);
     if (markers.size() != 3) state.SkipWithError("a marker was not read");
     benchmark::DoNotOptimize(markers.data());
   }
 }
 BENCHMARK(markers_of_a_frame)->Unit(benchmark::kMicrosecond);
+
+/// Registered where they were drawn, for a camera 2.6 m below them.
+MarkerRegistry three_markers(const CameraModel& camera) {
+  const auto hung = [&](int id, const Vec2& o_px, double turn_rad) {
+    const Vec2 ray = *camera.normalized(o_px) * ceiling_m;
+    return RegisteredMarker{id, {ray.x(), ray.y(), ceiling_m}, turn_rad};
+  };
+  return {{},
+          {hung(1782, {300.0, 250.0}, 0.3), hung(447, {120.0, 140.0}, 2.0), hung(3003, {500.0, 350.0}, 4.0)}};
+}
+
+void pose_of_a_frame(benchmark::State& state) {
+  const CameraModel camera = paper_camera();
+  const MarkerRegistry registry = three_markers(camera);
+  const cv::Mat frame = frame_of_three_markers();
+  MarkerDetector detector(expecting(registry));
+  PoseFixer fixer(registry, camera);
+  PoseFixOptions options;
+  options.prior.tilt_sigma_rad = 0.0;
+  for ([[maybe_unused]] auto _ : state) {
+    const std::span<const DetectedMarker> markers = detector.detect(frame);
+    const PoseFix* const fix = fixer.fix(Stamp{}, markers, options);
+    if (fix == nullptr || fix->ids.size() != 3) state.SkipWithError("no pose from three markers");
+    benchmark::DoNotOptimize(fix);
+  }
+}
+BENCHMARK(pose_of_a_frame)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 

@@ -79,9 +79,10 @@ TEST_P(RandomFrames, areas_are_those_of_opencv) {
 TEST_P(RandomFrames, erosion_area_by_area_is_that_of_the_whole_image) {
   BrightAreaFinder finder;
   const BrightAreas& areas = finder.find(frame_, fixed_threshold(frame_));
+  Eroder eroder;
   for (const int side : {1, 3, 5}) {
     cv::Mat ours = cv::Mat::zeros(size_, CV_8UC1);
-    for (const BrightArea& area : areas.areas) ours |= drawn(eroded(areas.runs_of(area), side), size_);
+    for (const BrightArea& area : areas.areas) ours |= drawn(eroder.erode(areas.runs_of(area), side), size_);
     cv::Mat whole;
     cv::erode(thresholded(frame_), whole, cv::getStructuringElement(cv::MORPH_CROSS, {side, side}), {-1, -1},
               1, cv::BORDER_CONSTANT, cv::Scalar(0));

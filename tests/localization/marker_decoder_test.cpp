@@ -35,6 +35,12 @@ MarkerView random_view(Random& random, double most_tilt_deg) {
           .tilt_axis_rad = radians(random.uniform(0.0, 360.0))};
 }
 
+std::vector<MarkerReading> read_area(std::span<const Dot> dots) {
+  AreaReader reader;
+  const std::span<const MarkerReading> readings = reader.read(dots);
+  return {readings.begin(), readings.end()};
+}
+
 std::vector<int> ids(const std::vector<MarkerReading>& readings) {
   std::vector<int> result;
   for (const MarkerReading& reading : readings) result.push_back(reading.id);

@@ -279,6 +279,30 @@ TEST(PoseFilter, tells_what_it_expects_of_a_fix) {
   EXPECT_NEAR(fix.map_from_base.position_m.y() - expected.map_from_base.position_m.y(), 0.1, 0.005);
 }
 
+TEST(PoseFilter, tells_where_it_was_and_where_it_will_be_in_a_moment) {
+  World world;
+  PoseFilter filter(without_floor());
+  EXPECT_FALSE(filter.estimate_at(at(0.0))) << "before the start";
+  drive(world, filter, 0.0, 2.0, true, 1e-6, 1e-6);
+  std::vector<Pose2> truth;
+  for (int i = 0; i < 6; ++i) {
+    world.roll(0.009, 0.011, 2.0 + 0.02 * (i + 1));
+    truth.push_back(world.truth);
+    if (i < 5) filter.add_travel(world.reported);
+  }
+  for (int i = 0; i < 6; ++i) {
+    const std::optional<PoseEstimate> then = filter.estimate_at(at(2.0 + 0.02 * (i + 1)));
+    ASSERT_TRUE(then);
+    const Pose2& expected = truth[static_cast<std::size_t>(i)];
+    EXPECT_LT((then->map_from_base.position_m - expected.position_m).norm(), 2e-4) << i;
+    EXPECT_NEAR(wrap_angle(then->map_from_base.yaw_rad - expected.yaw_rad), 0.0, 1e-4) << i;
+  }
+  const PoseEstimate now = *filter.estimate_at(filter.estimate()->stamp);
+  EXPECT_LT((now.covariance - filter.estimate()->covariance).norm(), 1e-12);
+  EXPECT_GT(filter.estimate_at(at(2.12))->covariance.trace(), now.covariance.trace()) << "guessed ahead";
+  EXPECT_FALSE(filter.estimate_at(at(5.0)));
+}
+
 TEST(PoseFilter, tracks_a_circle_exactly_without_noise) {
   // Radius 1 m about the origin, ten times across the seam of the heading.
   PoseFilter filter(without_floor());

@@ -288,9 +288,10 @@ TEST(FixPose, says_nothing_of_unregistered_or_doubled_markers) {
   const auto markers = seen(view_from({1.1, 1.9, 0.3}, 0.4), registry, camera, 0.0, random);
   EXPECT_FALSE(fix_pose(Stamp{}, {}, registry, camera, {}));
   EXPECT_FALSE(fix_pose(Stamp{}, markers, MarkerRegistry{}, camera, {}));
-  EXPECT_FALSE(fix_pose(Stamp{}, {markers[0], markers[0]}, registry, camera, with_tilt_sigma(0.0, 0.1)));
-  const auto fix =
-      fix_pose(Stamp{}, {markers[0], markers[0], markers[1]}, registry, camera, with_tilt_sigma(0.0, 0.1));
+  EXPECT_FALSE(
+      fix_pose(Stamp{}, std::vector{markers[0], markers[0]}, registry, camera, with_tilt_sigma(0.0, 0.1)));
+  const auto fix = fix_pose(Stamp{}, std::vector{markers[0], markers[0], markers[1]}, registry, camera,
+                            with_tilt_sigma(0.0, 0.1));
   ASSERT_TRUE(fix.has_value());
   EXPECT_THAT(fix->ids, ::testing::ElementsAre(1782));
 }

@@ -72,6 +72,13 @@ TEST_F(FrameSources, a_video_is_read_with_its_own_time) {
   }
 }
 
+TEST_F(FrameSources, tracking_through_a_video_gives_the_rows_of_searching_every_frame) {
+  const Ran searched = run(localize_ + "drive.avi");
+  const Ran tracked = run(localize_ + "--track drive.avi");
+  EXPECT_GT(rows_of(searched.out).size(), 3U);
+  EXPECT_EQ(tracked.out, searched.out);
+}
+
 TEST_F(FrameSources, a_cut_video_is_read_as_far_as_it_goes_and_said_to_be_short) {
   if (!film("drive.avi", 20)) GTEST_SKIP() << "OpenCV cannot write MJPG here";
   fs::resize_file(path("drive.avi"), fs::file_size(path("drive.avi")) / 2);
