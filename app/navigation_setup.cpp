@@ -12,6 +12,14 @@ PosePrior pose_prior(const Robot& robot) {
   return prior;
 }
 
+VisibilityOptions visibility_options(const Robot& robot) {
+  VisibilityOptions options;
+  options.base_from_camera = robot.base_from_camera;
+  options.robot_radius_m = robot.radius_m;
+  options.fix.prior = pose_prior(robot);
+  return options;
+}
+
 KnownWorld known_world(const Site& site, const std::string& camera) {
   return {.map = site.map.map,
           .registry = site.registry,

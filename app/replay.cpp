@@ -60,6 +60,7 @@ RunRecord replay(const Site& site, const ReplayOptions& options) {
   BaseDriver base(simulation.can());
   NavigationOptions navigation = navigation_options(site.robot);
   navigation.planner.kind = options.planner;
+  navigation.planner.pose_keeping = options.pose_keeping;
   navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
   Mission mission(world, navigation, options.goals);
 

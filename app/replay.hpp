@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "app/pose_keeping.hpp"
 #include "app/report/run_record.hpp"
 #include "app/site.hpp"
 #include "planning/grid_planner.hpp"
@@ -13,8 +14,9 @@ struct ReplayOptions {
   std::uint64_t seed = 1;
   std::vector<Goal> goals;
   PlannerKind planner = PlannerKind::fastest;
-  bool realtime = false;                 ///< no faster than the world's own time
-  std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
+  std::optional<PoseKeeping> pose_keeping;  ///< that paths must keep to
+  bool realtime = false;                    ///< no faster than the world's own time
+  std::function<void(double)> progress;     ///< called now and then with the share that is done, 0..1
 };
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.

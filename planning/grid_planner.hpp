@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -11,27 +12,10 @@
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
 #include "maps/travel_time.hpp"
-#include "planning/sampling_search.hpp"
+#include "planning/planner_kind.hpp"
+#include "planning/sure_way.hpp"
 
 namespace lodestar {
-
-/// By which method a path is found; docs/planning.md says which one when.
-enum class PlannerKind {
-  astar,     ///< the shortest (or, with clearance, cheapest) 8-connected path, then shortened to few straight
-             ///< legs
-  anyangle,  ///< the shortest path of straight legs
-  fastest,   ///< the path on which a robot that turns on the spot and drives straight arrives first
-  rrtstar,   ///< and all below: sampling planners of OMPL, their path shortened as that of astar
-  informedrrtstar,
-  bitstar,
-  abitstar,
-  prmstar
-};
-
-/// The name on the command line and back; nothing for a name that is none.
-std::string_view to_string(PlannerKind kind);
-std::optional<PlannerKind> planner_kind(std::string_view name);
-std::vector<PlannerKind> all_planner_kinds();
 
 struct GridPlannerOptions {
   PlannerKind kind = PlannerKind::astar;
@@ -42,6 +26,9 @@ struct GridPlannerOptions {
   double turn_cost_m = 0.2;  ///< of `astar`: the way that a turn is worth to a robot that stops to rotate
   MotionLimits limits;       ///< of `fastest`
   SamplingOptions sampling;  ///< of the planners of OMPL
+  /// When given, a path on which the robot would grow less sure of its position than this allows is not
+  /// taken: then the shortest 8-connected one that keeps to it, shortened as far as it still does.
+  std::optional<PoseKeeping> pose_keeping;
 };
 
 enum class PlanFailure {
@@ -50,6 +37,7 @@ enum class PlanFailure {
   start_occupied,
   goal_occupied,
   no_path,       ///< there is none
+  unsure,        ///< there are some, but on each the pose grows less sure than PoseKeeping allows
   limit_reached  ///< a sampling planner found none within its limits, though there is one
 };
 
@@ -110,10 +98,12 @@ class GridPlanner {
   [[nodiscard]] std::optional<Cell> way_out(const Vec2& start_in_grid) const;
   [[nodiscard]] std::optional<std::vector<Vec2>> legs_between(const Ends& ends, const PlanHeadings& headings,
                                                               std::size_t& expanded) const;
+  [[nodiscard]] std::optional<std::vector<Vec2>> sure_legs(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> few_legs(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> cheapest_legs(const Ends& ends, const PlanHeadings& headings,
                                                 std::size_t& expanded) const;
   [[nodiscard]] std::optional<std::vector<Vec2>> sampled_legs(const Ends& ends, std::size_t& expanded) const;
+  [[nodiscard]] static std::vector<Vec2> points_over(std::span<const Cell> cells, const Ends& ends);
   [[nodiscard]] std::vector<Vec2> jump_path(const Ends& ends, std::size_t& expanded) const;
   void weigh_cells();
   void prepare_searches();

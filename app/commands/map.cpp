@@ -9,7 +9,7 @@
 #include "app/commands/command.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/report/figure.hpp"
-#include "app/visibility.hpp"
+#include "app/visibility_figure.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/octomap_file.hpp"
@@ -119,18 +119,14 @@ ExitCode slice(const MapArguments& arguments) {
 
 VisibilityOptions visibility_options(const VisibilityArguments& arguments) {
   VisibilityOptions options;
-  options.headings = arguments.headings;
-  PosePrior& prior = options.fix.prior;
   if (arguments.mount.empty()) {
     options.base_from_camera.translation().z() = arguments.camera_height_m;
-    prior.tilt_sigma_rad = 0.0;
+    options.fix.prior.tilt_sigma_rad = 0.0;
+    options.fix.prior.height_m = arguments.camera_height_m;
   } else {
-    const Robot robot = load_robot(arguments.mount);
-    options.base_from_camera = robot.base_from_camera;
-    options.robot_radius_m = robot.radius_m;
-    prior = pose_prior(robot);
+    options = visibility_options(load_robot(arguments.mount));
   }
-  prior.height_m = options.base_from_camera.translation().z();
+  options.headings = arguments.headings;
   options.robot_radius_m = arguments.radius_m.value_or(options.robot_radius_m);
   return options;
 }

@@ -6,6 +6,8 @@
 #include "app/arguments.hpp"
 #include "app/commands/command.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/navigation_setup.hpp"
+#include "app/pose_keeping.hpp"
 #include "app/report/figure.hpp"
 #include "app/stopwatch.hpp"
 #include "maps/input_error.hpp"
@@ -19,12 +21,15 @@ namespace {
 struct PlanArguments {
   std::string map;
   std::string markers;
+  std::string camera;
+  std::string mount;
   std::string start;
   std::string goal;
   std::string planner = "fastest";
   std::string format = "text";
   std::string draw;
   GridPlannerOptions options{.clearance_weight = 0.0};
+  PoseKeepingOptions pose_keeping;
 };
 
 struct TimedPlan {
@@ -92,6 +97,14 @@ void offer_nearest(const GridPlanner& planner, const Goal& start, const Goal& go
              nearest->x(), nearest->y(), (*nearest - goal.position_m).norm());
 }
 
+/// What the robot sees from each cell, when the drive shall depend on it.
+std::optional<Visibility> visibility_for(const PlanArguments& arguments, const OccupancyMap& map,
+                                         const MarkerRegistry& registry) {
+  if (!arguments.pose_keeping.wanted()) return std::nullopt;
+  return view_on_drives(map, registry, load_camera(arguments.camera),
+                        visibility_options(load_robot(arguments.mount)), arguments.options.radius_m);
+}
+
 ExitCode plan(PlanArguments arguments) {
   const Goal start = parse_goal("--start", arguments.start);
   const Goal goal = parse_goal("--goal", arguments.goal);
@@ -100,6 +113,8 @@ ExitCode plan(PlanArguments arguments) {
   warn(loaded);
   MarkerRegistry registry;
   if (!arguments.markers.empty()) registry = load_registry(arguments.markers);
+  const std::optional<Visibility> visibility = visibility_for(arguments, loaded.map, registry);
+  if (visibility) arguments.options.pose_keeping = pose_keeping(*visibility, arguments.pose_keeping);
 
   const GridPlanner planner(loaded.map, arguments.options);
   const TimedPlan timed = timed_plan(planner, start, goal);
@@ -112,11 +127,12 @@ ExitCode plan(PlanArguments arguments) {
   const auto* found = std::get_if<Plan>(&timed.result);
   if (!arguments.draw.empty()) {
     write_png(arguments.draw, draw_plan(loaded.map, registry, start.position_m, goal.position_m,
-                                        found ? found->path : Path{}));
+                                        found ? found->path : Path{}, visibility ? &*visibility : nullptr));
   }
   if (found) return done;
   const PlanFailure failure = std::get<PlanFailure>(timed.result);
-  if (failure != PlanFailure::limit_reached) offer_nearest(planner, start, goal);
+  if (failure != PlanFailure::limit_reached && failure != PlanFailure::unsure)
+    offer_nearest(planner, start, goal);
   return job_failed;
 }
 
@@ -126,7 +142,15 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<PlanArguments>();
   CLI::App* command = lodestar.add_subcommand("plan", "Plan a drive over a map; exit 1 when there is no way");
   command->add_option("--map", arguments->map, "Occupancy map, ROS map_server YAML")->required();
-  command->add_option("--markers", arguments->markers, "Marker registry, for the picture");
+  command->add_option("--markers", arguments->markers,
+                      "Marker registry, for the picture and what is in view");
+  command->add_option("--camera", arguments->camera, "Camera file, for what is in view");
+  command->add_option("--mount", arguments->mount, "robot.yaml: where the camera sits, for what is in view");
+  add_pose_keeping_options(*command, arguments->pose_keeping);
+  for (const char* option : {"--max-sigma", "--keep-markers"}) {
+    for (const char* needed : {"--markers", "--camera", "--mount"})
+      command->get_option(option)->needs(command->get_option(needed));
+  }
   command->add_option("--start", arguments->start, "X,Y[,DEG] in metres and degrees in the map frame")
       ->required();
   command->add_option("--goal", arguments->goal, "X,Y[,DEG] in metres and degrees in the map frame")

@@ -8,6 +8,7 @@
 #include "app/arguments.hpp"
 #include "app/commands/command.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/navigation_setup.hpp"
 #include "app/progress.hpp"
 #include "app/replay_runs.hpp"
 #include "app/report/run_folder.hpp"
@@ -26,6 +27,7 @@ struct ReplayArguments {
   std::string camera;
   std::string planner = "fastest";
   std::vector<std::string> goals;
+  PoseKeepingOptions pose_keeping;
   bool realtime = false;
   bool quiet = false;
   bool json = false;
@@ -43,10 +45,16 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
                         .seed = arguments.seed,
                         .goals = site.goals,
                         .planner = planner_kind(arguments.planner).value(),
+                        .pose_keeping = std::nullopt,
                         .realtime = arguments.realtime};
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
                      "--camera to name one of its cameras");
+  }
+  if (arguments.pose_keeping.wanted()) {
+    const Visibility view = view_on_drives(site.map.map, site.registry, site.cameras.at(options.camera),
+                                           visibility_options(site.robot), site.robot.radius_m);
+    options.pose_keeping = pose_keeping(view, arguments.pose_keeping);
   }
   if (arguments.goals.empty()) return options;
   options.goals.clear();
@@ -55,10 +63,12 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
 }
 
 /// The command line that gives the same run, and so the same bytes.
-std::string repeat_command(const std::string& site, const ReplayOptions& options) {
+std::string repeat_command(const ReplayArguments& arguments, const ReplayOptions& options) {
+  const std::string& site = arguments.site;
   std::string command =
       fmt::format("lodestar replay{} --seed {} --camera {} --planner {}", site.empty() ? "" : " " + site,
                   options.seed, options.camera, to_string(options.planner));
+  command += words_of(arguments.pose_keeping);
   for (const Goal& goal : options.goals) {
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
@@ -163,7 +173,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     options.progress = [&progress](double share) { progress.show(share); };
     record = replay(site, options);
   }
-  record.repeat = repeat_command(arguments.site, options);
+  record.repeat = repeat_command(arguments, options);
   write_run_folder(folder, record, site.map.map, site.registry);
   const RunSummary summary = summarize(record);
   if (arguments.json) {
@@ -208,6 +218,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                    "X,Y[,DEG] in metres and degrees; repeat for more; the site's when left out")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_pose_keeping_options(*command, arguments->pose_keeping);
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_flag("--json", arguments->json, "Results as JSON");
