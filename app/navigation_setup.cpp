@@ -32,6 +32,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.fix.prior = pose_prior(robot);
   options.filter.track_width_m = robot.track_width_m;
   options.planner.radius_m = robot.radius_m;
+  options.planner.footprint = robot.footprint;
   options.planner.preferred_clearance_m = robot.preferred_clearance_m;
   options.drive.max_forward_mps = robot.max_forward_mps;
   options.drive.max_turn_radps = robot.max_turn_radps;

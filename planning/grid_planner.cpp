@@ -9,6 +9,7 @@
 #include "planning/corners.hpp"
 #include "planning/grid_search.hpp"
 #include "planning/jump_search.hpp"
+#include "planning/outline_planner.hpp"
 #include "planning/path_refining.hpp"
 #include "planning/path_shortening.hpp"
 #include "planning/turn_search.hpp"
@@ -81,6 +82,10 @@ struct GridPlanner::Searches {
 
 GridPlanner::GridPlanner(const OccupancyMap& map, const GridPlannerOptions& options)
     : map_(map), options_(options), searches_(std::make_unique<Searches>(map_, options.radius_m)) {
+  if (options_.footprint) {
+    outline_ = std::make_unique<OutlinePlanner>(map_, *options_.footprint, options_);
+    return;
+  }
   weigh_cells();
   prepare_searches();
 }
@@ -129,6 +134,7 @@ Vec2 GridPlanner::in_map(const Vec2& point_in_grid) const {
 }
 
 bool GridPlanner::is_clear(const Vec2& from_m, const Vec2& to_m) const {
+  if (outline_) return outline_->is_clear(from_m, to_m);
   return searches_->space.along(in_grid(from_m), in_grid(to_m));
 }
 
@@ -195,6 +201,7 @@ std::variant<GridPlanner::Ends, PlanFailure> GridPlanner::ends_of(const Vec2& st
 }
 
 PlanResult GridPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const PlanHeadings& headings) const {
+  if (outline_) return outline_->plan(start_m, goal_m, headings);
   const std::variant<Ends, PlanFailure> checked = ends_of(start_m, goal_m);
   if (const auto* failure = std::get_if<PlanFailure>(&checked)) return *failure;
   const Ends& ends = std::get<Ends>(checked);
@@ -286,6 +293,7 @@ std::optional<std::vector<Vec2>> GridPlanner::sampled_legs(const Ends& ends, std
 }
 
 std::optional<Vec2> GridPlanner::nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const {
+  if (outline_) return outline_->nearest_reachable(start_m, goal_m);
   const Vec2 start = in_grid(start_m);
   if (!start.allFinite() || !goal_m.allFinite() || !map_.contains(map_.cell_at(start_m))) return std::nullopt;
   const ClearSpace& space = searches_->space;

@@ -12,14 +12,18 @@
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
 #include "maps/travel_time.hpp"
+#include "planning/footprint.hpp"
 #include "planning/planner_kind.hpp"
 #include "planning/sure_way.hpp"
 
 namespace lodestar {
 
+class OutlinePlanner;
+
 struct GridPlannerOptions {
   PlannerKind kind = PlannerKind::astar;
   double radius_m = 0.25;  ///< of the robot's body; its disc never overlaps a cell that is not drivable
+  std::optional<Footprint> footprint;  ///< when given, planned for instead of the disc
   double preferred_clearance_m =
       0.15;                       ///< beyond the radius, cells nearer than this to an obstacle cost more
   double clearance_weight = 1.0;  ///< how much more: up to (1 + weight) times at the very edge; 0: shortest
@@ -72,7 +76,7 @@ class GridPlanner {
   [[nodiscard]] PlanResult plan(const Vec2& start_m, const Vec2& goal_m,
                                 const PlanHeadings& headings = {}) const;
 
-  /// Can the robot's centre travel this straight leg without its disc overlapping anything?
+  /// Can the robot's centre travel this straight leg without its disc, or outline, overlapping anything?
   [[nodiscard]] bool is_clear(const Vec2& from_m, const Vec2& to_m) const;
 
   /// The place nearest to a goal, a cell's centre, that can be reached from the start; nothing when the robot
@@ -112,6 +116,7 @@ class GridPlanner {
   GridPlannerOptions options_;
   std::vector<float> costs_;  ///< of cells; empty: all alike
   std::unique_ptr<Searches> searches_;
+  std::unique_ptr<OutlinePlanner> outline_;  ///< answers instead when there is an outline
 };
 
 }  // namespace lodestar

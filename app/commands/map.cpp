@@ -45,8 +45,9 @@ bool is_octomap(const std::filesystem::path& file) {
 }
 
 nlohmann::ordered_json octomap_summary(const std::filesystem::path& file) {
-  const OctomapInfo info = octomap_info(file);
-  const std::optional<double> floor_m = octomap_floor_m(file);
+  const Octomap octomap(file);
+  const OctomapInfo info = octomap.info();
+  const std::optional<double> floor_m = octomap.floor_m();
   return {{"kind", "octomap"},
           {"resolution_m", info.resolution_m},
           {"leaves_occupied", info.leaves_occupied},
@@ -91,8 +92,8 @@ ExitCode info(const MapArguments& arguments) {
 }
 
 /// The slab's heights as given, or above the floor that the OctoMap shows.
-std::pair<double, double> slab_m(const MapArguments& arguments) {
-  const std::optional<double> floor_m = octomap_floor_m(arguments.file);
+std::pair<double, double> slab_m(const Octomap& octomap, const MapArguments& arguments) {
+  const std::optional<double> floor_m = octomap.floor_m();
   if (arguments.z_min_m) {
     if (floor_m && *arguments.z_min_m < *floor_m) {
       fmt::print(
@@ -112,8 +113,9 @@ std::pair<double, double> slab_m(const MapArguments& arguments) {
 }
 
 ExitCode slice(const MapArguments& arguments) {
-  const auto [z_min_m, z_max_m] = slab_m(arguments);
-  save_map(octomap_slice(arguments.file, z_min_m, z_max_m), arguments.output);
+  const Octomap octomap(arguments.file);
+  const auto [z_min_m, z_max_m] = slab_m(octomap, arguments);
+  save_map(octomap.slice(z_min_m, z_max_m), arguments.output);
   return done;
 }
 

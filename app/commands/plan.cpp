@@ -23,6 +23,7 @@ struct PlanArguments {
   std::string markers;
   std::string camera;
   std::string mount;
+  std::string robot;
   std::string start;
   std::string goal;
   std::string planner = "fastest";
@@ -50,7 +51,7 @@ std::size_t turns_in(const Path& path) {
 }
 
 nlohmann::ordered_json as_json(const TimedPlan& timed, const std::string& planner, const Goal& start,
-                               const Goal& goal) {
+                               const Goal& goal, const MotionLimits& limits) {
   if (const auto* failure = std::get_if<PlanFailure>(&timed.result)) {
     return {{"status", to_string(*failure)}, {"planner", planner},
             {"length_m", nullptr},           {"turns", nullptr},
@@ -64,7 +65,7 @@ nlohmann::ordered_json as_json(const TimedPlan& timed, const std::string& planne
           {"planner", planner},
           {"length_m", length_m(plan.path)},
           {"turns", turns_in(plan.path)},
-          {"travel_time_s", travel_time_s(plan.path, start.heading_rad, goal.heading_rad, MotionLimits{})},
+          {"travel_time_s", travel_time_s(plan.path, start.heading_rad, goal.heading_rad, limits)},
           {"plan_us", timed.microseconds},
           {"expanded", plan.expanded},
           {"waypoints", waypoints}};
@@ -109,6 +110,12 @@ ExitCode plan(PlanArguments arguments) {
   const Goal start = parse_goal("--start", arguments.start);
   const Goal goal = parse_goal("--goal", arguments.goal);
   arguments.options.kind = planner_kind(arguments.planner).value();
+  if (!arguments.robot.empty()) {
+    const GridPlannerOptions robot = navigation_options(load_robot(arguments.robot)).planner;
+    arguments.options.radius_m = robot.radius_m;
+    arguments.options.footprint = robot.footprint;
+    arguments.options.limits = robot.limits;
+  }
   const LoadedMap loaded = load_map(arguments.map);
   warn(loaded);
   MarkerRegistry registry;
@@ -118,7 +125,8 @@ ExitCode plan(PlanArguments arguments) {
 
   const GridPlanner planner(loaded.map, arguments.options);
   const TimedPlan timed = timed_plan(planner, start, goal);
-  const nlohmann::ordered_json summary = as_json(timed, arguments.planner, start, goal);
+  const nlohmann::ordered_json summary =
+      as_json(timed, arguments.planner, start, goal, arguments.options.limits);
   if (arguments.format == "json") {
     fmt::print("{}\n", summary.dump(2));
   } else {
@@ -165,9 +173,13 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
       ->check(CLI::Range(1, 2147483647))
       ->capture_default_str();
   add_sampling_options(*command, arguments->options.sampling);
-  command->add_option("--radius", arguments->options.radius_m, "Robot radius in metres")
-      ->check(CLI::Range(0.0, 10.0))
-      ->capture_default_str();
+  CLI::Option* radius =
+      command->add_option("--radius", arguments->options.radius_m, "Robot radius in metres");
+  radius->check(CLI::Range(0.0, 10.0))->capture_default_str();
+  command
+      ->add_option("--robot", arguments->robot,
+                   "robot.yaml instead: its radius, or outline if it has one, and its limits")
+      ->excludes(radius);
   command
       ->add_option("--clearance-weight", arguments->options.clearance_weight,
                    "How much more a way close to obstacles costs; 0 finds the shortest")
