@@ -174,17 +174,18 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     record = replay(site, options);
   }
   record.repeat = repeat_command(arguments, options);
-  write_run_folder(folder, record, site.map.map, site.registry);
+  const bool written = leave_run_folder(folder, record, site.map.map, site.registry);
   const RunSummary summary = summarize(record);
   if (arguments.json) {
     fmt::print("{}\n", as_json(summary).dump(2));
   } else {
     print_goals(record);
     fmt::print("seed {}: {} contacts, 95 % of the track within {:.1f} mm of the path; run folder: {}\n",
-               record.seed, record.contacts, 1000.0 * summary.path_p95_m, folder.string());
+               record.seed, record.contacts, 1000.0 * summary.path_p95_m,
+               written ? folder.string() : "not written");
   }
   fmt::print(stderr, "{:.1f} s driven in {:.1f} s\n", summary.drive_s, summary.wall_s);
-  return succeeded(summary) ? done : job_failed;
+  return succeeded(summary) && written ? done : job_failed;
 }
 
 ExitCode replay_command(const ReplayArguments& arguments) {

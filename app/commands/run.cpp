@@ -77,8 +77,9 @@ ExitCode run_command(const RunArguments& arguments) {
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
   const RunRecord record = run(site, bus, std::move(protocol), *camera, options);
-  if (!arguments.output.empty()) write_run_folder(arguments.output, record, site.map.map, site.registry);
   print_goals(record);
+  if (!arguments.output.empty())
+    (void)leave_run_folder(arguments.output, record, site.map.map, site.registry);
   return record.arrived() ? done : job_failed;
 }
 

@@ -1,7 +1,7 @@
 #include "app/report/run_folder.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
@@ -59,6 +59,17 @@ void write_run_folder(const std::filesystem::path& folder, const RunRecord& reco
   write_file_atomically(folder / "truth.tum", truth_tum(record));
   write_file_atomically(folder / "can.log", can_log(record));
   write_file_atomically(folder / "report.html", report_html(record, picture));
+}
+
+bool leave_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
+                      const MarkerRegistry& registry) {
+  try {
+    write_run_folder(folder, record, map, registry);
+    return true;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "lodestar: warning: the run is not recorded: {}\n", error.what());
+    return false;
+  }
 }
 
 }  // namespace lodestar
