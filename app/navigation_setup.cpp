@@ -12,6 +12,14 @@ PosePrior pose_prior(const Robot& robot) {
   return prior;
 }
 
+VisibilityOptions visibility_options(const Robot& robot) {
+  VisibilityOptions options;
+  options.base_from_camera = robot.base_from_camera;
+  options.robot_radius_m = robot.radius_m;
+  options.fix.prior = pose_prior(robot);
+  return options;
+}
+
 KnownWorld known_world(const Site& site, const std::string& camera) {
   return {.map = site.map.map,
           .registry = site.registry,
@@ -24,6 +32,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.fix.prior = pose_prior(robot);
   options.filter.track_width_m = robot.track_width_m;
   options.planner.radius_m = robot.radius_m;
+  options.planner.footprint = robot.footprint;
   options.planner.preferred_clearance_m = robot.preferred_clearance_m;
   options.drive.max_forward_mps = robot.max_forward_mps;
   options.drive.max_turn_radps = robot.max_turn_radps;

@@ -29,6 +29,7 @@ SimulationOptions simulation_options(const Site& site, std::uint64_t seed) {
 NavigationOptions replay_navigation(const Site& site, const ReplayOptions& options) {
   NavigationOptions navigation = navigation_options(site.robot);
   navigation.planner.kind = options.planner;
+  navigation.planner.pose_keeping = options.pose_keeping;
   navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
   return navigation;
 }

@@ -1,5 +1,8 @@
 #include "app/site.hpp"
 
+#include <fmt/format.h>
+
+#include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
 
 namespace lodestar {
@@ -48,6 +51,18 @@ void read_mount(StrictYaml yaml, Robot& robot) {
   robot.base_from_camera.linear() = rotation_from(robot.camera_mount);
   robot.base_from_camera.translation() << x_m, y_m, z_m;
   yaml.finish();
+}
+
+/// Pairs of x and y; complaints about the polygon name the line where it stands.
+Footprint read_footprint(StrictYaml& yaml) {
+  const std::string key = "footprint_m";
+  const std::vector<Vec2> corners_m = yaml.points(key, 10.0);
+  try {
+    return Footprint(corners_m);
+  } catch (const InputError&) {
+    yaml.refuse(key, fmt::format("{} corners that make none", corners_m.size()),
+                "a polygon that goes around once, counter-clockwise, without touching itself");
+  }
 }
 
 void read_limits(StrictYaml yaml, Robot& robot) {
@@ -101,6 +116,7 @@ Robot load_robot(const std::filesystem::path& file) {
   Robot robot;
   robot.name = yaml.text("name");
   robot.radius_m = yaml.number("radius_m", 0.01, 5.0);
+  if (yaml.has("footprint_m")) robot.footprint = read_footprint(yaml);
   robot.track_width_m = yaml.number("track_width_m", 0.01, 5.0);
   read_mount(yaml.mapping("camera_mount"), robot);
   robot.mount_tilt_sigma_rad = radians(yaml.number("mount_tilt_sigma_deg", 0.0, 20.0));

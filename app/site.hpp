@@ -11,6 +11,7 @@
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/motion.hpp"
+#include "planning/footprint.hpp"
 
 namespace lodestar {
 
@@ -18,6 +19,7 @@ namespace lodestar {
 struct Robot {
   std::string name;
   double radius_m = 0.0;
+  std::optional<Footprint> footprint;  ///< the outline, when paths shall be planned for it and not for a disc
   double track_width_m = 0.0;
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   RollPitchYaw camera_mount;          ///< the rotation of base_from_camera, Rz(yaw) Ry(pitch) Rx(roll)

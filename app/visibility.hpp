@@ -1,6 +1,5 @@
 #pragma once
 
-#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <vector>
 
@@ -56,8 +55,5 @@ Visibility visibility_of(const OccupancyMap& map, const MarkerRegistry& registry
                          const SightLines* sight_lines, const VisibilityOptions& options);
 
 VisibilitySummary summarize(const Visibility& visibility);
-
-/// The map, each cell coloured by the markers it sees at the worst heading.
-cv::Mat draw_visibility(const Visibility& visibility, const MarkerRegistry& registry);
 
 }  // namespace lodestar

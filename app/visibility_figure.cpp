@@ -1,9 +1,8 @@
+#include "app/visibility_figure.hpp"
+
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-
-#include "app/report/canvas.hpp"
-#include "app/visibility.hpp"
 
 namespace lodestar {
 namespace {
@@ -29,20 +28,6 @@ Canvas canvas_for(const OccupancyMap& map) {
   return {low, high, width_px, {.left_px = 40.0, .right_px = 40.0, .top_px = 40.0, .bottom_px = 90.0}};
 }
 
-void draw_cells(Canvas& canvas, const Visibility& visibility) {
-  const OccupancyMap& map = visibility.map;
-  const Vec2 half_px = Vec2::Constant(0.5 * map.resolution_m * canvas.pixels_per_m());
-  for (int row = 0; row < map.rows; ++row) {
-    for (int column = 0; column < map.columns; ++column) {
-      const std::optional<CellView>& cell = visibility.cells[map.index({column, row})];
-      if (!cell) continue;
-      const Vec2 at = canvas.pixel(map.center_of({column, row}));
-      const std::size_t color = std::min<std::size_t>(static_cast<std::size_t>(cell->least), 3);
-      canvas.draw_box_px(at - half_px, at + half_px, cell_colors.at(color));
-    }
-  }
-}
-
 void draw_legend(Canvas& canvas) {
   Vec2 at = canvas.pixel(canvas.low_m()) + Vec2(0.0, 45.0);
   constexpr double text_px = 20.0;
@@ -55,10 +40,27 @@ void draw_legend(Canvas& canvas) {
 
 }  // namespace
 
+cv::Scalar visibility_color(int markers) {
+  return cell_colors.at(std::min(static_cast<std::size_t>(markers), cell_colors.size() - 1));
+}
+
+void draw_visible_cells(Canvas& canvas, const Visibility& visibility) {
+  const OccupancyMap& map = visibility.map;
+  const Vec2 half_px = Vec2::Constant(0.5 * map.resolution_m * canvas.pixels_per_m());
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      const std::optional<CellView>& cell = visibility.cells[map.index({column, row})];
+      if (!cell) continue;
+      const Vec2 at = canvas.pixel(map.center_of({column, row}));
+      canvas.draw_box_px(at - half_px, at + half_px, visibility_color(cell->least));
+    }
+  }
+}
+
 cv::Mat draw_visibility(const Visibility& visibility, const MarkerRegistry& registry) {
   Canvas canvas = canvas_for(visibility.map);
   canvas.draw_map(visibility.map);
-  draw_cells(canvas, visibility);
+  draw_visible_cells(canvas, visibility);
   canvas.draw_frame();
   for (const RegisteredMarker& marker : registry.markers) {
     const Vec2 at = canvas.pixel(map_from_marker(registry, marker).translation().head<2>());

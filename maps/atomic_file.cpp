@@ -1,11 +1,14 @@
 #include "maps/atomic_file.hpp"
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 
 #include "maps/input_error.hpp"
@@ -47,6 +50,21 @@ bool write_all(int descriptor, std::string_view content) {
                    "a folder that can be written");
 }
 
+/// What stays of writers that were killed: ".NAME.PID" of processes that are no more.
+void remove_orphans(const std::filesystem::path& folder, const std::string& name) {
+  const std::string prefix = "." + name + ".";
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const std::string found = entry.path().filename().string();
+    if (!found.starts_with(prefix)) continue;
+    const char* const end = found.data() + found.size();
+    ::pid_t writer = 0;
+    const auto [stop, error] = std::from_chars(found.data() + prefix.size(), end, writer);
+    const bool is_ours = error == std::errc() && stop == end && writer > 0;
+    if (is_ours && ::kill(writer, 0) != 0 && errno == ESRCH) ::unlink(entry.path().c_str());
+  }
+}
+
 }  // namespace
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
@@ -59,6 +77,7 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
         ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, readable_by_all));
     if (!out.is_open() || !write_all(out.get(), content) || ::fsync(out.get()) != 0) fail(file, temporary);
   }
+  remove_orphans(folder, file.filename().string());
   if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(file, temporary);
   // The rename itself must outlive a power cut; a file system that cannot sync folders has none to offer.
   const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

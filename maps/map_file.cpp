@@ -122,6 +122,15 @@ MapImage image_of(const OccupancyMap& map, bool trinary) {
   return image;
 }
 
+/// The image's name in a map's YAML file as it is now; empty when there is none that can be read.
+std::string present_image(const fs::path& yaml_file) {
+  try {
+    return StrictYaml::load(yaml_file).text("image");
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
 }  // namespace
 
 LoadedMap load_map(const fs::path& yaml_file) {
@@ -147,16 +156,23 @@ LoadedMap load_map(const fs::path& yaml_file) {
 }
 
 void save_map(const OccupancyMap& map, const fs::path& yaml_file) {
-  const fs::path image_file = fs::path(yaml_file).replace_extension(".pgm");
+  // Not over the image that the file names now: until the YAML file is replaced, the old map is the map.
+  const std::string stem = yaml_file.stem().string();
+  const std::string before = present_image(yaml_file);
+  const std::string name = before == stem + ".pgm" ? stem + "_b.pgm" : stem + ".pgm";
+  const fs::path image_file = yaml_file.parent_path() / name;
   const bool trinary = is_trinary(map);
   const Pose2& origin = map.map_from_grid;
   write_file_atomically(image_file, pgm_text(image_of(map, trinary)));
   write_file_atomically(
-      yaml_file, fmt::format("image: {}\nmode: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\n"
-                             "occupied_thresh: {}\nfree_thresh: {}\n",
-                             image_file.filename().string(), trinary ? "trinary" : "raw", map.resolution_m,
-                             origin.position_m.x(), origin.position_m.y(), origin.yaw_rad,
-                             saved_occupied_threshold, saved_free_threshold));
+      yaml_file,
+      fmt::format("image: {}\nmode: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\n"
+                  "occupied_thresh: {}\nfree_thresh: {}\n",
+                  name, trinary ? "trinary" : "raw", map.resolution_m, origin.position_m.x(),
+                  origin.position_m.y(), origin.yaw_rad, saved_occupied_threshold, saved_free_threshold));
+  const bool was_ours = before == stem + ".pgm" || before == stem + "_b.pgm";
+  std::error_code none;
+  if (was_ours) fs::remove(yaml_file.parent_path() / before, none);
 }
 
 }  // namespace lodestar

@@ -62,22 +62,6 @@ class Slicer {
   OccupancyMap& map_;
 };
 
-}  // namespace
-
-OctomapInfo octomap_info(const fs::path& file) {
-  const std::unique_ptr<octomap::OcTree> tree = read_octree(file);
-  OctomapInfo info;
-  info.resolution_m = tree->getResolution();
-  for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {
-    ++(tree->isNodeOccupied(*leaf) ? info.leaves_occupied : info.leaves_free);
-  }
-  tree->getMetricMin(info.low_m.x(), info.low_m.y(), info.low_m.z());
-  tree->getMetricMax(info.high_m.x(), info.high_m.y(), info.high_m.z());
-  return info;
-}
-
-namespace {
-
 /// Is the voxel above this column of the leaf known to be free?
 bool is_free_above(const octomap::OcTree& tree, double x_m, double y_m, double top_m) {
   const octomap::OcTreeNode* above = tree.search(x_m, y_m, top_m + 0.5 * tree.getResolution());
@@ -106,9 +90,21 @@ std::map<int, int> surfaces_of(const octomap::OcTree& tree) {
 
 }  // namespace
 
-std::optional<double> octomap_floor_m(const fs::path& file) {
-  const std::unique_ptr<octomap::OcTree> tree = read_octree(file);
-  const std::map<int, int> surfaces = surfaces_of(*tree);
+Octomap::Octomap(const fs::path& file) : file_(file), tree_(read_octree(file)) {}
+
+OctomapInfo Octomap::info() const {
+  OctomapInfo info;
+  info.resolution_m = tree_->getResolution();
+  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
+    ++(tree_->isNodeOccupied(*leaf) ? info.leaves_occupied : info.leaves_free);
+  }
+  tree_->getMetricMin(info.low_m.x(), info.low_m.y(), info.low_m.z());
+  tree_->getMetricMax(info.high_m.x(), info.high_m.y(), info.high_m.z());
+  return info;
+}
+
+std::optional<double> Octomap::floor_m() const {
+  const std::map<int, int> surfaces = surfaces_of(*tree_);
   if (surfaces.empty()) return std::nullopt;
   const auto area = [](const auto& layer) { return layer.second; };
   auto floor = std::ranges::max_element(surfaces, {}, area);
@@ -116,28 +112,27 @@ std::optional<double> octomap_floor_m(const fs::path& file) {
   for (auto next = std::next(floor); next != surfaces.end(); floor = next++) {
     if (next->first != floor->first + 1 || 5 * next->second < largest) break;
   }
-  return floor->first * tree->getResolution();
+  return floor->first * tree_->getResolution();
 }
 
-OccupancyMap octomap_slice(const fs::path& file, double z_min_m, double z_max_m) {
+OccupancyMap Octomap::slice(double z_min_m, double z_max_m) const {
   if (!(z_min_m < z_max_m)) {
     throw InputError(fmt::format(
         "found a slab from {} m to {} m, wanted its lower height below its upper one", z_min_m, z_max_m));
   }
-  const std::unique_ptr<octomap::OcTree> tree = read_octree(file);
   OccupancyMap map;
-  Slicer slicer(*tree, map);
-  const double touch_m = 1e-6 * tree->getResolution();  // faces at the slab's very limits do not count
+  Slicer slicer(*tree_, map);
+  const double touch_m = 1e-6 * tree_->getResolution();  // faces at the slab's very limits do not count
   bool any = false;
-  for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {
+  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
     const double half_m = 0.5 * leaf.getSize();
     const bool within = leaf.getZ() + half_m > z_min_m + touch_m && leaf.getZ() - half_m < z_max_m - touch_m;
     if (!within) continue;
     any = true;
-    slicer.add(leaf, tree->isNodeOccupied(*leaf));
+    slicer.add(leaf, tree_->isNodeOccupied(*leaf));
   }
   if (!any) {
-    throw InputError(file, 0, fmt::format("nothing known from {} m to {} m", z_min_m, z_max_m),
+    throw InputError(file_, 0, fmt::format("nothing known from {} m to {} m", z_min_m, z_max_m),
                      "a slab within the map");
   }
   return map;

@@ -156,6 +156,22 @@ std::vector<double> StrictYaml::numbers(const std::string& key, std::size_t coun
   return numbers;
 }
 
+std::vector<Vec2> StrictYaml::points(const std::string& key, double most) {
+  const YAML::Node list = node(key);
+  const std::string wanted = fmt::format("a list of [x, y] between {} and {}", -most, most);
+  if (!list.IsSequence()) refuse(key, kind_of(list), wanted);
+  std::vector<Vec2> points;
+  for (const YAML::Node& item : list) {
+    if (!item.IsSequence() || item.size() != 2) throw InputError(file_, line_of(item), kind_of(item), wanted);
+    const std::optional<double> x = as_number(item[0]);
+    const std::optional<double> y = as_number(item[1]);
+    if (!x || !y || std::abs(*x) > most || std::abs(*y) > most)
+      throw InputError(file_, line_of(item), "a point that is none in '" + key + "'", wanted);
+    points.emplace_back(*x, *y);
+  }
+  return points;
+}
+
 StrictYaml StrictYaml::mapping(const std::string& key) {
   return {file_, node(key), where_.empty() ? key : where_ + "." + key};
 }

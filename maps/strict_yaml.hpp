@@ -26,6 +26,8 @@ class StrictYaml {
   [[nodiscard]] bool boolean(const std::string& key);
   [[nodiscard]] std::string text(const std::string& key);
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count);
+  /// A list of [x, y], both in [-most, most].
+  [[nodiscard]] std::vector<Vec2> points(const std::string& key, double most);
   [[nodiscard]] StrictYaml mapping(const std::string& key);
   [[nodiscard]] std::vector<StrictYaml> list_of_mappings(const std::string& key);
   [[nodiscard]] YAML::Node node(const std::string& key);

@@ -12,93 +12,118 @@ namespace {
 
 constexpr double touching = 1e-9;  ///< cells; rounding must not turn touching into overlapping
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
+/// In cells, low ends and high ends.
+struct Bounds {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = -low;
 
-/// Corners of the convex hull, counter-clockwise (Andrew 1979).
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  std::ranges::sort(
-      points, [](const Vec2& a, const Vec2& b) { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); });
-  std::vector<Vec2> hull;
-  const auto add = [&hull](const Vec2& point, std::size_t fixed) {
-    while (hull.size() > fixed + 1 &&
-           cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0.0) {
-      hull.pop_back();
-    }
-    hull.push_back(point);
-  };
-  for (const Vec2& point : points) add(point, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
-  hull.pop_back();
-  return hull;
-}
-
-/// Is the square of a cell wholly beyond one edge of the polygon grown by a margin? (Separating axes; those
-/// of the square are the polygon's bounds, which the caller keeps to.)
-bool is_beyond_an_edge(const std::vector<Vec2>& polygon, Cell cell, double margin) {
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-    const Vec2 outwards = Vec2(edge.y(), -edge.x()).normalized();
-    const Vec2 nearest(cell.column + (outwards.x() < 0.0 ? 1.0 : 0.0),
-                       cell.row + (outwards.y() < 0.0 ? 1.0 : 0.0));
-    if (outwards.dot(nearest - polygon[i]) >= margin - touching) return true;
-  }
-  return false;
-}
-
-/// A convex polygon in grid coordinates, grown by a margin.
-bool is_clear_polygon(const OccupancyMap& map, const std::vector<Vec2>& polygon, double margin) {
-  Vec2 low = polygon.front();
-  Vec2 high = polygon.front();
-  for (const Vec2& point : polygon) {
+  void add(const Vec2& point) {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  low = low.array() - margin + touching;
-  high = high.array() + margin - touching;
-  if (!low.allFinite() || !high.allFinite() || low.minCoeff() < 0.0 || high.x() > map.columns ||
-      high.y() > map.rows) {
-    return false;
+  [[nodiscard]] bool are_on(const OccupancyMap& map) const {
+    return low.allFinite() && high.allFinite() && low.minCoeff() >= -touching &&
+           high.x() <= map.columns + touching && high.y() <= map.rows + touching;
   }
-  for (int row = static_cast<int>(low.y()); row <= std::min(static_cast<int>(high.y()), map.rows - 1);
+};
+
+Bounds bounds_of(const std::vector<Polygon>& pieces) {
+  Bounds bounds;
+  for (const Polygon& piece : pieces) {
+    for (const Vec2& corner : piece) bounds.add(corner);
+  }
+  return bounds;
+}
+
+Bounds bounds_of_circle(const Vec2& center, double radius) {
+  Bounds bounds;
+  bounds.add(center.array() - radius);
+  bounds.add(center.array() + radius);
+  return bounds;
+}
+
+/// Calls visit(cell) for the cells within bounds until one answers false; whether none did.
+template <typename Visit>
+bool all_within(const Bounds& bounds, const Visit& visit) {
+  for (int row = static_cast<int>(std::floor(bounds.low.y() + touching)); row < bounds.high.y() - touching;
        ++row) {
-    for (int column = static_cast<int>(low.x());
-         column <= std::min(static_cast<int>(high.x()), map.columns - 1); ++column) {
-      if (!is_drivable(map.at({column, row})) && !is_beyond_an_edge(polygon, {column, row}, margin))
-        return false;
+    for (int column = static_cast<int>(std::floor(bounds.low.x() + touching));
+         column < bounds.high.x() - touching; ++column) {
+      if (!visit(Cell{column, row})) return false;
     }
   }
   return true;
 }
 
-std::vector<Vec2> outline_in_grid(const OccupancyMap& map, const std::vector<Vec2>& corners_m,
-                                  const Pose2& pose) {
-  const Pose2 grid_from_robot = inverse(map.map_from_grid) * pose;
-  std::vector<Vec2> outline;
-  for (const Vec2& corner : corners_m) outline.emplace_back(grid_from_robot * corner / map.resolution_m);
-  return outline;
+std::vector<Polygon> placed(const std::vector<Polygon>& pieces_m, const Pose2& grid_from_robot,
+                            double resolution_m) {
+  std::vector<Polygon> pieces = pieces_m;
+  for (Polygon& piece : pieces) {
+    for (Vec2& corner : piece) corner = grid_from_robot * corner / resolution_m;
+  }
+  return pieces;
+}
+
+/// What the pieces sweep when they are shifted.
+std::vector<Polygon> swept(std::vector<Polygon> pieces, const Vec2& shift) {
+  for (Polygon& piece : pieces) {
+    const std::size_t count = piece.size();
+    for (std::size_t i = 0; i < count; ++i) piece.push_back(piece[i] + shift);
+    piece = hull_of(std::move(piece));
+  }
+  return pieces;
+}
+
+bool any_overlaps(const std::vector<Polygon>& pieces, Cell cell) {
+  return std::ranges::any_of(pieces, [&](const Polygon& piece) { return overlaps(piece, cell); });
+}
+
+bool any_overlaps_turning(const std::vector<Polygon>& pieces, const Vec2& about, double turn_rad, Cell cell) {
+  return std::ranges::any_of(
+      pieces, [&](const Polygon& piece) { return overlaps_turning(piece, about, turn_rad, cell); });
+}
+
+bool are_clear(const OccupancyMap& map, const std::vector<Polygon>& pieces) {
+  const Bounds bounds = bounds_of(pieces);
+  return bounds.are_on(map) && all_within(bounds, [&](Cell cell) {
+           return is_drivable(map.at(cell)) || !any_overlaps(pieces, cell);
+         });
+}
+
+/// The highest and lowest points of a turn are at its ends or where a corner passes a side of its circle.
+bool turn_stays_on(const OccupancyMap& map, const std::vector<Polygon>& pieces, const Vec2& about,
+                   double turn_rad) {
+  Bounds bounds;
+  for (const Polygon& piece : pieces) {
+    for (const Vec2& corner : piece) {
+      const Vec2 from = corner - about;
+      bounds.add(corner);
+      bounds.add(Pose2{about, turn_rad} * from);
+      for (const Vec2& side : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
+        const double to_side_rad =
+            wrap_angle(std::atan2(side.y(), side.x()) - std::atan2(from.y(), from.x()));
+        const bool passes = to_side_rad * turn_rad > 0.0 && std::abs(to_side_rad) < std::abs(turn_rad);
+        if (passes) bounds.add(about + from.norm() * side);
+      }
+    }
+  }
+  return bounds.are_on(map);
+}
+
+Pose2 in_grid(const OccupancyMap& map, const Pose2& pose) {
+  return inverse(map.map_from_grid) * pose;
 }
 
 }  // namespace
 
 Footprint::Footprint(std::vector<Vec2> corners_m) : corners_m_(std::move(corners_m)) {
-  const std::size_t count = corners_m_.size();
-  if (count < 3) throw InputError(fmt::format("footprint: found {} corners, wanted at least 3", count));
-  double turned_rad = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec2 in = corners_m_[(i + 1) % count] - corners_m_[i];
-    const Vec2 out = corners_m_[(i + 2) % count] - corners_m_[(i + 1) % count];
-    if (!(cross(in, out) > 0.0)) {
-      throw InputError(fmt::format(
-          "footprint: found no left turn at corner {}, wanted a convex polygon, counter-clockwise",
-          (i + 1) % count + 1));
-    }
-    turned_rad += std::atan2(cross(in, out), in.dot(out));
-  }
-  constexpr double once_rad = 2.0 * std::numbers::pi + 1e-6;
-  if (turned_rad > once_rad) throw InputError("footprint: found corners that go around twice, wanted once");
+  if (corners_m_.size() < 3)
+    throw InputError(fmt::format("footprint: found {} corners, wanted at least 3", corners_m_.size()));
+  if (!is_simple(corners_m_))
+    throw InputError(
+        "footprint: found corners that go clockwise, or edges that touch or cross, wanted a simple polygon, "
+        "counter-clockwise");
+  pieces_m_ = convex_pieces(corners_m_);
 }
 
 double Footprint::outer_radius_m() const {
@@ -107,47 +132,87 @@ double Footprint::outer_radius_m() const {
   return radius_m;
 }
 
+double Footprint::inner_radius_m() const {
+  double radius_m = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (std::size_t i = 0; i < corners_m_.size(); ++i) {
+    const Vec2& a = corners_m_[i];
+    const Vec2& b = corners_m_[(i + 1) % corners_m_.size()];
+    const Vec2 edge = b - a;
+    const double along = std::clamp(-a.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    radius_m = std::min(radius_m, (a + along * edge).norm());
+    // A ray from the origin along x crosses the outline an odd number of times when it begins inside.
+    const bool crosses = (a.y() > 0.0) != (b.y() > 0.0) && a.x() - a.y() * edge.x() / edge.y() > 0.0;
+    if (crosses) inside = !inside;
+  }
+  return inside ? radius_m : 0.0;
+}
+
 bool Footprint::is_clear(const OccupancyMap& map, const Pose2& pose) const {
-  return is_clear_polygon(map, outline_in_grid(map, corners_m_, pose), 0.0);
+  return are_clear(map, placed(pieces_m_, in_grid(map, pose), map.resolution_m));
 }
 
 bool Footprint::is_clear_driving(const OccupancyMap& map, const Pose2& from, const Vec2& to_m) const {
-  std::vector<Vec2> ends = outline_in_grid(map, corners_m_, from);
-  const std::vector<Vec2> there = outline_in_grid(map, corners_m_, {to_m, from.yaw_rad});
-  ends.insert(ends.end(), there.begin(), there.end());
-  if (!ends.front().allFinite() || !ends.back().allFinite()) return false;
-  return is_clear_polygon(map, hull_of(std::move(ends)), 0.0);
+  const Pose2 start = in_grid(map, from);
+  const Vec2 goal_m = inverse(map.map_from_grid) * to_m;
+  if (!start.position_m.allFinite() || !std::isfinite(start.yaw_rad) || !goal_m.allFinite()) return false;
+  return are_clear(
+      map, swept(placed(pieces_m_, start, map.resolution_m), (goal_m - start.position_m) / map.resolution_m));
 }
 
 bool Footprint::is_clear_turning(const OccupancyMap& map, const Pose2& from, double to_rad) const {
-  constexpr double step_cells = 0.1;
   const double turn_rad = wrap_angle(to_rad - from.yaw_rad);
   if (!std::isfinite(turn_rad)) return false;
-  const double travel_cells = std::abs(turn_rad) * outer_radius_m() / map.resolution_m;
-  const int steps = std::max(1, static_cast<int>(std::ceil(travel_cells / step_cells)));
-  // Between two steps no point is farther than half a step from where it is in one of them.
-  const double margin = travel_cells > 0.0 ? 0.5 * step_cells : 0.0;
-  for (int i = 0; i <= steps; ++i) {
-    const Pose2 pose{from.position_m, from.yaw_rad + turn_rad * i / steps};
-    if (!is_clear_polygon(map, outline_in_grid(map, corners_m_, pose), margin)) return false;
-  }
-  return true;
+  const Pose2 start = in_grid(map, from);
+  const std::vector<Polygon> pieces = placed(pieces_m_, start, map.resolution_m);
+  const Vec2 about = start.position_m / map.resolution_m;
+  if (!about.allFinite() || !turn_stays_on(map, pieces, about, turn_rad)) return false;
+  return all_within(bounds_of_circle(about, outer_radius_m() / map.resolution_m), [&](Cell cell) {
+    return !map.contains(cell) || is_drivable(map.at(cell)) ||
+           !any_overlaps_turning(pieces, about, turn_rad, cell);
+  });
 }
 
-bool Footprint::is_clear_along(const OccupancyMap& map, const Path& path, double start_heading_rad,
+bool Footprint::is_clear_along(const OccupancyMap& map, const Path& path,
+                               std::optional<double> start_heading_rad,
                                std::optional<double> final_heading_rad) const {
   if (path.waypoints_m.empty()) return true;
-  Pose2 pose{path.waypoints_m.front(), start_heading_rad};
+  Vec2 at_m = path.waypoints_m.front();
+  std::optional<double> yaw_rad = start_heading_rad;
   for (const Vec2& next : path.waypoints_m) {
-    const Vec2 leg = next - pose.position_m;
+    const Vec2 leg = next - at_m;
     if (leg.isZero()) continue;
     const double heading_rad = std::atan2(leg.y(), leg.x());
-    if (!is_clear_turning(map, pose, heading_rad)) return false;
-    pose.yaw_rad = heading_rad;
-    if (!is_clear_driving(map, pose, next)) return false;
-    pose.position_m = next;
+    if (yaw_rad && !is_clear_turning(map, {at_m, *yaw_rad}, heading_rad)) return false;
+    if (!is_clear_driving(map, {at_m, heading_rad}, next)) return false;
+    yaw_rad = heading_rad;
+    at_m = next;
   }
-  return is_clear_turning(map, pose, final_heading_rad.value_or(pose.yaw_rad));
+  if (!yaw_rad) yaw_rad = final_heading_rad;
+  return !yaw_rad || is_clear_turning(map, {at_m, *yaw_rad}, final_heading_rad.value_or(*yaw_rad));
+}
+
+std::vector<Cell> Footprint::cells_driving(double resolution_m, double heading_rad, Cell to) const {
+  const Vec2 center = Vec2::Constant(0.5);
+  const std::vector<Polygon> pieces =
+      swept(placed(pieces_m_, {center * resolution_m, heading_rad}, resolution_m), Vec2(to.column, to.row));
+  std::vector<Cell> cells;
+  (void)all_within(bounds_of(pieces), [&](Cell cell) {
+    if (any_overlaps(pieces, cell)) cells.push_back(cell);
+    return true;
+  });
+  return cells;
+}
+
+std::vector<Cell> Footprint::cells_turning(double resolution_m, double heading_rad, double turn_rad) const {
+  const Vec2 center = Vec2::Constant(0.5);
+  const std::vector<Polygon> pieces = placed(pieces_m_, {center * resolution_m, heading_rad}, resolution_m);
+  std::vector<Cell> cells;
+  (void)all_within(bounds_of_circle(center, outer_radius_m() / resolution_m), [&](Cell cell) {
+    if (any_overlaps_turning(pieces, center, turn_rad, cell)) cells.push_back(cell);
+    return true;
+  });
+  return cells;
 }
 
 }  // namespace lodestar

@@ -9,6 +9,7 @@
 #include "planning/corners.hpp"
 #include "planning/grid_search.hpp"
 #include "planning/jump_search.hpp"
+#include "planning/outline_planner.hpp"
 #include "planning/path_refining.hpp"
 #include "planning/path_shortening.hpp"
 #include "planning/turn_search.hpp"
@@ -22,26 +23,6 @@ Cell cell_of(const Vec2& point_in_grid) {
 
 Vec2 center_of(Cell cell) {
   return {cell.column + 0.5, cell.row + 0.5};
-}
-
-struct KindName {
-  PlannerKind kind;
-  std::string_view name;
-  std::optional<SamplingMethod> sampling;
-};
-constexpr std::array<KindName, 8> kinds{{
-    {PlannerKind::astar, "astar", std::nullopt},
-    {PlannerKind::anyangle, "anyangle", std::nullopt},
-    {PlannerKind::fastest, "fastest", std::nullopt},
-    {PlannerKind::rrtstar, "rrtstar", SamplingMethod::rrtstar},
-    {PlannerKind::informedrrtstar, "informedrrtstar", SamplingMethod::informedrrtstar},
-    {PlannerKind::bitstar, "bitstar", SamplingMethod::bitstar},
-    {PlannerKind::abitstar, "abitstar", SamplingMethod::abitstar},
-    {PlannerKind::prmstar, "prmstar", SamplingMethod::prmstar},
-}};
-
-const KindName& named(PlannerKind kind) {
-  return *std::ranges::find(kinds, kind, &KindName::kind);
 }
 
 /// Every leg as far along the points as it is clear.
@@ -67,22 +48,6 @@ bool leads_over_drivable(const OccupancyMap& map, const Vec2& from, const Vec2& 
 
 }  // namespace
 
-std::string_view to_string(PlannerKind kind) {
-  return named(kind).name;
-}
-
-std::optional<PlannerKind> planner_kind(std::string_view name) {
-  const auto* found = std::ranges::find(kinds, name, &KindName::name);
-  if (found == kinds.end()) return std::nullopt;
-  return found->kind;
-}
-
-std::vector<PlannerKind> all_planner_kinds() {
-  std::vector<PlannerKind> all;
-  for (const KindName& each : kinds) all.push_back(each.kind);
-  return all;
-}
-
 std::string_view to_string(PlanFailure failure) {
   switch (failure) {
     case PlanFailure::start_outside_map:
@@ -95,6 +60,8 @@ std::string_view to_string(PlanFailure failure) {
       return "goal occupied";
     case PlanFailure::no_path:
       return "no path to the goal";
+    case PlanFailure::unsure:
+      return "no path on which the pose stays sure enough";
     case PlanFailure::limit_reached:
       return "no path found within the limits";
   }
@@ -110,10 +77,15 @@ struct GridPlanner::Searches {
   std::optional<JumpSearch<JumpTable>> shortest;  ///< on the grid
   std::optional<GridSearch> cheapest;             ///< on the grid, when cells cost differently
   std::optional<TurnSearch> turns;
+  std::optional<SureWay> sure;
 };
 
 GridPlanner::GridPlanner(const OccupancyMap& map, const GridPlannerOptions& options)
     : map_(map), options_(options), searches_(std::make_unique<Searches>(map_, options.radius_m)) {
+  if (options_.footprint) {
+    outline_ = std::make_unique<OutlinePlanner>(map_, *options_.footprint, options_);
+    return;
+  }
   weigh_cells();
   prepare_searches();
 }
@@ -136,7 +108,8 @@ void GridPlanner::weigh_cells() {
 
 void GridPlanner::prepare_searches() {
   Searches& searches = *searches_;
-  if (named(options_.kind).sampling) return;
+  if (options_.pose_keeping) searches.sure.emplace(searches.space, costs_, *options_.pose_keeping);
+  if (sampling_method(options_.kind)) return;
   if (costs_.empty()) {
     searches.jumps.emplace(searches.space);
     searches.shortest.emplace(*searches.jumps);
@@ -161,6 +134,7 @@ Vec2 GridPlanner::in_map(const Vec2& point_in_grid) const {
 }
 
 bool GridPlanner::is_clear(const Vec2& from_m, const Vec2& to_m) const {
+  if (outline_) return outline_->is_clear(from_m, to_m);
   return searches_->space.along(in_grid(from_m), in_grid(to_m));
 }
 
@@ -227,13 +201,16 @@ std::variant<GridPlanner::Ends, PlanFailure> GridPlanner::ends_of(const Vec2& st
 }
 
 PlanResult GridPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const PlanHeadings& headings) const {
+  if (outline_) return outline_->plan(start_m, goal_m, headings);
   const std::variant<Ends, PlanFailure> checked = ends_of(start_m, goal_m);
   if (const auto* failure = std::get_if<PlanFailure>(&checked)) return *failure;
   const Ends& ends = std::get<Ends>(checked);
   Plan plan;
   if (!ends.starts_clear) plan.path.waypoints_m.push_back(start_m);
-  const std::optional<std::vector<Vec2>> points = legs_between(ends, headings, plan.expanded);
+  std::optional<std::vector<Vec2>> points = legs_between(ends, headings, plan.expanded);
   if (!points) return PlanFailure::limit_reached;
+  if (searches_->sure && !searches_->sure->holds(*points)) points = sure_legs(ends, plan.expanded);
+  if (!points) return PlanFailure::unsure;
   for (const Vec2& point : *points) plan.path.waypoints_m.push_back(in_map(point));
   plan.path.waypoints_m.front() = start_m;  // to the last bit what was asked for
   plan.path.waypoints_m.back() = goal_m;
@@ -243,20 +220,32 @@ PlanResult GridPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const Plan
 /// By the chosen method; nothing only when a sampling planner gives up.
 std::optional<std::vector<Vec2>> GridPlanner::legs_between(const Ends& ends, const PlanHeadings& headings,
                                                            std::size_t& expanded) const {
-  if (named(options_.kind).sampling) return sampled_legs(ends, expanded);
+  if (sampling_method(options_.kind)) return sampled_legs(ends, expanded);
   if (options_.kind == PlannerKind::astar) return few_legs(ends, expanded);
   return cheapest_legs(ends, headings, expanded);
+}
+
+std::vector<Vec2> GridPlanner::points_over(std::span<const Cell> cells, const Ends& ends) {
+  std::vector<Vec2> points;
+  if (ends.starts_clear) points.push_back(ends.start);
+  for (const Cell cell : cells) points.push_back(center_of(cell));
+  points.push_back(ends.goal);
+  return points;
 }
 
 /// The shortest way over the grid's cells from start to goal. There is one: both are in the same region.
 std::vector<Vec2> GridPlanner::jump_path(const Ends& ends, std::size_t& expanded) const {
   const JumpPath found = searches_->shortest->find(ends.first, ends.last).value();
   expanded += found.expanded;
-  std::vector<Vec2> points;
-  if (ends.starts_clear) points.push_back(ends.start);
-  for (const Cell cell : found.turns) points.push_back(center_of(cell));
-  points.push_back(ends.goal);
-  return points;
+  return points_over(found.turns, ends);
+}
+
+std::optional<std::vector<Vec2>> GridPlanner::sure_legs(const Ends& ends, std::size_t& expanded) const {
+  const Vec2 start = ends.starts_clear ? ends.start : center_of(ends.first);
+  const std::optional<GridPath> found = searches_->sure->find(start, ends.first, ends.last, ends.goal);
+  if (!found) return std::nullopt;
+  expanded += found->expanded;
+  return searches_->sure->shortened(points_over(found->cells, ends), options_.turn_cost_m);
 }
 
 std::vector<Vec2> GridPlanner::few_legs(const Ends& ends, std::size_t& expanded) const {
@@ -266,9 +255,7 @@ std::vector<Vec2> GridPlanner::few_legs(const Ends& ends, std::size_t& expanded)
   } else {
     const GridPath found = searches_->cheapest->find(ends.first, ends.last).value();
     expanded += found.expanded;
-    if (ends.starts_clear) points.push_back(ends.start);
-    for (const Cell cell : found.cells) points.push_back(center_of(cell));
-    points.push_back(ends.goal);
+    points = points_over(found.cells, ends);
   }
   const PathCost cost(map_, costs_, std::nullopt);
   return shortened(points, searches_->space, cost, options_.turn_cost_m);
@@ -298,7 +285,7 @@ std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeading
 std::optional<std::vector<Vec2>> GridPlanner::sampled_legs(const Ends& ends, std::size_t& expanded) const {
   const ClearSpace& space = searches_->space;
   const std::optional<SampledPath> found = search_by_sampling(
-      named(options_.kind).sampling.value(), space, ends.starts_clear ? ends.start : center_of(ends.first),
+      sampling_method(options_.kind).value(), space, ends.starts_clear ? ends.start : center_of(ends.first),
       ends.goal, options_.sampling);
   if (!found) return std::nullopt;
   expanded += found->iterations;
@@ -306,6 +293,7 @@ std::optional<std::vector<Vec2>> GridPlanner::sampled_legs(const Ends& ends, std
 }
 
 std::optional<Vec2> GridPlanner::nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const {
+  if (outline_) return outline_->nearest_reachable(start_m, goal_m);
   const Vec2 start = in_grid(start_m);
   if (!start.allFinite() || !goal_m.allFinite() || !map_.contains(map_.cell_at(start_m))) return std::nullopt;
   const ClearSpace& space = searches_->space;

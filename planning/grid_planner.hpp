@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -11,37 +12,27 @@
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
 #include "maps/travel_time.hpp"
-#include "planning/sampling_search.hpp"
+#include "planning/footprint.hpp"
+#include "planning/planner_kind.hpp"
+#include "planning/sure_way.hpp"
 
 namespace lodestar {
 
-/// By which method a path is found; docs/planning.md says which one when.
-enum class PlannerKind {
-  astar,     ///< the shortest (or, with clearance, cheapest) 8-connected path, then shortened to few straight
-             ///< legs
-  anyangle,  ///< the shortest path of straight legs
-  fastest,   ///< the path on which a robot that turns on the spot and drives straight arrives first
-  rrtstar,   ///< and all below: sampling planners of OMPL, their path shortened as that of astar
-  informedrrtstar,
-  bitstar,
-  abitstar,
-  prmstar
-};
-
-/// The name on the command line and back; nothing for a name that is none.
-std::string_view to_string(PlannerKind kind);
-std::optional<PlannerKind> planner_kind(std::string_view name);
-std::vector<PlannerKind> all_planner_kinds();
+class OutlinePlanner;
 
 struct GridPlannerOptions {
   PlannerKind kind = PlannerKind::astar;
   double radius_m = 0.25;  ///< of the robot's body; its disc never overlaps a cell that is not drivable
+  std::optional<Footprint> footprint;  ///< when given, planned for instead of the disc
   double preferred_clearance_m =
       0.15;                       ///< beyond the radius, cells nearer than this to an obstacle cost more
   double clearance_weight = 1.0;  ///< how much more: up to (1 + weight) times at the very edge; 0: shortest
   double turn_cost_m = 0.2;  ///< of `astar`: the way that a turn is worth to a robot that stops to rotate
   MotionLimits limits;       ///< of `fastest`
   SamplingOptions sampling;  ///< of the planners of OMPL
+  /// When given, a path on which the robot would grow less sure of its position than this allows is not
+  /// taken: then the shortest 8-connected one that keeps to it, shortened as far as it still does.
+  std::optional<PoseKeeping> pose_keeping;
 };
 
 enum class PlanFailure {
@@ -50,6 +41,7 @@ enum class PlanFailure {
   start_occupied,
   goal_occupied,
   no_path,       ///< there is none
+  unsure,        ///< there are some, but on each the pose grows less sure than PoseKeeping allows
   limit_reached  ///< a sampling planner found none within its limits, though there is one
 };
 
@@ -84,7 +76,7 @@ class GridPlanner {
   [[nodiscard]] PlanResult plan(const Vec2& start_m, const Vec2& goal_m,
                                 const PlanHeadings& headings = {}) const;
 
-  /// Can the robot's centre travel this straight leg without its disc overlapping anything?
+  /// Can the robot's centre travel this straight leg without its disc, or outline, overlapping anything?
   [[nodiscard]] bool is_clear(const Vec2& from_m, const Vec2& to_m) const;
 
   /// The place nearest to a goal, a cell's centre, that can be reached from the start; nothing when the robot
@@ -110,10 +102,12 @@ class GridPlanner {
   [[nodiscard]] std::optional<Cell> way_out(const Vec2& start_in_grid) const;
   [[nodiscard]] std::optional<std::vector<Vec2>> legs_between(const Ends& ends, const PlanHeadings& headings,
                                                               std::size_t& expanded) const;
+  [[nodiscard]] std::optional<std::vector<Vec2>> sure_legs(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> few_legs(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> cheapest_legs(const Ends& ends, const PlanHeadings& headings,
                                                 std::size_t& expanded) const;
   [[nodiscard]] std::optional<std::vector<Vec2>> sampled_legs(const Ends& ends, std::size_t& expanded) const;
+  [[nodiscard]] static std::vector<Vec2> points_over(std::span<const Cell> cells, const Ends& ends);
   [[nodiscard]] std::vector<Vec2> jump_path(const Ends& ends, std::size_t& expanded) const;
   void weigh_cells();
   void prepare_searches();
@@ -122,6 +116,7 @@ class GridPlanner {
   GridPlannerOptions options_;
   std::vector<float> costs_;  ///< of cells; empty: all alike
   std::unique_ptr<Searches> searches_;
+  std::unique_ptr<OutlinePlanner> outline_;  ///< answers instead when there is an outline
 };
 
 }  // namespace lodestar

@@ -13,8 +13,9 @@ bool goes_straight(const Vec2& before, const Vec2& at, const Vec2& after) {
   return std::abs(a.x() * b.y() - a.y() * b.x()) < 1e-9 && a.dot(b) > 0.0;
 }
 
-/// The points at which a leg may begin or end: the turns, and some between them on long straights.
-std::vector<Vec2> candidates(const std::vector<Vec2>& points) {
+}  // namespace
+
+std::vector<Vec2> leg_ends(const std::vector<Vec2>& points) {
   constexpr double spacing_cells = 6.0;
   std::vector<Vec2> chosen{points.front()};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -25,12 +26,10 @@ std::vector<Vec2> candidates(const std::vector<Vec2>& points) {
   return chosen;
 }
 
-}  // namespace
-
 std::vector<Vec2> shortened(const std::vector<Vec2>& points, const ClearSpace& space, const PathCost& cost,
                             double turn_cost_m) {
   if (points.size() < 3) return points;
-  const std::vector<Vec2> at = candidates(points);
+  const std::vector<Vec2> at = leg_ends(points);
   std::vector<double> best(at.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> came_from(at.size(), 0);
   best[0] = 0.0;

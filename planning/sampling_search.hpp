@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planning/clear_space.hpp"
+#include "planning/outline_space.hpp"
 
 namespace lodestar {
 
@@ -32,5 +33,13 @@ struct SampledPath {
 std::optional<SampledPath> search_by_sampling(SamplingMethod method, const ClearSpace& space,
                                               const Vec2& start, const Vec2& goal,
                                               const SamplingOptions& options);
+
+/// The same for a robot with an outline, in SE(2): from state to state it turns to the leg, drives, and turns
+/// to the heading of the state, each checked exactly. Where no heading is given, the start looks towards the
+/// goal or as nearly so as fits, and the goal has eight to choose from. The points are of a path that fits
+/// when the robot turns from leg to leg without the headings between.
+std::optional<SampledPath> search_by_sampling(SamplingMethod method, const OutlineSpace& space,
+                                              const Vec2& start, const Vec2& goal,
+                                              const EndHeadings& headings, const SamplingOptions& options);
 
 }  // namespace lodestar

@@ -57,6 +57,14 @@ class TurnSearch {
     std::uint32_t parent = 0;
     bool looked_at = false;  ///< the leg is known to be clear, and what it costs
   };
+  /// The place that is expanded, and what the ways on from there are compared with.
+  struct Expanded {
+    Vec2 position = Vec2::Zero();
+    Vec2 arrival = Vec2::Zero();  ///< the leg to it
+    Vec2 to_corner = Vec2::Zero();
+    double corner_side = 0.0;  ///< of the arrival: cross product with the way to the corner
+    std::uint32_t turn_point = none;
+  };
   struct Later;
   enum class Sight : std::uint8_t { unknown, clear, blocked };
 
@@ -68,7 +76,8 @@ class TurnSearch {
   void expand(std::uint32_t label);
   void consider(std::uint32_t label, std::uint32_t candidate);
   void push(const Open& open);
-  [[nodiscard]] bool turns_around_its_corner(const Label& label, const Vec2& way) const;
+  [[nodiscard]] bool turns_around_its_corner(const Vec2& way) const;
+  [[nodiscard]] Sight known_sight(std::uint32_t from_turn_point, std::uint32_t to_turn_point) const;
   [[nodiscard]] bool is_dominated(const Open& open) const;
   [[nodiscard]] double least_rest(const Candidate& candidate, double heading_rad) const;
   bool goes_on(Open& open);
@@ -87,6 +96,7 @@ class TurnSearch {
   std::vector<Candidate> candidates_;  ///< the goal first
   std::vector<Label> labels_;
   std::vector<Open> open_;
+  Expanded from_;
 };
 
 }  // namespace lodestar

@@ -9,7 +9,7 @@
 #include "app/commands/command.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/report/figure.hpp"
-#include "app/visibility.hpp"
+#include "app/visibility_figure.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/octomap_file.hpp"
@@ -45,8 +45,9 @@ bool is_octomap(const std::filesystem::path& file) {
 }
 
 nlohmann::ordered_json octomap_summary(const std::filesystem::path& file) {
-  const OctomapInfo info = octomap_info(file);
-  const std::optional<double> floor_m = octomap_floor_m(file);
+  const Octomap octomap(file);
+  const OctomapInfo info = octomap.info();
+  const std::optional<double> floor_m = octomap.floor_m();
   return {{"kind", "octomap"},
           {"resolution_m", info.resolution_m},
           {"leaves_occupied", info.leaves_occupied},
@@ -91,8 +92,8 @@ ExitCode info(const MapArguments& arguments) {
 }
 
 /// The slab's heights as given, or above the floor that the OctoMap shows.
-std::pair<double, double> slab_m(const MapArguments& arguments) {
-  const std::optional<double> floor_m = octomap_floor_m(arguments.file);
+std::pair<double, double> slab_m(const Octomap& octomap, const MapArguments& arguments) {
+  const std::optional<double> floor_m = octomap.floor_m();
   if (arguments.z_min_m) {
     if (floor_m && *arguments.z_min_m < *floor_m) {
       fmt::print(
@@ -112,25 +113,22 @@ std::pair<double, double> slab_m(const MapArguments& arguments) {
 }
 
 ExitCode slice(const MapArguments& arguments) {
-  const auto [z_min_m, z_max_m] = slab_m(arguments);
-  save_map(octomap_slice(arguments.file, z_min_m, z_max_m), arguments.output);
+  const Octomap octomap(arguments.file);
+  const auto [z_min_m, z_max_m] = slab_m(octomap, arguments);
+  save_map(octomap.slice(z_min_m, z_max_m), arguments.output);
   return done;
 }
 
 VisibilityOptions visibility_options(const VisibilityArguments& arguments) {
   VisibilityOptions options;
-  options.headings = arguments.headings;
-  PosePrior& prior = options.fix.prior;
   if (arguments.mount.empty()) {
     options.base_from_camera.translation().z() = arguments.camera_height_m;
-    prior.tilt_sigma_rad = 0.0;
+    options.fix.prior.tilt_sigma_rad = 0.0;
+    options.fix.prior.height_m = arguments.camera_height_m;
   } else {
-    const Robot robot = load_robot(arguments.mount);
-    options.base_from_camera = robot.base_from_camera;
-    options.robot_radius_m = robot.radius_m;
-    prior = pose_prior(robot);
+    options = visibility_options(load_robot(arguments.mount));
   }
-  prior.height_m = options.base_from_camera.translation().z();
+  options.headings = arguments.headings;
   options.robot_radius_m = arguments.radius_m.value_or(options.robot_radius_m);
   return options;
 }

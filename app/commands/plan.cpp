@@ -6,6 +6,8 @@
 #include "app/arguments.hpp"
 #include "app/commands/command.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/navigation_setup.hpp"
+#include "app/pose_keeping.hpp"
 #include "app/report/figure.hpp"
 #include "app/stopwatch.hpp"
 #include "maps/input_error.hpp"
@@ -19,12 +21,16 @@ namespace {
 struct PlanArguments {
   std::string map;
   std::string markers;
+  std::string camera;
+  std::string mount;
+  std::string robot;
   std::string start;
   std::string goal;
   std::string planner = "fastest";
   std::string format = "text";
   std::string draw;
   GridPlannerOptions options{.clearance_weight = 0.0};
+  PoseKeepingOptions pose_keeping;
 };
 
 struct TimedPlan {
@@ -45,7 +51,7 @@ std::size_t turns_in(const Path& path) {
 }
 
 nlohmann::ordered_json as_json(const TimedPlan& timed, const std::string& planner, const Goal& start,
-                               const Goal& goal) {
+                               const Goal& goal, const MotionLimits& limits) {
   if (const auto* failure = std::get_if<PlanFailure>(&timed.result)) {
     return {{"status", to_string(*failure)}, {"planner", planner},
             {"length_m", nullptr},           {"turns", nullptr},
@@ -59,7 +65,7 @@ nlohmann::ordered_json as_json(const TimedPlan& timed, const std::string& planne
           {"planner", planner},
           {"length_m", length_m(plan.path)},
           {"turns", turns_in(plan.path)},
-          {"travel_time_s", travel_time_s(plan.path, start.heading_rad, goal.heading_rad, MotionLimits{})},
+          {"travel_time_s", travel_time_s(plan.path, start.heading_rad, goal.heading_rad, limits)},
           {"plan_us", timed.microseconds},
           {"expanded", plan.expanded},
           {"waypoints", waypoints}};
@@ -92,18 +98,35 @@ void offer_nearest(const GridPlanner& planner, const Goal& start, const Goal& go
              nearest->x(), nearest->y(), (*nearest - goal.position_m).norm());
 }
 
+/// What the robot sees from each cell, when the drive shall depend on it.
+std::optional<Visibility> visibility_for(const PlanArguments& arguments, const OccupancyMap& map,
+                                         const MarkerRegistry& registry) {
+  if (!arguments.pose_keeping.wanted()) return std::nullopt;
+  return view_on_drives(map, registry, load_camera(arguments.camera),
+                        visibility_options(load_robot(arguments.mount)), arguments.options.radius_m);
+}
+
 ExitCode plan(PlanArguments arguments) {
   const Goal start = parse_goal("--start", arguments.start);
   const Goal goal = parse_goal("--goal", arguments.goal);
   arguments.options.kind = planner_kind(arguments.planner).value();
+  if (!arguments.robot.empty()) {
+    const GridPlannerOptions robot = navigation_options(load_robot(arguments.robot)).planner;
+    arguments.options.radius_m = robot.radius_m;
+    arguments.options.footprint = robot.footprint;
+    arguments.options.limits = robot.limits;
+  }
   const LoadedMap loaded = load_map(arguments.map);
   warn(loaded);
   MarkerRegistry registry;
   if (!arguments.markers.empty()) registry = load_registry(arguments.markers);
+  const std::optional<Visibility> visibility = visibility_for(arguments, loaded.map, registry);
+  if (visibility) arguments.options.pose_keeping = pose_keeping(*visibility, arguments.pose_keeping);
 
   const GridPlanner planner(loaded.map, arguments.options);
   const TimedPlan timed = timed_plan(planner, start, goal);
-  const nlohmann::ordered_json summary = as_json(timed, arguments.planner, start, goal);
+  const nlohmann::ordered_json summary =
+      as_json(timed, arguments.planner, start, goal, arguments.options.limits);
   if (arguments.format == "json") {
     fmt::print("{}\n", summary.dump(2));
   } else {
@@ -112,11 +135,12 @@ ExitCode plan(PlanArguments arguments) {
   const auto* found = std::get_if<Plan>(&timed.result);
   if (!arguments.draw.empty()) {
     write_png(arguments.draw, draw_plan(loaded.map, registry, start.position_m, goal.position_m,
-                                        found ? found->path : Path{}));
+                                        found ? found->path : Path{}, visibility ? &*visibility : nullptr));
   }
   if (found) return done;
   const PlanFailure failure = std::get<PlanFailure>(timed.result);
-  if (failure != PlanFailure::limit_reached) offer_nearest(planner, start, goal);
+  if (failure != PlanFailure::limit_reached && failure != PlanFailure::unsure)
+    offer_nearest(planner, start, goal);
   return job_failed;
 }
 
@@ -126,7 +150,15 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<PlanArguments>();
   CLI::App* command = lodestar.add_subcommand("plan", "Plan a drive over a map; exit 1 when there is no way");
   command->add_option("--map", arguments->map, "Occupancy map, ROS map_server YAML")->required();
-  command->add_option("--markers", arguments->markers, "Marker registry, for the picture");
+  command->add_option("--markers", arguments->markers,
+                      "Marker registry, for the picture and what is in view");
+  command->add_option("--camera", arguments->camera, "Camera file, for what is in view");
+  command->add_option("--mount", arguments->mount, "robot.yaml: where the camera sits, for what is in view");
+  add_pose_keeping_options(*command, arguments->pose_keeping);
+  for (const char* option : {"--max-sigma", "--keep-markers"}) {
+    for (const char* needed : {"--markers", "--camera", "--mount"})
+      command->get_option(option)->needs(command->get_option(needed));
+  }
   command->add_option("--start", arguments->start, "X,Y[,DEG] in metres and degrees in the map frame")
       ->required();
   command->add_option("--goal", arguments->goal, "X,Y[,DEG] in metres and degrees in the map frame")
@@ -141,9 +173,13 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
       ->check(CLI::Range(1, 2147483647))
       ->capture_default_str();
   add_sampling_options(*command, arguments->options.sampling);
-  command->add_option("--radius", arguments->options.radius_m, "Robot radius in metres")
-      ->check(CLI::Range(0.0, 10.0))
-      ->capture_default_str();
+  CLI::Option* radius =
+      command->add_option("--radius", arguments->options.radius_m, "Robot radius in metres");
+  radius->check(CLI::Range(0.0, 10.0))->capture_default_str();
+  command
+      ->add_option("--robot", arguments->robot,
+                   "robot.yaml instead: its radius, or outline if it has one, and its limits")
+      ->excludes(radius);
   command
       ->add_option("--clearance-weight", arguments->options.clearance_weight,
                    "How much more a way close to obstacles costs; 0 finds the shortest")

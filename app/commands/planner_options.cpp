@@ -1,11 +1,44 @@
 #include "app/commands/planner_options.hpp"
 
+#include <fmt/format.h>
+
 namespace lodestar {
 
 std::vector<std::string> planner_names() {
   std::vector<std::string> names;
   for (const PlannerKind kind : all_planner_kinds()) names.emplace_back(to_string(kind));
   return names;
+}
+
+void add_pose_keeping_options(CLI::App& command, PoseKeepingOptions& keeping) {
+  CLI::Option* sigma = command.add_option("--max-sigma", keeping.max_sigma_m,
+                                          "Only ways on which the predicted standard deviation of the "
+                                          "position stays below this, in metres");
+  sigma->check(CLI::Range(1e-4, 10.0));
+  command
+      .add_option("--drift", keeping.drift_m_per_m,
+                  "With --max-sigma: metres by which it grows with every metre between fixes")
+      ->check(CLI::Range(0.0, 1.0))
+      ->needs(sigma)
+      ->capture_default_str();
+  CLI::Option* markers = command.add_option(
+      "--keep-markers", keeping.markers_in_view,
+      "Instead: only ways on which at least so many markers are in view, whatever the heading");
+  markers->check(CLI::Range(1, 100))->excludes(sigma);
+  command
+      .add_option("--blind-way", keeping.blind_way_m,
+                  "With --keep-markers: but for stretches no longer than this, in metres")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->needs(markers)
+      ->capture_default_str();
+}
+
+std::string words_of(const PoseKeepingOptions& keeping) {
+  if (keeping.max_sigma_m)
+    return fmt::format(" --max-sigma {} --drift {}", *keeping.max_sigma_m, keeping.drift_m_per_m);
+  if (keeping.markers_in_view)
+    return fmt::format(" --keep-markers {} --blind-way {}", *keeping.markers_in_view, keeping.blind_way_m);
+  return "";
 }
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {

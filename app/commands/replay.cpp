@@ -34,6 +34,7 @@ struct ReplayArguments {
   std::string planner = "fastest";
   std::vector<std::string> goals;
   std::optional<double> pictures_hz;
+  PoseKeepingOptions pose_keeping;
   bool realtime = false;
   bool quiet = false;
   bool json = false;
@@ -53,11 +54,17 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
                         .seed = arguments.seed,
                         .goals = site.goals,
                         .planner = planner_kind(arguments.planner).value(),
+                        .pose_keeping = std::nullopt,
                         .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                         .realtime = arguments.realtime};
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
                      "--camera to name one of its cameras");
+  }
+  if (arguments.pose_keeping.wanted()) {
+    const Visibility view = view_on_drives(site.map.map, site.registry, site.cameras.at(options.camera),
+                                           visibility_options(site.robot), site.robot.radius_m);
+    options.pose_keeping = pose_keeping(view, arguments.pose_keeping);
   }
   if (arguments.goals.empty()) return options;
   options.goals.clear();
@@ -66,10 +73,12 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
 }
 
 /// The command line that gives the same run, and so the same bytes.
-std::string repeat_command(const std::string& site, const ReplayOptions& options) {
+std::string repeat_command(const ReplayArguments& arguments, const ReplayOptions& options) {
+  const std::string& site = arguments.site;
   std::string command =
       fmt::format("lodestar replay{} --seed {} --camera {} --planner {}", site.empty() ? "" : " " + site,
                   options.seed, options.camera, to_string(options.planner));
+  command += words_of(arguments.pose_keeping);
   for (const Goal& goal : options.goals) {
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
@@ -180,18 +189,19 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     record = replay(site, options);
     mcap.add_truth(record);
   }
-  record.repeat = repeat_command(arguments.site, options);
-  write_run_folder(folder, record, site.map.map, site.registry);
+  record.repeat = repeat_command(arguments, options);
+  const bool written = leave_run_folder(folder, record, site.map.map, site.registry);
   const RunSummary summary = summarize(record);
   if (arguments.json) {
     fmt::print("{}\n", as_json(summary).dump(2));
   } else {
     print_goals(record);
     fmt::print("seed {}: {} contacts, 95 % of the track within {:.1f} mm of the path; run folder: {}\n",
-               record.seed, record.contacts, 1000.0 * summary.path_p95_m, folder.string());
+               record.seed, record.contacts, 1000.0 * summary.path_p95_m,
+               written ? folder.string() : "not written");
   }
   fmt::print(stderr, "{:.1f} s driven in {:.1f} s\n", summary.drive_s, summary.wall_s);
-  return succeeded(summary) ? done : job_failed;
+  return succeeded(summary) && written ? done : job_failed;
 }
 
 /// In a browser too, until Ctrl-C: what it drives, and where to next.
@@ -215,7 +225,7 @@ ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArgu
       site, options, attendant, [] { return !Interruption::asked(); },
       [&](RunRecord record) {
         all_arrived = all_arrived && record.arrived();
-        if (runs.count() == 0) record.repeat = repeat_command(arguments.site, options);
+        if (runs.count() == 0) record.repeat = repeat_command(arguments, options);
         runs.keep(std::move(record));
       });
   return all_arrived ? done : job_failed;
@@ -257,6 +267,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->add_option("--pictures", arguments->pictures_hz,
                    "Camera pictures a second to keep in the run folder; 2 with --serve, else none")
       ->check(CLI::Range(0.0, 100.0));
+  add_pose_keeping_options(*command, arguments->pose_keeping);
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
   CLI::Option* serve = command->add_flag("--serve", arguments->serve,
                                          "Show it in a browser, and wait there for more goals until Ctrl-C");

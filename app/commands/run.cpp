@@ -130,15 +130,6 @@ fs::path make_run_folder(const RunArguments& arguments, const Site& site) {
   return folder;
 }
 
-/// A drive that is over does not fail for want of room on a disk.
-void keep(const RunRecord& record, const Site& site, const fs::path& folder) {
-  try {
-    write_run_folder(folder, record, site.map.map, site.registry);
-  } catch (const InputError& error) {
-    say(fmt::format("the run folder is not complete: {}", error.what()));
-  }
-}
-
 /// What a drive needs besides its options.
 struct DriveParts {
   const Site& site;
@@ -177,7 +168,7 @@ ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> proto
     RecordedBus logged(parts.bus, [&log](const StampedCanFrame& frame) { log.take(frame); });
     return run(parts.site, logged, std::move(protocol), parts.camera, options);
   }();
-  keep(record, parts.site, folder);
+  (void)leave_run_folder(folder, record, parts.site.map.map, parts.site.registry);
   print_goals(record);
   return record.arrived() ? done : job_failed;
 }

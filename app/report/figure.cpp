@@ -9,6 +9,7 @@
 
 #include "app/report/canvas.hpp"
 #include "app/report/run_statistics.hpp"
+#include "app/visibility_figure.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/marker.hpp"
 
@@ -225,9 +226,10 @@ cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const 
 }
 
 cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const Vec2& start_m,
-                  const Vec2& goal_m, const Path& path) {
+                  const Vec2& goal_m, const Path& path, const Visibility* visibility) {
   Canvas canvas = canvas_for(map);
   canvas.draw_map(map);
+  if (visibility != nullptr) draw_visible_cells(canvas, *visibility);
   draw_axes(canvas);
   draw_markers(canvas, registry);
   canvas.draw_line(path.waypoints_m, planned_color, 3.0);
@@ -240,6 +242,11 @@ cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const
   legend.line(planned_color, 3.0, "planned");
   legend.disc(start_color, 10.0, "start");
   legend.disc(planned_color, 10.0, "end");
+  if (visibility != nullptr) {
+    legend.disc(visibility_color(0), 10.0, "sees none");
+    legend.disc(visibility_color(1), 10.0, "one marker");
+    legend.disc(visibility_color(2), 10.0, "two");
+  }
   return canvas.picture();
 }
 

@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "app/report/run_record.hpp"
+#include "app/visibility.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
 
@@ -13,9 +14,10 @@ namespace lodestar {
 /// scale bar, legend.
 cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const MarkerRegistry& registry);
 
-/// Map, markers and one planned path; start and goal alone when the path is empty.
+/// Map, markers and one planned path; start and goal alone when the path is empty. With `visibility`, cells
+/// are coloured by how many markers are seen from there.
 cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const Vec2& start_m,
-                  const Vec2& goal_m, const Path& path);
+                  const Vec2& goal_m, const Path& path, const Visibility* visibility = nullptr);
 
 /// The bytes of a PNG file.
 std::string png_bytes(const cv::Mat& picture);

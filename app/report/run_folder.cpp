@@ -104,4 +104,15 @@ void write_run_folder(const std::filesystem::path& folder, const RunRecord& reco
   write_file_atomically(folder / "report.html", report_html(record, picture));
 }
 
+bool leave_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
+                      const MarkerRegistry& registry) {
+  try {
+    write_run_folder(folder, record, map, registry);
+    return true;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "lodestar: warning: the run is not recorded: {}\n", error.what());
+    return false;
+  }
+}
+
 }  // namespace lodestar

@@ -17,4 +17,9 @@ void make_run_folder(const std::filesystem::path& folder);
 void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
                       const MarkerRegistry& registry);
 
+/// The same at the end of a drive, which has happened whether or not there is room to record it: one warning
+/// on stderr and false when the folder cannot be written. What was written until then is whole.
+bool leave_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
+                      const MarkerRegistry& registry);
+
 }  // namespace lodestar

@@ -118,15 +118,16 @@ TEST(Octomap, public_tree_is_sliced) {
   const std::filesystem::path file =
       std::filesystem::path(LODESTAR_SOURCE_DIR) / "../shared/data/octomap/geb079.bt";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "maps of other projects are not at hand";
-  const OctomapInfo info = octomap_info(file);
+  const Octomap octomap(file);
+  const OctomapInfo info = octomap.info();
   EXPECT_GT(info.leaves_occupied, 1000U);
   const double middle = 0.5 * (info.low_m.z() + info.high_m.z());
-  const OccupancyMap map = octomap_slice(file, middle, middle + 0.5);
+  const OccupancyMap map = octomap.slice(middle, middle + 0.5);
   EXPECT_EQ(map.columns, std::lround((info.high_m.x() - info.low_m.x()) / info.resolution_m));
   EXPECT_GT(std::ranges::count(map.cells, OccupancyMap::occupied), 100);
   EXPECT_GT(std::ranges::count(map.cells, OccupancyMap::free), 100);
-  EXPECT_THROW((void)octomap_slice(file, 1.0, 1.0), InputError);
-  EXPECT_THROW((void)octomap_slice(file, 1000.0, 1001.0), InputError);
+  EXPECT_THROW((void)octomap.slice(1.0, 1.0), InputError);
+  EXPECT_THROW((void)octomap.slice(1000.0, 1001.0), InputError);
 }
 
 TEST(Octomap, refuses_what_is_no_tree) {
@@ -135,9 +136,9 @@ TEST(Octomap, refuses_what_is_no_tree) {
        {std::string(), std::string("hello\n"), std::string("# Octomap OcTree binary file\n"),
         std::string("# Octomap OcTree binary file\nid OcTree\nsize 99\nres 0.05\ndata\nab"),
         std::string("# Octomap OcTree file\nid Nonsense\nsize 1\nres 0.05\ndata\n")}) {
-    EXPECT_THROW((void)octomap_info(folder.write("tree.bt", text)), InputError) << text;
+    EXPECT_THROW(Octomap(folder.write("tree.bt", text)), InputError) << text;
   }
-  EXPECT_THROW((void)octomap_info(folder / "missing.bt"), InputError);
+  EXPECT_THROW(Octomap(folder / "missing.bt"), InputError);
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ TEST(OctomapSlice, sees_the_table_and_not_the_floor) {
   for (const std::string name : {"room.bt", "room.ot"}) {
     const std::string file = (folder / name).string();
     ASSERT_TRUE(name == "room.bt" ? tree.writeBinary(file) : tree.write(file));
-    const OccupancyMap map = octomap_slice(file, 0.1, 1.0);
+    const Octomap octomap(file);
+    const OccupancyMap map = octomap.slice(0.1, 1.0);
     ASSERT_EQ(map.columns, 16);
     ASSERT_EQ(map.rows, 8);
     EXPECT_NEAR(map.map_from_grid.position_m.norm(), 0.0, 1e-6);
@@ -45,9 +46,9 @@ TEST(OctomapSlice, sees_the_table_and_not_the_floor) {
             << name << " " << column << " " << row;
       }
     }
-    const OccupancyMap below = octomap_slice(file, 0.1, 0.7);  // half open: the table begins at 0.7
+    const OccupancyMap below = octomap.slice(0.1, 0.7);  // half open: the table begins at 0.7
     EXPECT_EQ(below.at({5, 5}), OccupancyMap::free);
-    const OccupancyMap with_floor = octomap_slice(file, 0.0, 0.5);
+    const OccupancyMap with_floor = octomap.slice(0.0, 0.5);
     EXPECT_EQ(with_floor.at({0, 0}), OccupancyMap::occupied);
   }
 }
@@ -58,14 +59,15 @@ TEST(OctomapFloor, is_found_below_tables_and_above_noise) {
   build_room(tree);
   const std::string file = (folder / "room.bt").string();
   ASSERT_TRUE(tree.writeBinary(file));
-  ASSERT_TRUE(octomap_floor_m(file));
-  EXPECT_NEAR(*octomap_floor_m(file), 0.1, 1e-6);
+  ASSERT_TRUE(Octomap(file).floor_m());
+  EXPECT_NEAR(*Octomap(file).floor_m(), 0.1, 1e-6);
   for (int i = 0; i < 40; ++i)  // a third of the floor was measured one voxel too high
     tree.setNodeValue(0.05 + 0.1 * (i % 16), 0.05 + 0.1 * (i / 16), 0.15, 3.0F);
   tree.updateInnerOccupancy();
   ASSERT_TRUE(tree.writeBinary(file));
-  EXPECT_NEAR(*octomap_floor_m(file), 0.2, 1e-6);
-  const OccupancyMap map = octomap_slice(file, *octomap_floor_m(file), 1.0);
+  const Octomap noisy(file);
+  EXPECT_NEAR(*noisy.floor_m(), 0.2, 1e-6);
+  const OccupancyMap map = noisy.slice(*noisy.floor_m(), 1.0);
   EXPECT_EQ(std::ranges::count(map.cells, OccupancyMap::occupied), 4 * 4) << "the table alone";
 }
 
@@ -74,7 +76,7 @@ TEST(OctomapFloor, is_none_where_nothing_has_air_upon_it) {
   octomap::OcTree tree(0.1);
   tree.updateNode(0.05, 0.05, 0.05, true);
   ASSERT_TRUE(tree.writeBinary((folder / "one.bt").string()));
-  EXPECT_FALSE(octomap_floor_m((folder / "one.bt").string()));
+  EXPECT_FALSE(Octomap(folder / "one.bt").floor_m());
 }
 
 }  // namespace

@@ -93,11 +93,88 @@ TEST(Footprint, may_touch_but_not_overlap_and_not_leave_the_map) {
   EXPECT_FALSE(cart().is_clear(map, {{0.51, 0.2}, 0.0}));
 }
 
-TEST(Footprint, must_be_convex_and_counter_clockwise) {
+TEST(Footprint, must_be_simple_and_counter_clockwise) {
   EXPECT_THROW(Footprint({{0.0, 0.0}, {1.0, 0.0}}), InputError);
-  EXPECT_THROW(Footprint({{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}), InputError);
-  EXPECT_THROW(Footprint({{0.0, 0.0}, {1.0, 0.0}, {0.2, 0.2}, {0.0, 1.0}}), InputError);
+  EXPECT_THROW(Footprint({{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}), InputError) << "clockwise";
+  EXPECT_THROW(Footprint({{0.0, 0.0}, {1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}), InputError) << "crosses itself";
+  EXPECT_THROW(Footprint({{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}), InputError) << "a corner twice";
+  EXPECT_NO_THROW(Footprint({{0.0, 0.0}, {1.0, 0.0}, {0.2, 0.2}, {0.0, 1.0}})) << "not convex";
+}
+
+TEST(Footprint, knows_the_discs_inside_and_outside) {
   EXPECT_NEAR(cart().outer_radius_m(), std::hypot(0.3, 0.1), 1e-12);
+  EXPECT_NEAR(cart().inner_radius_m(), 0.1, 1e-12);
+  EXPECT_EQ(Footprint({{0.1, 0.0}, {1.0, 0.0}, {0.1, 1.0}}).inner_radius_m(), 0.0) << "origin outside";
+}
+
+/// A horseshoe: two arms ahead, a gap between them.
+Footprint horseshoe() {
+  return Footprint({{-0.2, -0.3},
+                    {0.4, -0.3},
+                    {0.4, -0.2},
+                    {-0.1, -0.2},
+                    {-0.1, 0.2},
+                    {0.4, 0.2},
+                    {0.4, 0.3},
+                    {-0.2, 0.3}});
+}
+
+TEST(Footprint, need_not_be_convex) {
+  OccupancyMap map = map_from(std::vector<std::string>(30, std::string(40, '.')), 0.05);
+  map.cells[map.index({21, 15})] = OccupancyMap::occupied;  // between the arms
+  const Pose2 pose{{0.75, 0.775}, 0.0};
+  EXPECT_TRUE(horseshoe().is_clear(map, pose));
+  EXPECT_TRUE(horseshoe().is_clear_driving(map, pose, {0.85, 0.775}));
+  EXPECT_FALSE(horseshoe().is_clear_driving(map, pose, {1.25, 0.775})) << "its back runs into it";
+  EXPECT_FALSE(horseshoe().is_clear_turning(map, pose, quarter)) << "an arm sweeps over it";
+}
+
+/// A turn in many small steps.
+bool is_clear_in_steps(const Footprint& footprint, const OccupancyMap& map, const Pose2& from,
+                       double turn_rad) {
+  constexpr int steps = 4000;
+  for (int i = 0; i <= steps; ++i) {
+    if (!footprint.is_clear(map, {from.position_m, wrap_angle(from.yaw_rad + turn_rad * i / steps)}))
+      return false;
+  }
+  return true;
+}
+
+TEST(Footprint, turns_are_exact) {
+  Random random(33);
+  int clear = 0;
+  int blocked = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const OccupancyMap map = random_map(random, 30, 30, 0.01);
+    const Footprint footprint = trial % 2 == 0 ? cart() : horseshoe();
+    const Pose2 from{{random.uniform(0.4, 1.1), random.uniform(0.4, 1.1)}, random.uniform(-3.0, 3.0)};
+    const double turn_rad = random.uniform(-3.0, 3.0);
+    const bool exact = footprint.is_clear_turning(map, from, wrap_angle(from.yaw_rad + turn_rad));
+    (exact ? clear : blocked) += 1;
+    EXPECT_EQ(exact, is_clear_in_steps(footprint, map, from, turn_rad)) << trial;
+  }
+  EXPECT_GT(clear, 50);
+  EXPECT_GT(blocked, 50);
+}
+
+TEST(Footprint, sweeps_the_same_cells_wherever_it_stands) {
+  const double heading = quarter / 2.0;
+  OccupancyMap map = map_from(std::vector<std::string>(41, std::string(41, '.')), 0.05);
+  const Cell stands{20, 20};
+  const Vec2 at = map.center_of(stands);
+  const auto drive = cart().cells_driving(map.resolution_m, heading, {1, 1});
+  const auto turn = cart().cells_turning(map.resolution_m, heading, heading);
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      map.cells[map.index({column, row})] = OccupancyMap::occupied;
+      const Cell offset{column - stands.column, row - stands.row};
+      EXPECT_EQ(std::ranges::find(drive, offset) == drive.end(),
+                cart().is_clear_driving(map, {at, heading}, map.center_of({21, 21})));
+      EXPECT_EQ(std::ranges::find(turn, offset) == turn.end(),
+                cart().is_clear_turning(map, {at, heading}, 2.0 * heading));
+      map.cells[map.index({column, row})] = OccupancyMap::free;
+    }
+  }
 }
 
 }  // namespace
