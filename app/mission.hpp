@@ -32,9 +32,12 @@ class Mission {
 
   MissionStep step(const SensorInput& input);
 
+  /// The map as it is from now on; the present path is replaced if need be.
+  void map_changed(const OccupancyMap& map) { navigation_.map_changed(map); }
+
   [[nodiscard]] bool finished() const { return current_ >= goals_.size(); }
   [[nodiscard]] std::size_t current() const { return current_; }
-  /// The path being followed; valid from path_planned on.
+  /// The path being followed; valid from path_planned on, which comes again when it is replaced.
   [[nodiscard]] const Path& path() const { return path_; }
   /// Why the last goal failed, in words.
   [[nodiscard]] const std::string& failure() const { return failure_; }
@@ -45,6 +48,7 @@ class Mission {
   MissionEvent advance(const SensorInput& input, const NavigationStep& step);
   MissionEvent hold(const SensorInput& input);
   MissionEvent start_goal(const SensorInput& input, const NavigationStep& step);
+  void follow_path(const SensorInput& input, const NavigationStep& step, Path path);
   MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
   MissionEvent settle(const SensorInput& input);
   MissionEvent end_goal(Stamp now, MissionEvent event);

@@ -35,6 +35,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.drive.blend_corridor_m = robot.pass_corners_within_m;
   options.drive.arrival_heading_rad = robot.arrival_heading_rad;
   options.planner.limits = motion_limits(options.drive);
+  options.route.limits = options.planner.limits;
   return options;
 }
 
