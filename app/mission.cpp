@@ -72,9 +72,9 @@ MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep&
 
 void Mission::follow_path(const SensorInput& input, const NavigationStep& step, Path path) {
   path_ = std::move(path);
-  const double ideal_s = ideal_travel_time_s(path_, step.estimate->map_from_base.yaw_rad,
-                                             goals_[current_].heading_rad, drive_options_);
-  drive_ends_ = input.now + from_seconds(options_.max_time_factor * ideal_s) + options_.max_time_more;
+  ideal_s_ = ideal_travel_time_s(path_, step.estimate->map_from_base.yaw_rad, goals_[current_].heading_rad,
+                                 drive_options_);
+  drive_ends_ = input.now + from_seconds(options_.max_time_factor * ideal_s_) + options_.max_time_more;
 }
 
 MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep& step) {

@@ -39,6 +39,9 @@ class Mission {
   [[nodiscard]] std::size_t current() const { return current_; }
   /// The path being followed; valid from path_planned on, which comes again when it is replaced.
   [[nodiscard]] const Path& path() const { return path_; }
+  /// What driving that path takes at best, without a glance at the clock for stops, speed limits and
+  /// settling.
+  [[nodiscard]] double ideal_s() const { return ideal_s_; }
   /// Why the last goal failed, in words.
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
@@ -63,6 +66,7 @@ class Mission {
   Stamp drive_ends_;            ///< at the latest
   std::optional<Stamp> since_;  ///< of the present state, or of the present stop while driving
   Path path_;
+  double ideal_s_ = 0.0;
   std::string failure_;
 };
 

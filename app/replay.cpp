@@ -24,6 +24,12 @@ SimulationOptions simulation_options(const Site& site, std::uint64_t seed) {
   return options;
 }
 
+MarkerRegistry hanging_markers(const Site& site, const ReplayOptions& options) {
+  std::vector<Vec2> places_m{site.start.position_m};
+  for (const Goal& goal : options.goals) places_m.push_back(goal.position_m);
+  return with_markers_removed(site.registry, options.hardships.removed_markers, places_m, options.seed);
+}
+
 SensorInput sense(Simulation& simulation, BaseDriver& base) {
   SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
   while (std::optional<Frame> frame = simulation.camera().poll()) input.frames.push_back(std::move(*frame));
@@ -56,7 +62,8 @@ double share_done(const RunRecord& record, const Mission& mission,
 RunRecord replay(const Site& site, const ReplayOptions& options) {
   const Stopwatch watch;
   const KnownWorld world = known_world(site, options.camera);
-  Simulation simulation(world.map, world.registry, world.camera, simulation_options(site, options.seed));
+  Simulation simulation(world.map, hanging_markers(site, options), world.camera,
+                        made_harder(simulation_options(site, options.seed), options.hardships));
   BaseDriver base(simulation.can());
   NavigationOptions navigation = navigation_options(site.robot);
   navigation.planner.kind = options.planner;

@@ -38,6 +38,7 @@ struct GoalRecord {
   Path planned;
   bool arrived = false;
   std::string failure;                ///< in words, when it did not arrive
+  double ideal_s = 0.0;               ///< that the path planned first takes at best
   Duration travel_time{};             ///< simulated
   Stamp ended;                        ///< when the goal was reached or given up
   std::optional<ArrivalScore> score;  ///< by the truth, when it arrived

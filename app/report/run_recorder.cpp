@@ -26,7 +26,9 @@ void record_event(RunRecord& record, const Mission& mission, MissionEvent event,
     GoalRecord& goal = record.goals.at(mission.current());
     const bool is_first = goal.planned.waypoints_m.empty();
     goal.planned = mission.path();
-    if (is_first) goal.travel_time = -now.time_since_epoch();
+    if (!is_first) return;
+    goal.travel_time = -now.time_since_epoch();
+    goal.ideal_s = mission.ideal_s();
     return;
   }
   GoalRecord& goal = record.goals.at(mission.current() - 1);
