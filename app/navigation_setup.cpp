@@ -22,7 +22,11 @@ KnownWorld known_world(const Site& site, const std::string& camera) {
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
   options.fix.prior = pose_prior(robot);
+  options.fix.model_sigma_px = 0.016;  // of dots lit and printed as they are, not as computed
   options.filter.track_width_m = robot.track_width_m;
+  options.filter.fix_sigma_floor_m = robot.shared_fix_sigma_m.value_or(options.filter.fix_sigma_floor_m);
+  options.filter.fix_sigma_floor_rad =
+      robot.shared_fix_sigma_rad.value_or(options.filter.fix_sigma_floor_rad);
   options.planner.radius_m = robot.radius_m;
   options.planner.preferred_clearance_m = robot.preferred_clearance_m;
   options.drive.max_forward_mps = robot.max_forward_mps;
