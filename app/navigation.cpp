@@ -41,6 +41,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
   step.estimate = known.filter.estimate();
   step.stop = reason_to_stop(input.now, step.estimate, options_.safety);
   step.distrusted = known.trust.distrusted();
+  step.wheel_scales = known.filter.wheel_scales();
   const Situation at{
       .now = input.now,
       .elapsed = last_step_ ? input.now - *last_step_ : Duration::zero(),

@@ -54,6 +54,7 @@ struct NavigationStep {
   BodyVelocity command;
   std::optional<RouteUpdate> reroute;        ///< the path followed from now on is another one, or lost
   std::vector<DistrustedMarker> distrusted;  ///< so far
+  Vec2 wheel_scales = Vec2::Ones();          ///< true over reported travel, left and right, as learned so far
 };
 
 /// The road from frames and wheel travel to a velocity.

@@ -20,7 +20,8 @@ namespace lodestar {
 struct StepRecord {
   PoseEstimate estimate;
   BodyVelocity commanded;
-  BodyVelocity measured;  ///< by the base
+  BodyVelocity measured;             ///< by the base
+  Vec2 wheel_scales = Vec2::Ones();  ///< true over reported travel, left and right, as learned so far
 };
 
 /// One frame that gave a pose.

@@ -17,7 +17,8 @@ void record_step(RunRecord& record, const SensorInput& input, const NavigationSt
   if (!step.estimate) return;
   record.steps.push_back({.estimate = *step.estimate,
                           .commanded = step.command,
-                          .measured = input.base.measured.value_or(BodyVelocity{})});
+                          .measured = input.base.measured.value_or(BodyVelocity{}),
+                          .wheel_scales = step.wheel_scales});
 }
 
 void record_event(RunRecord& record, const Mission& mission, MissionEvent event, Stamp now) {
