@@ -144,17 +144,29 @@ MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep&
   if (const auto* failure = std::get_if<PlanFailure>(&*result)) {
     return fail(input.now, std::string(to_string(*failure)));
   }
-  path_ = std::get<Plan>(*result).path;
-  const double ideal_s = ideal_travel_time_s(path_, step.estimate->map_from_base.yaw_rad,
-                                             goals_[current_].heading_rad, drive_options_);
-  drive_ends_ = input.now + from_seconds(options_.max_time_factor * ideal_s) + options_.max_time_more;
+  follow_path(input, step, std::get<Plan>(*result).path);
   state_ = State::driving;
   since_.reset();
   return MissionEvent::path_planned;
 }
 
+void Mission::follow_path(const SensorInput& input, const NavigationStep& step, Path path) {
+  path_ = std::move(path);
+  ideal_s_ = ideal_travel_time_s(path_, step.estimate->map_from_base.yaw_rad, goals_[current_].heading_rad,
+                                 drive_options_);
+  drive_ends_ = input.now + from_seconds(options_.max_time_factor * ideal_s_) + options_.max_time_more;
+}
+
 MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
+  if (step.reroute && step.reroute->failure) {
+    return fail(input.now,
+                fmt::format("{}: {}", to_string(step.reroute->change), to_string(*step.reroute->failure)));
+  }
+  if (step.reroute) {
+    follow_path(input, step, step.reroute->route.path);
+    return MissionEvent::path_planned;
+  }
   if (navigation_.arrived()) {
     state_ = State::settling;
     since_.reset();

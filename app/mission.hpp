@@ -52,10 +52,16 @@ class Mission {
 
   [[nodiscard]] MissionPhase phase() const;
   [[nodiscard]] const std::vector<Goal>& goals() const { return goals_; }
+  /// The map as it is from now on; the present path is replaced if need be.
+  void map_changed(const OccupancyMap& map) { navigation_.map_changed(map); }
+
   [[nodiscard]] bool finished() const { return current_ >= goals_.size(); }
   [[nodiscard]] std::size_t current() const { return current_; }
-  /// The path being followed; valid from path_planned on.
+  /// The path being followed; valid from path_planned on, which comes again when it is replaced.
   [[nodiscard]] const Path& path() const { return path_; }
+  /// What driving that path takes at best, without a glance at the clock for stops, speed limits and
+  /// settling.
+  [[nodiscard]] double ideal_s() const { return ideal_s_; }
   /// Why the last goal failed, in words.
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
@@ -65,6 +71,7 @@ class Mission {
   MissionEvent advance(const SensorInput& input, const NavigationStep& step);
   MissionEvent hold(const SensorInput& input);
   MissionEvent start_goal(const SensorInput& input, const NavigationStep& step);
+  void follow_path(const SensorInput& input, const NavigationStep& step, Path path);
   MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
   MissionEvent settle(const SensorInput& input);
   MissionEvent come_to_rest(const SensorInput& input);
@@ -82,6 +89,7 @@ class Mission {
   Stamp last_step_;
   std::optional<Stamp> since_;  ///< of the present state, or of the present stop while driving
   Path path_;
+  double ideal_s_ = 0.0;
   std::string failure_;
 };
 

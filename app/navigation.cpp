@@ -11,78 +11,138 @@ std::optional<double> turned_by(const std::vector<WheelTravel>& travel, double t
   return (travel.back().right_m - travel.back().left_m) / track_width_m;
 }
 
+/// Without stopping to think, as the planners of OMPL do.
+bool plans_at_once(PlannerKind kind) {
+  return kind == PlannerKind::astar || kind == PlannerKind::anyangle || kind == PlannerKind::fastest;
+}
+
 }  // namespace
 
+Navigation::Ground::Ground(const OccupancyMap& map, const GridPlannerOptions& options)
+    : planner(map, options), free_way(map, options.radius_m) {}
+
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
-    : world_(world),
-      options_(options),
+    : options_(options),
       sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix),
-      planner_(world.map, options.planner),
-      free_way_(world.map, options.planner.radius_m),
+      ground_(std::make_unique<const Ground>(world.map, options.planner)),
       known_{PoseFilter(options.filter), MarkerTrust(options.trust)},
-      look_around_(options.look_around),
-      on_the_spot_({}, std::nullopt, options.drive) {}
+      motion_{.look_around = LookAround(options.look_around),
+              .on_the_spot = RotateThenDrive({}, std::nullopt, options.drive)} {}
 
 NavigationStep Navigation::step(const SensorInput& input) {
   // Travel comes first: a frame was exposed before the newest wheel reading, and the filter corrects the
   // past.
+  NavigationStep step;
   Whereabouts known = known_;
   for (const WheelTravel& travel : input.base.travel) known.filter.add_travel(travel);
-  std::vector<UsedFix> fixes;
   for (const Frame& frame : input.frames)
-    if (std::optional<UsedFix> used = sight_.see(frame, known)) fixes.push_back(std::move(*used));
+    if (std::optional<UsedFix> used = sight_.see(frame, known)) step.fixes.push_back(std::move(*used));
 
-  const std::optional<PoseEstimate> estimate = known.filter.estimate();
-  const double turned_rad = turned_by(input.base.travel, options_.drive.track_width_m).value_or(turned_rad_);
-  std::optional<StopReason> stop = reason_to_stop(input.now, estimate, options_.safety);
-  const Duration elapsed = last_step_ ? input.now - *last_step_ : Duration::zero();
-  std::optional<RotateThenDrive> drive = drive_;
-  LookAround look_around = look_around_;
-  RotateThenDrive on_the_spot = on_the_spot_;
-  BodyVelocity command;
-  if (drive) {
-    const bool may_look = !drive->paused() && !drive->arrived();
-    const std::optional<double> look =
-        look_around.update(input.now, may_look ? stop : std::nullopt, turned_rad);
-    if (look) {
-      command = drive->turn_around(*look, elapsed);
-    } else if (stop) {
-      command = drive->slow_down(elapsed);
-    } else {
-      const SpeedLimit limit = speed_limit(*estimate);
-      command = drive->update(*estimate, elapsed, limit);
-      const bool blocked = limit.forward_mps < options_.drive.min_forward_mps;
-      if (blocked && drive->phase() == DrivePhase::driving) stop = StopReason::way_blocked;
-    }
-    if (drive->phase() == DrivePhase::cancelled) drive.reset();
-  } else if (looks_for_markers_) {
-    command = on_the_spot.turn_around(look_around.update(input.now, stop, turned_rad).value_or(0.0), elapsed);
-  }
+  step.estimate = known.filter.estimate();
+  step.stop = reason_to_stop(input.now, step.estimate, options_.safety);
+  step.distrusted = known.trust.distrusted();
+  step.wheel_scales = known.filter.wheel_scales();
+  const Situation at{
+      .now = input.now,
+      .elapsed = last_step_ ? input.now - *last_step_ : Duration::zero(),
+      .turned_rad = turned_by(input.base.travel, options_.drive.track_width_m).value_or(turned_rad_),
+      .estimate = step.estimate};
+  Motion motion = motion_;
+  step.command = move(motion, at, step);
 
   known_ = std::move(known);
-  estimate_ = estimate;
-  drive_ = std::move(drive);
-  look_around_ = look_around;
-  on_the_spot_ = std::move(on_the_spot);
-  turned_rad_ = turned_rad;
+  estimate_ = step.estimate;
+  motion_ = std::move(motion);
+  turned_rad_ = at.turned_rad;
   last_step_ = input.now;
-  return {.fixes = std::move(fixes),
-          .estimate = estimate,
-          .stop = stop,
-          .command = command,
-          .distrusted = known_.trust.distrusted()};
+  return step;
+}
+
+BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationStep& step) const {
+  if (!motion.drive) {
+    if (!looks_for_markers_) return {};
+    const std::optional<double> look = motion.look_around.update(at.now, step.stop, at.turned_rad);
+    return motion.on_the_spot.turn_around(look.value_or(0.0), at.elapsed);
+  }
+  RotateThenDrive& drive = *motion.drive;
+  const bool may_look = !drive.paused() && !drive.arrived();
+  const std::optional<double> look =
+      motion.look_around.update(at.now, may_look ? step.stop : std::nullopt, at.turned_rad);
+  BodyVelocity command;
+  if (look) {
+    command = drive.turn_around(*look, at.elapsed);
+  } else if (step.stop) {
+    command = drive.slow_down(at.elapsed);
+  } else {
+    command = follow(motion, at, step);
+  }
+  if (motion.drive && motion.drive->phase() == DrivePhase::cancelled) motion.drive.reset();
+  return command;
+}
+
+/// Along the path, or to rest when it must be planned anew.
+BodyVelocity Navigation::follow(Motion& motion, const Situation& at, NavigationStep& step) const {
+  const Pose2& pose = at.estimate->map_from_base;
+  if (!motion.drive->paused() && !motion.drive->arrived()) reroute(motion, pose, step);
+  if (!motion.drive) return {};
+  if (motion.reroutes) return motion.drive->slow_down(at.elapsed);
+
+  const SpeedLimit limit = speed_limit(*at.estimate);
+  const BodyVelocity command = motion.drive->update(*at.estimate, at.elapsed, limit);
+  const bool is_blocked =
+      limit.forward_mps < options_.drive.min_forward_mps && motion.drive->phase() == DrivePhase::driving;
+  if (is_blocked) step.stop = StopReason::way_blocked;
+  if (is_blocked && !motion.is_blocked) motion.looks_again = true;
+  motion.is_blocked = is_blocked;
+  return command;
+}
+
+/// A path that no longer holds is given up in two steps: the robot comes to rest, and plans from where it
+/// stands then.
+void Navigation::reroute(Motion& motion, const Pose2& pose, NavigationStep& step) const {
+  const bool is_off_path =
+      distance_to_path_m(motion.drive->path_ahead(), pose.position_m) > options_.route.left_path_m;
+  if (!motion.reroutes) {
+    if (!motion.looks_again && !is_off_path) return;
+    motion.looks_again = false;
+    motion.reroutes =
+        !plans_at_once(options_.planner.kind) || route_from(motion, pose).change != RouteChange::kept;
+  }
+  if (!motion.reroutes || !motion.drive->at_rest()) return;
+  motion.reroutes = false;
+  const RouteUpdate update = route_from(motion, pose);
+  if (update.change == RouteChange::kept) return;
+  motion.drive.reset();
+  if (update.change != RouteChange::lost) {
+    motion.drive.emplace(update.route.path, update.route.goal_heading_rad, drive_options(update.route.path));
+  }
+  step.reroute = update;
+}
+
+RouteUpdate Navigation::route_from(const Motion& motion, const Pose2& pose) const {
+  Route route{motion.drive->path_ahead(), motion.goal_heading_rad};
+  // What blocks a robot that is on its way lies between it and the leg's end, not on the leg.
+  if (motion.is_blocked) route.path.waypoints_m.front() = pose.position_m;
+  return updated(route, pose, ground_->planner, options_.route);
 }
 
 std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
-  drive_.reset();
+  motion_.drive.reset();
+  motion_.looks_again = motion_.reroutes = motion_.is_blocked = false;
   if (!estimate_) return std::nullopt;
   const Pose2& pose = estimate_->map_from_base;
-  PlanResult result = planner_.plan(pose.position_m, goal.position_m,
-                                    {.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad});
+  PlanResult result = ground_->planner.plan(pose.position_m, goal.position_m,
+                                            {.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad});
   if (const auto* plan = std::get_if<Plan>(&result)) {
-    drive_.emplace(plan->path, goal.heading_rad, drive_options(plan->path));
+    motion_.drive.emplace(plan->path, goal.heading_rad, drive_options(plan->path));
+    motion_.goal_heading_rad = goal.heading_rad;
   }
   return result;
+}
+
+void Navigation::map_changed(const OccupancyMap& map) {
+  ground_ = std::make_unique<const Ground>(map, options_.planner);
+  motion_.looks_again = true;
 }
 
 /// The less sure of its pose the slower, and never so fast that the robot could not stop before it meets what
@@ -92,7 +152,7 @@ SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate) const {
   const double deceleration = drive.braking_share * drive.max_acceleration_mps2;
   const double reach_m =
       drive.max_forward_mps * (drive.response_s + 0.5 * drive.max_forward_mps / deceleration);
-  const double free_m = free_way_.ahead_m(estimate.map_from_base, reach_m);
+  const double free_m = ground_->free_way.ahead_m(estimate.map_from_base, reach_m);
   const double share = share_of_speed(estimate.covariance, options_.safety, options_.caution);
   return {.forward_mps = std::min(share * drive.max_forward_mps,
                                   speed_to_stop_within(free_m, deceleration, drive.response_s)),
@@ -108,7 +168,7 @@ DriveOptions Navigation::drive_options(const Path& path) const {
     if (!corner) continue;
     const Vec2 begin = waypoint + corner->cut_m * (path.waypoints_m[i - 2] - waypoint).normalized();
     const Vec2 end = waypoint + corner->cut_m * (path.waypoints_m[i] - waypoint).normalized();
-    if (!planner_.is_clear(begin, end)) options.blend_corridor_m = 0.0;
+    if (!ground_->planner.is_clear(begin, end)) options.blend_corridor_m = 0.0;
   }
   return options;
 }
@@ -123,20 +183,20 @@ bool Navigation::place_robot(const Pose2& map_from_base) {
 }
 
 void Navigation::halt() {
-  drive_.reset();
+  motion_.drive.reset();
   looks_for_markers_ = false;
 }
 
 void Navigation::pause() {
-  if (drive_) drive_->pause();
+  if (motion_.drive) motion_.drive->pause();
 }
 
 void Navigation::resume() {
-  if (drive_) drive_->resume();
+  if (motion_.drive) motion_.drive->resume();
 }
 
 void Navigation::cancel() {
-  if (drive_) drive_->cancel();
+  if (motion_.drive) motion_.drive->cancel();
 }
 
 }  // namespace lodestar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -13,7 +14,7 @@
 #include "control/speed_limit.hpp"
 #include "drivers/base_driver.hpp"
 #include "maps/frame.hpp"
-#include "planning/grid_planner.hpp"
+#include "planning/route.hpp"
 
 namespace lodestar {
 
@@ -31,6 +32,7 @@ struct NavigationOptions {
   PoseFilterOptions filter;
   MarkerTrustOptions trust;
   GridPlannerOptions planner;
+  RouteOptions route;
   DriveOptions drive;
   SafetyStopOptions safety;
   CautionOptions caution;
@@ -50,7 +52,9 @@ struct NavigationStep {
   std::optional<PoseEstimate> estimate;
   std::optional<StopReason> stop;  ///< why the robot may not move, if so
   BodyVelocity command;
+  std::optional<RouteUpdate> reroute;        ///< the path followed from now on is another one, or lost
   std::vector<DistrustedMarker> distrusted;  ///< so far
+  Vec2 wheel_scales = Vec2::Ones();          ///< true over reported travel, left and right, as learned so far
 };
 
 /// The road from frames and wheel travel to a velocity.
@@ -65,6 +69,10 @@ class Navigation {
   /// followed when planning fails, or when the robot does not know where it is (then nothing is returned).
   std::optional<PlanResult> go_to(const Goal& goal);
 
+  /// The map as it is from now on. A path that it blocks, or that is clearly worse now, is replaced: the
+  /// robot comes to rest and plans anew from there.
+  void map_changed(const OccupancyMap& map);
+
   /// Follows nothing any more: the next command is zero.
   void halt();
 
@@ -75,7 +83,7 @@ class Navigation {
   /// Brings the robot to rest within its limits; then resume() goes on to the same goal.
   void pause();
   void resume();
-  [[nodiscard]] bool paused() const { return drive_ && drive_->paused(); }
+  [[nodiscard]] bool paused() const { return motion_.drive && motion_.drive->paused(); }
 
   /// Brings the robot to rest within its limits and follows nothing any more.
   void cancel();
@@ -84,24 +92,50 @@ class Navigation {
   /// False while the wheels have not been heard.
   [[nodiscard]] bool place_robot(const Pose2& map_from_base);
 
-  [[nodiscard]] bool arrived() const { return drive_ && drive_->arrived(); }
+  [[nodiscard]] bool arrived() const { return motion_.drive && motion_.drive->arrived(); }
 
  private:
+  /// What is planned on, made anew for every map.
+  struct Ground {
+    Ground(const OccupancyMap& map, const GridPlannerOptions& options);
+    GridPlanner planner;
+    FreeWay free_way;
+  };
+
+  /// What moves the robot, and what it is about.
+  struct Motion {
+    LookAround look_around;
+    RotateThenDrive on_the_spot;  ///< what moves the robot while it follows nothing
+    std::optional<RotateThenDrive> drive;
+    std::optional<double> goal_heading_rad;
+    bool looks_again = false;  ///< at its path: something has changed
+    bool reroutes = false;     ///< it comes to rest, to plan anew from there
+    bool is_blocked = false;   ///< something stands in front of the robot
+  };
+
+  /// What one step is about, besides the motion.
+  struct Situation {
+    Stamp now;
+    Duration elapsed;
+    double turned_rad = 0.0;
+    std::optional<PoseEstimate> estimate;
+  };
+
+  BodyVelocity move(Motion& motion, const Situation& at, NavigationStep& step) const;
+  BodyVelocity follow(Motion& motion, const Situation& at, NavigationStep& step) const;
+  void reroute(Motion& motion, const Pose2& pose, NavigationStep& step) const;
+  [[nodiscard]] RouteUpdate route_from(const Motion& motion, const Pose2& pose) const;
   [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate) const;
   [[nodiscard]] DriveOptions drive_options(const Path& path) const;
 
-  KnownWorld world_;
   NavigationOptions options_;
   Sight sight_;
-  GridPlanner planner_;
-  FreeWay free_way_;
+  std::unique_ptr<const Ground> ground_;
   Whereabouts known_;
-  LookAround look_around_;
-  RotateThenDrive on_the_spot_;  ///< what moves the robot while it follows nothing
+  Motion motion_;
   bool looks_for_markers_ = false;
   double turned_rad_ = 0.0;  ///< by the wheels, since start-up
   std::optional<PoseEstimate> estimate_;
-  std::optional<RotateThenDrive> drive_;
   std::optional<Stamp> last_step_;
 };
 

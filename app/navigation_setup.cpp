@@ -30,7 +30,11 @@ KnownWorld known_world(const Site& site, const std::string& camera) {
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
   options.fix.prior = pose_prior(robot);
+  options.fix.model_sigma_px = 0.016;  // of dots lit and printed as they are, not as computed
   options.filter.track_width_m = robot.track_width_m;
+  options.filter.fix_sigma_floor_m = robot.shared_fix_sigma_m.value_or(options.filter.fix_sigma_floor_m);
+  options.filter.fix_sigma_floor_rad =
+      robot.shared_fix_sigma_rad.value_or(options.filter.fix_sigma_floor_rad);
   options.planner.radius_m = robot.radius_m;
   options.planner.footprint = robot.footprint;
   options.planner.preferred_clearance_m = robot.preferred_clearance_m;
@@ -44,6 +48,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.drive.blend_corridor_m = robot.pass_corners_within_m;
   options.drive.arrival_heading_rad = robot.arrival_heading_rad;
   options.planner.limits = motion_limits(options.drive);
+  options.route.limits = options.planner.limits;
   return options;
 }
 

@@ -34,6 +34,12 @@ NavigationOptions replay_navigation(const Site& site, const ReplayOptions& optio
   return navigation;
 }
 
+MarkerRegistry hanging_markers(const Site& site, const ReplayOptions& options) {
+  std::vector<Vec2> places_m{site.start.position_m};
+  for (const Goal& goal : options.goals) places_m.push_back(goal.position_m);
+  return with_markers_removed(site.registry, options.hardships.removed_markers, places_m, options.seed);
+}
+
 SensorInput sense(Simulation& simulation, BaseDriver& base) {
   SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
   while (std::optional<Frame> frame = simulation.camera().poll()) input.frames.push_back(std::move(*frame));
@@ -68,7 +74,8 @@ class SimulatedDrive {
       : site_(site),
         options_(options),
         world_(known_world(site, options.camera)),
-        simulation_(world_.map, world_.registry, world_.camera, simulation_options(site, options.seed)),
+        simulation_(world_.map, hanging_markers(site, options), world_.camera,
+                    made_harder(simulation_options(site, options.seed), options.hardships)),
         base_(simulation_.can()),
         mission_(world_, replay_navigation(site, options), options.goals) {
     simulation_.on_can_frame([this](const StampedCanFrame& frame) { take(frame); });

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "app/drive_moment.hpp"
+#include "app/hardships.hpp"
 #include "app/pose_keeping.hpp"
 #include "app/report/run_record.hpp"
 #include "app/site.hpp"
@@ -18,10 +19,11 @@ struct ReplayOptions {
   std::vector<Goal> goals;
   PlannerKind planner = PlannerKind::fastest;
   std::optional<PoseKeeping> pose_keeping;  ///< that paths must keep to
-  double pictures_hz = 0.0;                 ///< camera frames to keep in the record
-  bool realtime = false;                    ///< no faster than the world's own time
-  std::function<void(double)> progress;     ///< called now and then with the share that is done, 0..1
-  DriveWatcher watch;                       ///< called at every step, if there
+  Hardships hardships;
+  double pictures_hz = 0.0;              ///< camera frames to keep in the record
+  bool realtime = false;                 ///< no faster than the world's own time
+  std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
+  DriveWatcher watch;                    ///< called at every step, if there
 };
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.

@@ -14,6 +14,10 @@ RunSummary summarize(const RunRecord& record) {
   summary.goals = static_cast<int>(record.goals.size());
   for (const GoalRecord& goal : record.goals) {
     summary.arrivals += goal.arrived ? 1 : 0;
+    if (goal.arrived) {
+      summary.travel_s += seconds(goal.travel_time);
+      summary.ideal_s += goal.ideal_s;
+    }
     if (goal.score) {
       summary.worst_position_m = std::max(summary.worst_position_m, goal.score->position_error_m);
       summary.worst_heading_rad =
@@ -24,6 +28,7 @@ RunSummary summarize(const RunRecord& record) {
   summary.path_p95_m = percentile(record.path_distances_m, 0.95).value_or(0.0);
   summary.contacts = record.contacts;
   summary.drive_s = record.truth.empty() ? 0.0 : seconds(record.truth.back().stamp);
+  summary.nees_samples = nees_samples(record);
   summary.nees = mean_nees(estimate_errors(record)).value_or(0.0);
   summary.wall_s = record.wall_time_s;
   return summary;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/replay.hpp"
+#include "app/report/nees.hpp"
 
 namespace lodestar {
 
@@ -17,8 +18,11 @@ struct RunSummary {
   double worst_heading_rad = 0.0;  ///< largest true heading error on arrival
   double path_p95_m = 0.0;         ///< 95th percentile of the true track's distance from the planned curve
   int contacts = 0;
-  double drive_s = 0.0;  ///< simulated
-  double nees = 0.0;     ///< mean normalized estimation error squared: 3 for an honest filter
+  double drive_s = 0.0;   ///< simulated
+  double travel_s = 0.0;  ///< of that, from each path planned to the arrival claimed, of all goals reached
+  double ideal_s = 0.0;   ///< that their paths take at best
+  std::vector<NeesSample> nees_samples;
+  double nees = 0.0;  ///< mean normalized estimation error squared: 3 for an honest filter
   double wall_s = 0.0;
   std::string failure;  ///< the first, in words
 };

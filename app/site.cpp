@@ -121,6 +121,9 @@ Robot load_robot(const std::filesystem::path& file) {
   read_mount(yaml.mapping("camera_mount"), robot);
   robot.mount_tilt_sigma_rad = radians(yaml.number("mount_tilt_sigma_deg", 0.0, 20.0));
   robot.mount_height_sigma_m = yaml.number("mount_height_sigma_m", 1e-6, 1.0);
+  if (yaml.has("shared_fix_sigma_m")) robot.shared_fix_sigma_m = yaml.number("shared_fix_sigma_m", 0.0, 1.0);
+  if (yaml.has("shared_fix_sigma_deg"))
+    robot.shared_fix_sigma_rad = radians(yaml.number("shared_fix_sigma_deg", 0.0, 20.0));
   read_limits(yaml.mapping("limits"), robot);
   read_arrival(yaml.mapping("arrival"), robot);
   robot.preferred_clearance_m = yaml.number("preferred_clearance_m", 0.0, 5.0);

@@ -25,6 +25,9 @@ struct Robot {
   RollPitchYaw camera_mount;          ///< the rotation of base_from_camera, Rz(yaw) Ry(pitch) Rx(roll)
   double mount_tilt_sigma_rad = 0.0;  ///< how well roll and pitch of the camera hold while driving
   double mount_height_sigma_m = 0.0;
+  // What neighbouring fixes err by alike: survey, mount and floor. Nothing: the filter's own.
+  std::optional<double> shared_fix_sigma_m;
+  std::optional<double> shared_fix_sigma_rad;
   double preferred_clearance_m = 0.0;
   double pass_corners_within_m = 0.0;  ///< gentle corners are passed without stopping, so near to the path
   double max_forward_mps = 0.0;

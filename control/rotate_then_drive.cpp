@@ -243,12 +243,20 @@ BodyVelocity RotateThenDrive::command(const BodyVelocity& wanted, Duration elaps
   return last_;
 }
 
-/// Nothing is commanded, and what was has come into effect but for a trace.
 bool RotateThenDrive::at_rest() const {
   const bool commanded = last_.forward_mps != 0.0 || last_.turn_radps != 0.0;
   const double trace_m = 0.2 * options_.arrival_distance_m;
   const double trace_rad = 0.4 * options_.turn_done_rad;
   return !commanded && std::abs(pending_m_) <= trace_m && std::abs(pending_rad_) <= trace_rad;
+}
+
+Path RotateThenDrive::path_ahead() const {
+  if (path_.waypoints_m.empty()) return {};
+  Path ahead{{leg_start_m_}};
+  ahead.waypoints_m.insert(ahead.waypoints_m.end(),
+                           path_.waypoints_m.begin() + static_cast<std::ptrdiff_t>(target_),
+                           path_.waypoints_m.end());
+  return ahead;
 }
 
 double RotateThenDrive::epsilon_m() const {

@@ -44,6 +44,12 @@ class RotateThenDrive {
   [[nodiscard]] DrivePhase phase() const { return phase_; }
   [[nodiscard]] bool arrived() const { return phase_ == DrivePhase::arrived; }
 
+  /// Nothing is commanded, and what was has come into effect but for a trace.
+  [[nodiscard]] bool at_rest() const;
+
+  /// The leg being driven, from its beginning, and those after it; empty when there is none.
+  [[nodiscard]] Path path_ahead() const;
+
  private:
   void next_phase(const Pose2& pose);
   void next_phase_rotating(const Pose2& pose);
@@ -61,7 +67,6 @@ class RotateThenDrive {
   [[nodiscard]] double steered(double wanted_heading_rad, const Pose2& pose) const;
   [[nodiscard]] std::optional<Corner> corner_ahead() const;
   BodyVelocity command(const BodyVelocity& wanted, Duration elapsed);
-  [[nodiscard]] bool at_rest() const;
   [[nodiscard]] bool on_last_leg() const { return target_ + 1 >= path_.waypoints_m.size(); }
   [[nodiscard]] const Vec2& target_m() const { return path_.waypoints_m[target_]; }
   [[nodiscard]] double epsilon_m() const;

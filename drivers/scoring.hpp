@@ -30,6 +30,9 @@ class Scorer {
   /// held the robot where it was.
   void record(const TruePose& truth, bool ran_against_obstacle = false);
 
+  /// What stands around is another one from now on.
+  void change_map(const OccupancyMap& map) { map_ = map; }
+
   /// The navigator claims to have arrived. Scored by the newest record; ends the path followed.
   void claim_arrival(const Vec2& goal_m, std::optional<double> heading_rad);
   /// The navigator follows this path from now on; none, when it is empty.

@@ -30,6 +30,10 @@ void SimulatedMotion::set_wheel_targets(double left_mps, double right_mps) {
   right_.target_mps = right_mps;
 }
 
+void SimulatedMotion::change_surroundings(const OccupancyMap& map) {
+  if (surroundings_) surroundings_->map = map;
+}
+
 void SimulatedMotion::step(Duration by) {
   const double elapsed_s = seconds(by);
   const double left_m = roll(left_, options_.left_wheel_scale, elapsed_s);

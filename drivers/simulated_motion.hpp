@@ -34,6 +34,12 @@ class SimulatedMotion {
   [[nodiscard]] double left_encoder_m() const;
   [[nodiscard]] double right_encoder_m() const;
 
+  /// Somebody pushes the robot, wheels and all: `by` in its own frame.
+  void push(const Pose2& by) { map_from_base_ = map_from_base_ * by; }
+
+  /// What stands around is another one from now on.
+  void change_surroundings(const OccupancyMap& map);
+
   [[nodiscard]] const Pose2& true_map_from_base() const { return map_from_base_; }
 
   /// The last step ran against an obstacle: the wheels turned, the robot stayed where it was.

@@ -101,6 +101,15 @@ SimulatedBase& Simulation::base() {
   return world_->base;
 }
 
+void Simulation::push(const Pose2& by) {
+  world_->motion.push(by);
+}
+
+void Simulation::change_map(const OccupancyMap& map) {
+  world_->motion.change_surroundings(map);
+  world_->scorer.change_map(map);
+}
+
 void Simulation::on_can_frame(std::function<void(const StampedCanFrame&)> listener) {
   world_->bus.on_frame(std::move(listener));
 }

@@ -48,6 +48,12 @@ class Simulation {
   /// The base, for what people and wear do to it; it does not know where it is.
   SimulatedBase& base();
 
+  /// Somebody pushes the robot, wheels and all: `by` in the robot's own frame.
+  void push(const Pose2& by);
+
+  /// Somebody moves the furniture: what stands in the robot's way from now on.
+  void change_map(const OccupancyMap& map);
+
   /// Called with every CAN frame on the bus, either way, when it is on the wire (for the run's can.log).
   void on_can_frame(std::function<void(const StampedCanFrame&)> listener);
 

@@ -11,7 +11,7 @@ namespace lodestar {
 /// applied at its capture time and the travel since then replayed over it.
 class BeliefHistory {
  public:
-  explicit BeliefHistory(const Belief& beginning) : beliefs_{beginning} {}
+  explicit BeliefHistory(const Belief& beginning) : beliefs_{beginning}, last_fix_(beginning.travel.stamp) {}
 
   /// Moves on to a newer reading, and forgets what is older than the history.
   void add_travel(const WheelTravel& travel, const PoseFilterOptions& options);
@@ -28,6 +28,7 @@ class BeliefHistory {
 
  private:
   std::deque<Belief> beliefs_;  ///< by ascending stamp, never empty
+  Stamp last_fix_;              ///< the newest applied
 };
 
 }  // namespace lodestar

@@ -8,7 +8,7 @@ namespace lodestar {
 struct PoseFilterOptions {
   double track_width_m = 0.4;  ///< between the wheels' contact points, as built
   /// Random error of one wheel's travel, per square root of metre rolled.
-  double wheel_noise_m_per_sqrt_m = 0.003;
+  double wheel_noise_m_per_sqrt_m = 0.002;
   double wheel_step_m = 0.001;              ///< readings of a wheel's travel are rounded to it
   double initial_wheel_scale_sigma = 0.02;  ///< how unequal the wheels may be before anything is learned
   double initial_turn_scale_sigma = 0.02;   ///< how wrong the track width may be before anything is learned
@@ -18,6 +18,9 @@ struct PoseFilterOptions {
   double fix_sigma_floor_m = 0.002;
   double fix_sigma_floor_rad = radians(0.1);
   double fix_bias_reach_m = 1.0;
+  /// A body sways slowly on its floor, and the camera's tilt with it: fixes much nearer to each other in time
+  /// than this have the same error, not two.
+  Duration fix_correlation = std::chrono::milliseconds(250);
   double gate_chi2 = 16.27;   ///< a fix farther away (Mahalanobis, 3 dof, 99.9 %) is refused
   int fixes_to_start = 2;     ///< consecutive consistent fixes that a start takes
   int fixes_to_relocate = 5;  ///< consecutive refused fixes that agree among themselves and move the estimate

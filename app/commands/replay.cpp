@@ -1,5 +1,6 @@
 #include "app/replay.hpp"
 
+#include <ctime>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -35,6 +36,7 @@ struct ReplayArguments {
   std::vector<std::string> goals;
   std::optional<double> pictures_hz;
   PoseKeepingOptions pose_keeping;
+  Hardships hardships;
   bool realtime = false;
   bool quiet = false;
   bool json = false;
@@ -55,6 +57,7 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
                         .goals = site.goals,
                         .planner = planner_kind(arguments.planner).value(),
                         .pose_keeping = std::nullopt,
+                        .hardships = arguments.hardships,
                         .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                         .realtime = arguments.realtime};
   if (!site.cameras.contains(options.camera)) {
@@ -72,6 +75,15 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
   return options;
 }
 
+std::string hardship_flags(const Hardships& hardships) {
+  std::string flags;
+  if (hardships.lost_frames) flags += fmt::format(" --lose-frames {}", *hardships.lost_frames);
+  if (hardships.unequal_wheels) flags += fmt::format(" --unequal-wheels {}", *hardships.unequal_wheels);
+  if (hardships.removed_markers > 0.0)
+    flags += fmt::format(" --remove-markers {}", hardships.removed_markers);
+  return flags;
+}
+
 /// The command line that gives the same run, and so the same bytes.
 std::string repeat_command(const ReplayArguments& arguments, const ReplayOptions& options) {
   const std::string& site = arguments.site;
@@ -83,7 +95,7 @@ std::string repeat_command(const ReplayArguments& arguments, const ReplayOptions
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
   }
-  return command;
+  return command + hardship_flags(options.hardships);
 }
 
 nlohmann::ordered_json as_json(const RunSummary& run) {
@@ -95,6 +107,8 @@ nlohmann::ordered_json as_json(const RunSummary& run) {
           {"path_p95_m", run.path_p95_m},
           {"contacts", run.contacts},
           {"drive_s", run.drive_s},
+          {"travel_s", run.travel_s},
+          {"ideal_s", run.ideal_s},
           {"nees", run.nees},
           {"failure", run.failure}};
 }
@@ -120,25 +134,64 @@ RunSummary worst_of(const std::vector<RunSummary>& runs) {
     worst.path_p95_m = std::max(worst.path_p95_m, run.path_p95_m);
     worst.contacts += run.contacts;
     worst.drive_s += run.drive_s;
+    worst.travel_s += run.travel_s;
+    worst.ideal_s += run.ideal_s;
     worst.nees += run.nees / static_cast<double>(runs.size());
     worst.wall_s += run.wall_s;
   }
   return worst;
 }
 
-void print_table(const std::vector<RunSummary>& runs) {
+/// That the program has used so far, of all cores.
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+double worst_time_ratio(const std::vector<RunSummary>& runs) {
+  double worst = 0.0;
+  for (const RunSummary& run : runs)
+    if (run.ideal_s > 0.0) worst = std::max(worst, run.travel_s / run.ideal_s);
+  return worst;
+}
+
+void print_nees(const std::vector<RunSummary>& runs) {
+  std::vector<std::vector<NeesSample>> samples;
+  for (const RunSummary& run : runs) samples.push_back(run.nees_samples);
+  const auto print = [&](std::string_view name, std::optional<NeesPhase> phase) {
+    if (const std::optional<NeesVerdict> nees = nees_verdict(samples, phase)) {
+      fmt::print("{:<12} {:>9.2f} {:>10.1f} % of {} s\n", name, nees->mean, 100.0 * nees->share_inside,
+                 nees->seconds);
+    }
+  };
+  const std::optional<NeesVerdict> all = nees_verdict(samples);
+  if (!all) return;
+  fmt::print("NEES, of 3; a mean over {} runs lies in {:.2f}..{:.2f} in 95 % of all seconds\n", runs.size(),
+             all->low, all->high);
+  fmt::print("{:<12} {:>9} {:>12}\n", "", "mean", "inside");
+  for (const NeesPhase phase : {NeesPhase::start_up, NeesPhase::steady, NeesPhase::gap})
+    print(to_string(phase), phase);
+  print("whole drive", std::nullopt);
+}
+
+void print_table(const std::vector<RunSummary>& runs, double cpu_s) {
   fmt::print("  seed  arrived  error (mm)  error (deg)  path95 (mm)  contacts  time (s)\n");
   for (const RunSummary& run : runs) print_row(run);
   const RunSummary worst = worst_of(runs);
   fmt::print(
       "all {} runs: {} of {} goals reached, {} contacts; worst: {:.1f} mm and {:.2f} deg from a goal, "
-      "95 % of the track within {:.1f} mm of the path; mean NEES {:.2f} of 3\n",
+      "95 % of the track within {:.1f} mm of the path\n",
       runs.size(), worst.arrivals, worst.goals, worst.contacts, 1000.0 * worst.worst_position_m,
-      degrees(worst.worst_heading_rad), 1000.0 * worst.path_p95_m, worst.nees);
-  fmt::print(stderr, "{:.0f} x real time on one core\n", worst.drive_s / worst.wall_s);
+      degrees(worst.worst_heading_rad), 1000.0 * worst.path_p95_m);
+  if (worst.ideal_s > 0.0) {
+    fmt::print("driving time {:.3f} x the ideal of the planned paths, worst run {:.3f} x\n",
+               worst.travel_s / worst.ideal_s, worst_time_ratio(runs));
+  }
+  print_nees(runs);
+  fmt::print(stderr, "{:.0f} x real time by one core's time\n", worst.drive_s / cpu_s);
 }
 
 ExitCode replay_many(const Site& site, const ReplayOptions& options, const ReplayArguments& arguments) {
+  const double begun_s = cpu_seconds();
   std::vector<RunSummary> runs;
   {
     Progress progress("replay", arguments.quiet);
@@ -150,7 +203,7 @@ ExitCode replay_many(const Site& site, const ReplayOptions& options, const Repla
   if (arguments.json) {
     fmt::print("{}\n", report.dump(2));
   } else {
-    print_table(runs);
+    print_table(runs, cpu_seconds() - begun_s);
   }
   if (!arguments.output.empty()) {
     fs::create_directories(arguments.output);
@@ -268,6 +321,18 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                    "Camera pictures a second to keep in the run folder; 2 with --serve, else none")
       ->check(CLI::Range(0.0, 100.0));
   add_pose_keeping_options(*command, arguments->pose_keeping);
+  const auto share = CLI::Range(0.0, 1.0);
+  command->add_option("--lose-frames", arguments->hardships.lost_frames, "Share of frames that never arrive")
+      ->check(share);
+  command
+      ->add_option("--unequal-wheels", arguments->hardships.unequal_wheels,
+                   "By this share the left wheel rolls farther than the right one for the same reading")
+      ->check(CLI::Range(-0.2, 0.2));
+  command
+      ->add_option(
+          "--remove-markers", arguments->hardships.removed_markers,
+          "Share of markers that no longer hang, drawn from the seed; those nearest to start and goals stay")
+      ->check(share);
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
   CLI::Option* serve = command->add_flag("--serve", arguments->serve,
                                          "Show it in a browser, and wait there for more goals until Ctrl-C");

@@ -52,6 +52,27 @@ std::string estimate_plots(const RunRecord& record) {
          plot_svg("Heading error of the estimate", "degrees", {heading_band, heading});
 }
 
+/// What the filter makes of itself: how sure it is, and what it has learned of the wheels.
+std::string filter_plots(const RunRecord& record) {
+  PlotSeries sigma_x{"sigma x", "a", {}, false};
+  PlotSeries sigma_y{"sigma y", "b", {}, false};
+  PlotSeries sigma_yaw{"sigma heading", "c", {}, false};
+  PlotSeries left{"left", "a", {}, false};
+  PlotSeries right{"right", "b", {}, false};
+  for (const StepRecord& step : record.steps) {
+    const double time_s = seconds(step.estimate.stamp);
+    const Eigen::Matrix3d& covariance = step.estimate.covariance;
+    sigma_x.points.emplace_back(time_s, mm_per_m * std::sqrt(covariance(0, 0)));
+    sigma_y.points.emplace_back(time_s, mm_per_m * std::sqrt(covariance(1, 1)));
+    sigma_yaw.points.emplace_back(time_s, degrees(std::sqrt(covariance(2, 2))));
+    left.points.emplace_back(time_s, 100.0 * (step.wheel_scales.x() - 1.0));
+    right.points.emplace_back(time_s, 100.0 * (step.wheel_scales.y() - 1.0));
+  }
+  return plot_svg("Standard deviation of the position", "mm", {sigma_x, sigma_y}) +
+         plot_svg("Standard deviation of the heading", "degrees", {sigma_yaw}) +
+         plot_svg("Wheels roll farther than they report, as learned", "%", {left, right});
+}
+
 std::string path_plot(const RunRecord& record) {
   PlotSeries distance{"distance", "a", {}, false};
   const std::vector<std::vector<TruePose>> parts = parts_of_track(record);
@@ -110,8 +131,8 @@ std::string report_html(const RunRecord& record, const std::string& map_png) {
   html += fact_row("Track from the planned curve", summary["path_distance_m"], mm_per_m, " mm");
   html += fact_row("Position of the estimate", summary["estimate_position_error_m"], mm_per_m, " mm");
   html += fact_row("Heading of the estimate", summary["estimate_heading_error_deg"], 1.0, "°");
-  html +=
-      "</table>\n<h2>Over time (s)</h2>\n" + estimate_plots(record) + path_plot(record) + drive_plots(record);
+  html += "</table>\n<h2>Over time (s)</h2>\n" + estimate_plots(record) + filter_plots(record) +
+          path_plot(record) + drive_plots(record);
   return page_html(fmt::format("Lodestar: {}, seed {}", record.site, record.seed), html);
 }
 

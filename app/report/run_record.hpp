@@ -20,7 +20,8 @@ namespace lodestar {
 struct StepRecord {
   PoseEstimate estimate;
   BodyVelocity commanded;
-  BodyVelocity measured;  ///< by the base
+  BodyVelocity measured;             ///< by the base
+  Vec2 wheel_scales = Vec2::Ones();  ///< true over reported travel, left and right, as learned so far
 };
 
 /// One frame that gave a pose.
@@ -44,6 +45,7 @@ struct GoalRecord {
   Path planned;
   bool arrived = false;
   std::string failure;                ///< in words, when it did not arrive
+  double ideal_s = 0.0;               ///< that the path planned first takes at best
   Duration travel_time{};             ///< simulated
   Stamp ended;                        ///< when the goal was reached or given up
   std::optional<ArrivalScore> score;  ///< by the truth, when it arrived

@@ -19,7 +19,8 @@ void record_step(RunRecord& record, const SensorInput& input, const NavigationSt
   if (!step.estimate) return;
   record.steps.push_back({.estimate = *step.estimate,
                           .commanded = step.command,
-                          .measured = input.base.measured.value_or(BodyVelocity{})});
+                          .measured = input.base.measured.value_or(BodyVelocity{}),
+                          .wheel_scales = step.wheel_scales});
 }
 
 const KeptPicture* record_pictures(RunRecord& record, const SensorInput& input, double pictures_hz) {
@@ -40,7 +41,9 @@ void record_event(RunRecord& record, const Mission& mission, MissionEvent event,
     GoalRecord& goal = record.goals.at(mission.current());
     const bool is_first = goal.planned.waypoints_m.empty();
     goal.planned = mission.path();
-    if (is_first) goal.travel_time = -now.time_since_epoch();
+    if (!is_first) return;
+    goal.travel_time = -now.time_since_epoch();
+    goal.ideal_s = mission.ideal_s();
     return;
   }
   GoalRecord& goal = record.goals.at(mission.current() - 1);

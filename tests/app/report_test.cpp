@@ -25,7 +25,7 @@ TEST(Report, tells_site_goals_and_how_to_repeat_the_run) {
   EXPECT_TRUE(has(html, "<code>lodestar replay yard --seed 5</code>"));
   EXPECT_TRUE(has(html, "3.00, 1.00"));
   EXPECT_TRUE(has(html, "4.0 mm"));
-  EXPECT_EQ(count_of(html, "<svg"), 6U);
+  EXPECT_EQ(count_of(html, "<svg"), 9U);
 }
 
 TEST(Report, carries_its_picture_and_loads_nothing) {

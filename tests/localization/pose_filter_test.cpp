@@ -28,6 +28,9 @@ struct World {
   double bias_sigma_m = 0.0;  ///< of the error that fixes share, which changes along the way
   double bias_sigma_rad = 0.0;
   Vec3 bias = Vec3::Zero();
+  double sway_s = 0.0;  ///< time over which the errors of fixes resemble each other
+  Vec3 sway = Vec3::Zero();
+  Stamp last_fix;
   Random random{1};
 
   /// What the wheels say: rounded.
@@ -57,10 +60,19 @@ struct World {
     if (bias_sigma_m > 0.0) bias = kept * bias + std::sqrt(1.0 - kept * kept) * fresh_bias();
   }
 
+  /// The error of the next fix, in sigmas: a first-order Gauss-Markov process.
+  void sway_on() {
+    const double kept = sway_s > 0.0 ? std::exp(-seconds(reported.stamp - last_fix) / sway_s) : 0.0;
+    sway =
+        kept * sway + std::sqrt(1.0 - kept * kept) * Vec3(random.normal(), random.normal(), random.normal());
+    last_fix = reported.stamp;
+  }
+
   PlanarFix fix(double sigma_m, double sigma_rad) {
     PlanarFix result{.stamp = reported.stamp, .map_from_base = truth};
-    result.map_from_base.position_m += bias.head<2>() + sigma_m * Vec2(random.normal(), random.normal());
-    result.map_from_base.yaw_rad = wrap_angle(truth.yaw_rad + bias.z() + sigma_rad * random.normal());
+    sway_on();
+    result.map_from_base.position_m += bias.head<2>() + sigma_m * sway.head<2>();
+    result.map_from_base.yaw_rad = wrap_angle(truth.yaw_rad + bias.z() + sigma_rad * sway.z());
     result.covariance = Vec3(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
     return result;
   }
@@ -72,6 +84,7 @@ PoseFilterOptions without_floor() {
   options.fix_sigma_floor_m = 0.0;
   options.fix_sigma_floor_rad = 0.0;
   options.wheel_step_m = 0.0;
+  options.fix_correlation = Duration::zero();
   return options;
 }
 
@@ -449,7 +462,8 @@ TEST(PoseFilter, takes_a_fix_a_little_ahead_of_the_wheels_but_not_far) {
 }
 
 /// Mean NEES of independent drives: six seconds under markers, then one without.
-double mean_nees(int runs, double bias_sigma_m, double bias_sigma_rad, double wheel_step_m) {
+double mean_nees(int runs, double bias_sigma_m, double bias_sigma_rad, double wheel_step_m,
+                 double sway_s = 0.0) {
   double sum = 0.0;
   for (int run = 1; run <= runs; ++run) {
     PoseFilterOptions options = without_floor();
@@ -457,6 +471,7 @@ double mean_nees(int runs, double bias_sigma_m, double bias_sigma_rad, double wh
     options.fix_sigma_floor_rad = bias_sigma_rad;
     options.wheel_step_m = wheel_step_m;
     options.wheel_scale_drift_per_sqrt_m = 0.0;
+    options.fix_correlation = from_seconds(sway_s);
     World world;
     world.random = Random(static_cast<std::uint64_t>(run));
     world.noise_m_per_sqrt_m = options.wheel_noise_m_per_sqrt_m;
@@ -464,6 +479,8 @@ double mean_nees(int runs, double bias_sigma_m, double bias_sigma_rad, double wh
         Vec2::Ones() + options.initial_wheel_scale_sigma * Vec2(world.random.normal(), world.random.normal());
     world.turn_scale = 1.0 + options.initial_turn_scale_sigma * world.random.normal();
     world.wheel_step_m = wheel_step_m;
+    world.sway_s = sway_s;
+    world.last_fix = at(-100.0);
     world.bias_sigma_m = bias_sigma_m;
     world.bias_sigma_rad = bias_sigma_rad;
     world.bias = world.fresh_bias();
@@ -483,6 +500,7 @@ TEST(PoseFilter, is_as_sure_as_it_may_be) {
   EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.0), 3.0, band) << "fixes share an error";
   // At a steady pace the rounding of one reading resembles that of the next, which the filter takes for new.
   EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.001), 3.0, 2.0 * band) << "and readings are rounded";
+  EXPECT_NEAR(mean_nees(runs, 0.0, 0.0, 0.0, 0.25), 3.0, 2.0 * band) << "the errors of fixes change slowly";
 }
 
 }  // namespace
