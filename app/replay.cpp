@@ -14,13 +14,14 @@ namespace {
 
 constexpr Duration control_period = std::chrono::milliseconds(20);
 
-SimulationOptions simulation_options(const Site& site, std::uint64_t seed) {
+SimulationOptions simulation_options(const Site& site, const ReplayOptions& replay) {
   SimulationOptions options;
   options.start = site.start;
   options.base_from_camera = site.robot.base_from_camera;
   options.robot_radius_m = site.robot.radius_m;
   options.base.track_width_m = site.robot.track_width_m;
-  options.seed = seed;
+  options.seed = replay.seed;
+  options.faults = replay.faults;
   return options;
 }
 
@@ -56,7 +57,7 @@ double share_done(const RunRecord& record, const Mission& mission,
 RunRecord replay(const Site& site, const ReplayOptions& options) {
   const Stopwatch watch;
   const KnownWorld world = known_world(site, options.camera);
-  Simulation simulation(world.map, world.registry, world.camera, simulation_options(site, options.seed));
+  Simulation simulation(world.map, world.registry, world.camera, simulation_options(site, options));
   BaseDriver base(simulation.can());
   NavigationOptions navigation = navigation_options(site.robot);
   navigation.planner.kind = options.planner;
@@ -88,6 +89,7 @@ RunRecord replay(const Site& site, const ReplayOptions& options) {
   record.truth = simulation.scorer().track();
   record.path_distances_m = simulation.scorer().path_distances_m();
   record.contacts = simulation.scorer().contacts();
+  record.faults = simulation.faults();
   record.wall_time_s = watch.seconds();
   return record;
 }

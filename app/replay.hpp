@@ -4,6 +4,7 @@
 
 #include "app/report/run_record.hpp"
 #include "app/site.hpp"
+#include "drivers/fault.hpp"
 #include "planning/grid_planner.hpp"
 
 namespace lodestar {
@@ -13,6 +14,7 @@ struct ReplayOptions {
   std::uint64_t seed = 1;
   std::vector<Goal> goals;
   PlannerKind planner = PlannerKind::fastest;
+  std::vector<Fault> faults;
   bool realtime = false;                 ///< no faster than the world's own time
   std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "drivers/disc_contact.hpp"
@@ -30,6 +31,27 @@ void SimulatedMotion::set_wheel_targets(double left_mps, double right_mps) {
   right_.target_mps = right_mps;
 }
 
+void SimulatedMotion::slip(double left_share, double right_share) {
+  left_.slipping_share = left_share;
+  right_.slipping_share = right_share;
+}
+
+void SimulatedMotion::carry_off(double by_m, double turn_rad, Random random) {
+  constexpr int directions = 32;
+  constexpr double room_m = 0.3;  // to all sides of the robot
+  const double first_rad = random.uniform(0.0, 2.0 * std::numbers::pi);
+  for (int i = 0; i < directions; ++i) {
+    const double direction_rad = first_rad + 2.0 * std::numbers::pi * i / directions;
+    const Vec2 to_m =
+        map_from_base_.position_m + by_m * Vec2(std::cos(direction_rad), std::sin(direction_rad));
+    const bool is_free = !surroundings_ || !disc_overlaps_obstacle(surroundings_->map, to_m,
+                                                                   surroundings_->robot_radius_m + room_m);
+    if (!is_free) continue;
+    map_from_base_ = {to_m, wrap_angle(map_from_base_.yaw_rad + turn_rad)};
+    return;
+  }
+}
+
 void SimulatedMotion::step(Duration by) {
   const double elapsed_s = seconds(by);
   const double left_m = roll(left_, options_.left_wheel_scale, elapsed_s);
@@ -50,7 +72,8 @@ double SimulatedMotion::roll(Wheel& wheel, double scale, double elapsed_s) {
   const double rolled_m = (speed_before_mps + wheel.speed_mps) / 2.0 * elapsed_s;
   wheel.rolled_m += rolled_m;
   if (rolled_m == 0.0) return 0.0;
-  return rolled_m * scale + options_.slip_sigma_per_sqrt_m * std::sqrt(std::abs(rolled_m)) * slip_.normal();
+  return rolled_m * scale * (1.0 - wheel.slipping_share) +
+         options_.slip_sigma_per_sqrt_m * std::sqrt(std::abs(rolled_m)) * slip_.normal();
 }
 
 /// A robot that would run into something turns, but stays where it is. One that overlaps already may go

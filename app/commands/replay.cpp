@@ -9,6 +9,7 @@
 #include "app/commands/command.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/progress.hpp"
+#include "app/replay_faults.hpp"
 #include "app/replay_runs.hpp"
 #include "app/report/run_folder.hpp"
 #include "maps/atomic_file.hpp"
@@ -26,6 +27,7 @@ struct ReplayArguments {
   std::string camera;
   std::string planner = "fastest";
   std::vector<std::string> goals;
+  std::string faults;
   bool realtime = false;
   bool quiet = false;
   bool json = false;
@@ -44,6 +46,7 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
                         .goals = site.goals,
                         .planner = planner_kind(arguments.planner).value(),
                         .realtime = arguments.realtime};
+  if (!arguments.faults.empty()) options.faults = faults_named(arguments.faults);
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
                      "--camera to name one of its cameras");
@@ -55,7 +58,8 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
 }
 
 /// The command line that gives the same run, and so the same bytes.
-std::string repeat_command(const std::string& site, const ReplayOptions& options) {
+std::string repeat_command(const ReplayArguments& arguments, const ReplayOptions& options) {
+  const std::string& site = arguments.site;
   std::string command =
       fmt::format("lodestar replay{} --seed {} --camera {} --planner {}", site.empty() ? "" : " " + site,
                   options.seed, options.camera, to_string(options.planner));
@@ -63,6 +67,7 @@ std::string repeat_command(const std::string& site, const ReplayOptions& options
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
   }
+  if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
   return command;
 }
 
@@ -163,7 +168,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     options.progress = [&progress](double share) { progress.show(share); };
     record = replay(site, options);
   }
-  record.repeat = repeat_command(arguments.site, options);
+  record.repeat = repeat_command(arguments, options);
   write_run_folder(folder, record, site.map.map, site.registry);
   const RunSummary summary = summarize(record);
   if (arguments.json) {
@@ -208,6 +213,8 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                    "X,Y[,DEG] in metres and degrees; repeat for more; the site's when left out")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--faults", arguments->faults,
+                      "What goes wrong: a file, or a name of the library as wheel-slip");
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_flag("--json", arguments->json, "Results as JSON");
