@@ -16,10 +16,12 @@ std::optional<double> turned_by(const std::vector<WheelTravel>& travel, double t
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : world_(world),
       options_(options),
-      sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix),
+      sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix,
+             options.filter),
       planner_(world.map, options.planner),
       free_way_(world.map, options.planner.radius_m),
-      known_{PoseFilter(options.filter), MarkerTrust(options.trust)},
+      known_{PoseFilter(options.filter), MarkerTrust(options.trust), CameraWatch(options.camera),
+             Doubt(options.doubt)},
       look_around_(options.look_around),
       on_the_spot_({}, std::nullopt, options.drive) {}
 
@@ -27,19 +29,21 @@ NavigationStep Navigation::step(const SensorInput& input) {
   // Travel comes first: a frame was exposed before the newest wheel reading, and the filter corrects the
   // past.
   Whereabouts known = known_;
-  for (const WheelTravel& travel : input.base.travel) known.filter.add_travel(travel);
+  for (const WheelTravel& travel : input.base.travel) known.add_travel(travel);
   std::vector<UsedFix> fixes;
   for (const Frame& frame : input.frames)
-    if (std::optional<UsedFix> used = sight_.see(frame, known)) fixes.push_back(std::move(*used));
+    if (std::optional<UsedFix> used = sight_.see(frame, input.now, known)) fixes.push_back(std::move(*used));
 
   const std::optional<PoseEstimate> estimate = known.filter.estimate();
   const double turned_rad = turned_by(input.base.travel, options_.drive.track_width_m).value_or(turned_rad_);
-  std::optional<StopReason> stop = reason_to_stop(input.now, estimate, options_.safety);
+  std::optional<StopReason> stop =
+      with_doubts(reason_to_stop(input.now, estimate, options_.safety), known, input.now);
   const Duration elapsed = last_step_ ? input.now - *last_step_ : Duration::zero();
   std::optional<RotateThenDrive> drive = drive_;
   LookAround look_around = look_around_;
   RotateThenDrive on_the_spot = on_the_spot_;
   BodyVelocity command;
+  if (stop && is_for_good(*stop)) drive.reset();
   if (drive) {
     const bool may_look = !drive->paused() && !drive->arrived();
     const std::optional<double> look =
@@ -70,6 +74,8 @@ NavigationStep Navigation::step(const SensorInput& input) {
           .estimate = estimate,
           .stop = stop,
           .command = command,
+          .camera = known_.camera.fault(input.now),
+          .rolled_unseen_m = known_.doubt.rolled_since_agreement_m(),
           .distrusted = known_.trust.distrusted()};
 }
 

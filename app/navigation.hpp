@@ -30,6 +30,8 @@ struct NavigationOptions {
   PoseFixOptions fix;
   PoseFilterOptions filter;
   MarkerTrustOptions trust;
+  CameraWatchOptions camera;
+  DoubtOptions doubt;
   GridPlannerOptions planner;
   DriveOptions drive;
   SafetyStopOptions safety;
@@ -50,6 +52,8 @@ struct NavigationStep {
   std::optional<PoseEstimate> estimate;
   std::optional<StopReason> stop;  ///< why the robot may not move, if so
   BodyVelocity command;
+  std::optional<CameraFault> camera;         ///< what is wrong with it, if anything
+  double rolled_unseen_m = 0.0;              ///< by the wheels, since a frame confirmed the estimate
   std::vector<DistrustedMarker> distrusted;  ///< so far
 };
 

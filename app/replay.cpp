@@ -76,7 +76,9 @@ RunRecord replay(const Site& site, const ReplayOptions& options) {
   while (!mission.finished()) {
     simulation.advance(control_period);
     const SensorInput input = sense(simulation, base);
+    const Stopwatch computing;
     const MissionStep step = mission.step(input);
+    if (options.on_step) options.on_step(computing.elapsed());
     base.command(step.navigation.command);
 
     record_step(record, input, step.navigation);

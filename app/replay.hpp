@@ -15,7 +15,9 @@ struct ReplayOptions {
   std::vector<Goal> goals;
   PlannerKind planner = PlannerKind::fastest;
   std::vector<Fault> faults;
-  bool realtime = false;                 ///< no faster than the world's own time
+  bool realtime = false;  ///< no faster than the world's own time
+  /// Called after each step of the navigator with the wall time that it took.
+  std::function<void(std::chrono::nanoseconds)> on_step;
   std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
 };
 
