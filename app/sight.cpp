@@ -5,6 +5,9 @@
 namespace lodestar {
 namespace {
 
+/// A robot that has no marker in view may drive on to the next. One whose camera is broken will see none.
+constexpr double farthest_with_broken_camera_m = 0.5;
+
 /// Of markers that contradict each other the estimate believes the one that it expected most, if any.
 std::optional<UsedFix> most_expected(const std::vector<UsedFix>& fixes, const Whereabouts& known) {
   std::optional<UsedFix> best;
@@ -79,7 +82,8 @@ std::optional<StopReason> with_doubts(const std::optional<StopReason>& reason, c
   const std::optional<DoubtReason> doubt = known.doubt.reason(now);
   if (doubt && (!reason || is_for_good(stop_for(*doubt)))) return stop_for(*doubt);
   const std::optional<CameraFault> camera = known.camera.fault(now);
-  if (reason && would_a_marker_mend(*reason) && camera) return stop_for(*camera);
+  const bool is_far = known.doubt.rolled_since_agreement_m() > farthest_with_broken_camera_m;
+  if (camera && (reason ? would_a_marker_mend(*reason) : is_far)) return stop_for(*camera);
   return reason;
 }
 
