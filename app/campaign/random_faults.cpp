@@ -29,6 +29,29 @@ bool may_mislead_at_the_start(FaultKind kind) {
          kind == FaultKind::kidnapping;
 }
 
+bool blinds(const Fault& fault) {
+  using enum FaultKind;
+  switch (fault.kind) {
+    case markers_occluded:
+    case camera_frozen:
+    case camera_dropped:
+    case camera_black:
+    case camera_saturated:
+    case camera_blurred:
+    case camera_late:
+    case clock_jump:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Nothing on board could tell a blind robot that it was carried off.
+void leave_out_what_nobody_could_see(std::vector<Fault>& faults) {
+  if (std::ranges::none_of(faults, blinds)) return;
+  std::erase_if(faults, [](const Fault& fault) { return fault.kind == FaultKind::kidnapping; });
+}
+
 Fault random_fault(FaultKind kind, Random random) {
   constexpr double pi = std::numbers::pi;
   Fault fault{.kind = kind};
@@ -104,6 +127,7 @@ std::vector<Fault> random_faults(std::uint64_t seed) {
   std::uint64_t number = 1;
   for (Fault& fault : faults)
     fault = random_fault(kinds[random.below(kinds.size())], Random(seed).stream(number++));
+  leave_out_what_nobody_could_see(faults);
   return faults;
 }
 
