@@ -52,13 +52,14 @@ MissionStep Mission::step(const SensorInput& input) {
 }
 
 MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& step) {
+  if (step.stop && is_for_good(*step.stop)) return fail(input.now, std::string(to_string(*step.stop)));
   switch (state_) {
     case State::starting:
       return start_goal(input, step);
     case State::driving:
       return watch_drive(input, step);
     case State::settling:
-      return settle(input);
+      return settle(input, step);
     case State::held:
       return hold(input);
     case State::stopping:
@@ -200,16 +201,31 @@ MissionEvent Mission::hold(const SensorInput& input) {
   return MissionEvent::none;
 }
 
-MissionEvent Mission::settle(const SensorInput& input) {
+/// What the wheels alone have told is no arrival: they may have slipped on the last of the way.
+MissionEvent Mission::settle(const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
   if (!since_ || !at_rest(input.base)) since_ = input.now;
-  if (input.now - *since_ < options_.settle) return MissionEvent::none;
+  const Duration settled = input.now - *since_;
+  if (settled < options_.settle) return MissionEvent::none;
+  if (step.stop || step.rolled_unseen_m > options_.max_rolled_unseen_m) {
+    if (settled < options_.max_stop) return MissionEvent::none;
+    return fail(input.now, fmt::format("cannot see that it has arrived: {}",
+                                       step.stop ? to_string(*step.stop) : "no marker is in view"));
+  }
+  const double distance_m = (step.estimate->map_from_base.position_m - goals_[current_].position_m).norm();
+  if (distance_m > options_.max_distance_at_arrival_m) {
+    if (++attempt_ >= options_.attempts) return fail(input.now, "does not come near enough to the goal");
+    state_ = State::starting;
+    since_.reset();
+    return MissionEvent::none;
+  }
   return end_goal(input.now, MissionEvent::goal_arrived);
 }
 
 MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   ++current_;
   paused_ = false;
+  attempt_ = 0;
   state_ = State::starting;
   since_ = now;
   return event;

@@ -11,6 +11,10 @@ struct MissionOptions {
   Duration max_wait_for_start = std::chrono::seconds(25);  ///< for a first pose and a base that obeys
   Duration max_stop = std::chrono::seconds(20);            ///< a safety stop that lasts longer fails the goal
   Duration settle = std::chrono::milliseconds(400);        ///< at rest for so long before arrival is claimed
+  /// Arrival is claimed only when a frame has confirmed it: within so much travel, and so near.
+  double max_rolled_unseen_m = 0.2;
+  double max_distance_at_arrival_m = 0.05;
+  int attempts = 3;                 ///< to come so near
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
   /// A drive that takes longer than so many times the ideal, and so much more, fails: the robot is stuck.
   double max_time_factor = 4.0;
@@ -75,6 +79,7 @@ class Mission {
   MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
   MissionEvent settle(const SensorInput& input);
   MissionEvent come_to_rest(const SensorInput& input);
+  MissionEvent settle(const SensorInput& input, const NavigationStep& step);
   MissionEvent end_goal(Stamp now, MissionEvent event);
   MissionEvent fail(Stamp now, std::string why);
 
@@ -87,6 +92,8 @@ class Mission {
   Stamp drive_ends_;  ///< at the latest
   bool paused_ = false;
   Stamp last_step_;
+  int attempt_ = 0;             ///< at the present goal
+  Stamp drive_ends_;            ///< at the latest
   std::optional<Stamp> since_;  ///< of the present state, or of the present stop while driving
   Path path_;
   double ideal_s_ = 0.0;

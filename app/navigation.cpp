@@ -23,9 +23,11 @@ Navigation::Ground::Ground(const OccupancyMap& map, const GridPlannerOptions& op
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
-      sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix),
+      sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix,
+             options.filter),
       ground_(std::make_unique<const Ground>(world.map, options.planner)),
-      known_{PoseFilter(options.filter), MarkerTrust(options.trust)},
+      known_{PoseFilter(options.filter), MarkerTrust(options.trust), CameraWatch(options.camera),
+             Doubt(options.doubt)},
       motion_{.look_around = LookAround(options.look_around),
               .on_the_spot = RotateThenDrive({}, std::nullopt, options.drive)} {}
 
@@ -34,12 +36,15 @@ NavigationStep Navigation::step(const SensorInput& input) {
   // past.
   NavigationStep step;
   Whereabouts known = known_;
-  for (const WheelTravel& travel : input.base.travel) known.filter.add_travel(travel);
+  for (const WheelTravel& travel : input.base.travel) known.add_travel(travel);
   for (const Frame& frame : input.frames)
-    if (std::optional<UsedFix> used = sight_.see(frame, known)) step.fixes.push_back(std::move(*used));
+    if (std::optional<UsedFix> used = sight_.see(frame, input.now, known))
+      step.fixes.push_back(std::move(*used));
 
   step.estimate = known.filter.estimate();
-  step.stop = reason_to_stop(input.now, step.estimate, options_.safety);
+  step.stop = with_doubts(reason_to_stop(input.now, step.estimate, options_.safety), known, input.now);
+  step.camera = known.camera.fault(input.now);
+  step.rolled_unseen_m = known.doubt.rolled_since_agreement_m();
   step.distrusted = known.trust.distrusted();
   step.wheel_scales = known.filter.wheel_scales();
   const Situation at{
@@ -59,6 +64,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
 }
 
 BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationStep& step) const {
+  if (step.stop && is_for_good(*step.stop)) motion.drive.reset();
   if (!motion.drive) {
     if (!looks_for_markers_) return {};
     const std::optional<double> look = motion.look_around.update(at.now, step.stop, at.turned_rad);
@@ -179,6 +185,7 @@ bool Navigation::place_robot(const Pose2& map_from_base) {
   if (!last_step_) return false;
   PlanarFix said{.stamp = *last_step_, .map_from_base = map_from_base, .covariance = Eigen::Matrix3d::Zero()};
   said.covariance.diagonal() = Vec3(position_sigma_m, position_sigma_m, heading_sigma_rad).array().square();
+  known_.doubt = Doubt(options_.doubt);
   return known_.filter.start_at(said);
 }
 

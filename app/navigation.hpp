@@ -31,6 +31,8 @@ struct NavigationOptions {
   PoseFixOptions fix;
   PoseFilterOptions filter;
   MarkerTrustOptions trust;
+  CameraWatchOptions camera;
+  DoubtOptions doubt;
   GridPlannerOptions planner;
   RouteOptions route;
   DriveOptions drive;
@@ -53,6 +55,8 @@ struct NavigationStep {
   std::optional<StopReason> stop;  ///< why the robot may not move, if so
   BodyVelocity command;
   std::optional<RouteUpdate> reroute;        ///< the path followed from now on is another one, or lost
+  std::optional<CameraFault> camera;         ///< what is wrong with it, if anything
+  double rolled_unseen_m = 0.0;              ///< by the wheels, since a frame confirmed the estimate
   std::vector<DistrustedMarker> distrusted;  ///< so far
   Vec2 wheel_scales = Vec2::Ones();          ///< true over reported travel, left and right, as learned so far
 };

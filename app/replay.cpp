@@ -16,13 +16,14 @@ namespace {
 
 constexpr Duration control_period = std::chrono::milliseconds(20);
 
-SimulationOptions simulation_options(const Site& site, std::uint64_t seed) {
+SimulationOptions simulation_options(const Site& site, const ReplayOptions& replay) {
   SimulationOptions options;
   options.start = site.start;
   options.base_from_camera = site.robot.base_from_camera;
   options.robot_radius_m = site.robot.radius_m;
   options.base.track_width_m = site.robot.track_width_m;
-  options.seed = seed;
+  options.seed = replay.seed;
+  options.faults = replay.faults;
   return options;
 }
 
@@ -75,7 +76,7 @@ class SimulatedDrive {
         options_(options),
         world_(known_world(site, options.camera)),
         simulation_(world_.map, hanging_markers(site, options), world_.camera,
-                    made_harder(simulation_options(site, options.seed), options.hardships)),
+                    made_harder(simulation_options(site, options), options.hardships)),
         base_(simulation_.can()),
         mission_(world_, replay_navigation(site, options), options.goals) {
     simulation_.on_can_frame([this](const StampedCanFrame& frame) { take(frame); });
@@ -84,7 +85,9 @@ class SimulatedDrive {
   void step(Attendant* attendant = nullptr) {
     simulation_.advance(control_period);
     const SensorInput input = sense(simulation_, base_);
+    const Stopwatch computing;
     const MissionStep step = mission_.step(input);
+    if (options_.on_step) options_.on_step(computing.elapsed());
     base_.command(step.navigation.command);
     if (attendant != nullptr)
       attendant->show(input, step, mission_, [&] { return error_of(step.navigation); });
@@ -122,6 +125,7 @@ class SimulatedDrive {
     record_.truth = scorer.track();
     record_.path_distances_m = scorer.path_distances_m();
     record_.contacts = scorer.contacts();
+    record_.faults = simulation_.faults();
     record_.wall_time_s = watch_.seconds();
     return std::move(record_);
   }

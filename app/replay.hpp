@@ -7,6 +7,7 @@
 #include "app/pose_keeping.hpp"
 #include "app/report/run_record.hpp"
 #include "app/site.hpp"
+#include "drivers/fault.hpp"
 #include "planning/grid_planner.hpp"
 
 namespace lodestar {
@@ -20,8 +21,11 @@ struct ReplayOptions {
   PlannerKind planner = PlannerKind::fastest;
   std::optional<PoseKeeping> pose_keeping;  ///< that paths must keep to
   Hardships hardships;
-  double pictures_hz = 0.0;              ///< camera frames to keep in the record
-  bool realtime = false;                 ///< no faster than the world's own time
+  std::vector<Fault> faults;
+  double pictures_hz = 0.0;  ///< camera frames to keep in the record
+  bool realtime = false;     ///< no faster than the world's own time
+  /// Called after each step of the navigator with the wall time that it took.
+  std::function<void(std::chrono::nanoseconds)> on_step;
   std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
   DriveWatcher watch;                    ///< called at every step, if there
 };

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/camera_watch.hpp"
+#include "app/image_watch.hpp"
 #include "app/live/attendant.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
@@ -120,7 +120,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
   RecordedBus recorded(bus, [&recording](const StampedCanFrame& frame) { recording.take(frame); });
   BaseDriver base(recorded, std::move(protocol));
   BaseWatcher watcher(options);
-  CameraWatch camera_watch;
+  ImageWatch image_watch;
   Mission mission(known_world(site, options.camera), navigation_options(site.robot), options.goals,
                   {.hold_on_base_fault = options.hold_on_base_fault});
 
@@ -135,7 +135,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     base.command(step.navigation.command);
 
     watcher.see(input.base);
-    if (const auto words = camera_watch.see(input.now, input.frames.size())) options.tell(*words);
+    if (const auto words = image_watch.see(input.now, input.frames.size())) options.tell(*words);
     recording.take(input, mission, step);
     if (options.attendant != nullptr) options.attendant->show(input, step, mission);
     if (const std::string words = in_words(mission, step.event); !words.empty()) options.tell(words);

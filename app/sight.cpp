@@ -5,6 +5,9 @@
 namespace lodestar {
 namespace {
 
+/// A robot that has no marker in view may drive on to the next. One whose camera is broken will see none.
+constexpr double farthest_with_broken_camera_m = 0.5;
+
 /// Of markers that contradict each other the estimate believes the one that it expected most, if any.
 std::optional<UsedFix> most_expected(const std::vector<UsedFix>& fixes, const Whereabouts& known) {
   std::optional<UsedFix> best;
@@ -20,24 +23,91 @@ std::optional<UsedFix> most_expected(const std::vector<UsedFix>& fixes, const Wh
 
 /// The filter's word on the fix, and what follows from it for the markers.
 void take_in(UsedFix& used, Whereabouts& known) {
+  const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
+  if (expected) used.expected = expected->map_from_base;
   used.outcome = known.filter.add_fix(used.planar, used.fix.ids);
   if (used.outcome == FixOutcome::accepted) known.trust.support(used.fix.ids);
   if (used.outcome == FixOutcome::started || used.outcome == FixOutcome::relocated)
     known.trust.estimate_moved();
+  known.doubt.add_fix({.stamp = used.fix.stamp,
+                       .ids = used.fix.ids,
+                       .map_from_base = used.planar.map_from_base,
+                       .expected = used.expected,
+                       .outcome = used.outcome});
+}
+
+StopReason stop_for(CameraFault fault) {
+  switch (fault) {
+    case CameraFault::silent:
+      return StopReason::camera_silent;
+    case CameraFault::repeats:
+      return StopReason::camera_repeats;
+    case CameraFault::dark:
+      return StopReason::camera_dark;
+    case CameraFault::bright:
+      return StopReason::camera_bright;
+    case CameraFault::late:
+      return StopReason::camera_late;
+    case CameraFault::other_clock:
+      return StopReason::camera_clock;
+  }
+  return StopReason::camera_silent;
+}
+
+StopReason stop_for(DoubtReason reason) {
+  switch (reason) {
+    case DoubtReason::contradicted:
+      return StopReason::contradicted;
+    case DoubtReason::moved:
+      return StopReason::pose_moved;
+    case DoubtReason::wheels_wrong:
+      return StopReason::wheels_wrong;
+    case DoubtReason::carried_away:
+      return StopReason::carried_away;
+    case DoubtReason::wheels_broken:
+      return StopReason::wheels_broken;
+  }
+  return StopReason::contradicted;
 }
 
 }  // namespace
 
+void Whereabouts::add_travel(const WheelTravel& reading) {
+  filter.add_travel(reading);
+  doubt.add_travel(reading);
+}
+
+std::optional<StopReason> with_doubts(const std::optional<StopReason>& reason, const Whereabouts& known,
+                                      Stamp now) {
+  const std::optional<DoubtReason> doubt = known.doubt.reason(now);
+  if (doubt && (!reason || is_for_good(stop_for(*doubt)))) return stop_for(*doubt);
+  const std::optional<CameraFault> camera = known.camera.fault(now);
+  const bool is_far = known.doubt.rolled_since_agreement_m() > farthest_with_broken_camera_m;
+  if (camera && (reason ? would_a_marker_mend(*reason) : is_far)) return stop_for(*camera);
+  return reason;
+}
+
 Sight::Sight(const MarkerRegistry& registry, const CameraModel& camera,
              const Eigen::Isometry3d& base_from_camera, const DetectorOptions& detector,
-             const PoseFixOptions& fix)
+             const PoseFixOptions& fix, const PoseFilterOptions& filter)
     : registry_(registry),
       base_from_camera_(base_from_camera),
       fix_options_(fix),
       tracker_(registry, camera, detector),
-      fixer_(registry, camera) {}
+      fixer_(registry, camera),
+      filter_options_(filter) {}
 
-std::optional<UsedFix> Sight::see(const Frame& frame, Whereabouts& known) {
+std::optional<UsedFix> Sight::see(const Frame& frame, Stamp now, Whereabouts& known) {
+  if (known.camera.take_in(frame, now)) return std::nullopt;
+  std::optional<UsedFix> used = look(frame, known);
+  if (known.doubt.wheels_fooled_us()) {
+    known.filter = PoseFilter(filter_options_);
+    known.trust.estimate_moved();
+  }
+  return used;
+}
+
+std::optional<UsedFix> Sight::look(const Frame& frame, Whereabouts& known) {
   const std::span<const DetectedMarker> seen =
       tracker_.detect(frame.gray, view_expected_at(frame.stamp, known));
   std::vector<DetectedMarker> markers(seen.begin(), seen.end());

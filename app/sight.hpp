@@ -3,6 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "control/safety_stop.hpp"
+#include "localization/camera_watch.hpp"
+#include "localization/doubt.hpp"
 #include "localization/marker_tracker.hpp"
 #include "localization/marker_trust.hpp"
 #include "localization/pose_filter.hpp"
@@ -15,14 +18,25 @@ namespace lodestar {
 struct UsedFix {
   PoseFix fix;
   PlanarFix planar;
+  std::optional<Pose2> expected;  ///< where the estimate had the robot
   FixOutcome outcome = FixOutcome::collecting;
 };
 
-/// What the robot holds true about where it is and which markers tell the truth.
+/// What the robot holds true about where it is, which markers tell the truth, and whether its camera and
+/// wheels do.
 struct Whereabouts {
   PoseFilter filter;
   MarkerTrust trust;
+  CameraWatch camera;
+  Doubt doubt;
+
+  void add_travel(const WheelTravel& reading);
 };
+
+/// Why the robot must not move now, nothing when it may: `reason`, found elsewhere, in clearer words where
+/// the camera is the cause; or else what is doubtful about the estimate.
+std::optional<StopReason> with_doubts(const std::optional<StopReason>& reason, const Whereabouts& known,
+                                      Stamp now);
 
 /// From a camera frame to a better belief: reads the markers, first where the belief says that they must be,
 /// takes the pose from those that are trusted, and calls a marker to account that contradicts the others or
@@ -30,16 +44,18 @@ struct Whereabouts {
 class Sight {
  public:
   Sight(const MarkerRegistry& registry, const CameraModel& camera, const Eigen::Isometry3d& base_from_camera,
-        const DetectorOptions& detector, const PoseFixOptions& fix);
+        const DetectorOptions& detector, const PoseFixOptions& fix, const PoseFilterOptions& filter);
 
-  /// Nothing when no pose came of the frame; the belief may know more of its markers even so.
-  std::optional<UsedFix> see(const Frame& frame, Whereabouts& known);
+  /// A frame that has arrived now. Nothing when no pose came of it; the belief may know more of its markers
+  /// even so. Where the wheels turn out to have been wrong, the belief begins anew.
+  std::optional<UsedFix> see(const Frame& frame, Stamp now, Whereabouts& known);
 
  private:
   [[nodiscard]] std::optional<ExpectedView> view_expected_at(Stamp stamp, const Whereabouts& known) const;
   [[nodiscard]] std::optional<UsedFix> fix_by(const Frame& frame, std::span<const DetectedMarker> markers);
   [[nodiscard]] std::vector<UsedFix> fixes_by_each(const Frame& frame,
                                                    std::span<const DetectedMarker> markers);
+  std::optional<UsedFix> look(const Frame& frame, Whereabouts& known);
   void judge(const UsedFix& single, Whereabouts& known) const;
 
   MarkerRegistry registry_;
@@ -47,6 +63,7 @@ class Sight {
   PoseFixOptions fix_options_;
   MarkerTracker tracker_;
   PoseFixer fixer_;
+  PoseFilterOptions filter_options_;
 };
 
 }  // namespace lodestar

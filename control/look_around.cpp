@@ -3,18 +3,10 @@
 #include <cmath>
 
 namespace lodestar {
-namespace {
-
-/// Would a marker in view mend it?
-bool is_lost(const std::optional<StopReason>& stop) {
-  return stop == StopReason::no_pose || stop == StopReason::pose_stale || stop == StopReason::pose_uncertain;
-}
-
-}  // namespace
 
 std::optional<double> LookAround::update(Stamp now, const std::optional<StopReason>& stop,
                                          double turned_rad) {
-  if (!options_.allowed || !is_lost(stop)) {
+  if (!options_.allowed || !stop || !would_a_marker_mend(*stop)) {
     stopped_since_.reset();
     begun_at_rad_.reset();
     return std::nullopt;

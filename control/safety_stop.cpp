@@ -31,8 +31,39 @@ std::string_view to_string(StopReason reason) {
       return "the base is silent";
     case StopReason::way_blocked:
       return "the way is blocked";
+    case StopReason::camera_silent:
+      return "the camera sends no frames";
+    case StopReason::camera_repeats:
+      return "the camera repeats the same picture";
+    case StopReason::camera_dark:
+      return "the camera sees nothing but black";
+    case StopReason::camera_bright:
+      return "the camera sees nothing but white";
+    case StopReason::camera_late:
+      return "the camera's frames come too late";
+    case StopReason::camera_clock:
+      return "the camera's clock is not the robot's";
+    case StopReason::contradicted:
+      return "the markers say that the robot is elsewhere";
+    case StopReason::pose_moved:
+      return "the pose has just been corrected";
+    case StopReason::wheels_wrong:
+      return "the wheels say otherwise than the markers";
+    case StopReason::carried_away:
+      return "the robot is not where it was believed to be, as if it had been put elsewhere: start it again";
+    case StopReason::wheels_broken:
+      return "the wheels cannot be believed: start the robot again";
   }
   return "";
+}
+
+bool is_for_good(StopReason reason) {
+  return reason == StopReason::carried_away || reason == StopReason::wheels_broken;
+}
+
+bool would_a_marker_mend(StopReason reason) {
+  return reason == StopReason::no_pose || reason == StopReason::pose_stale ||
+         reason == StopReason::pose_uncertain;
 }
 
 std::optional<StopReason> reason_to_stop(Stamp now, const std::optional<PoseEstimate>& estimate,

@@ -16,8 +16,31 @@ struct SafetyStopOptions {
   double max_heading_sigma_rad = radians(5.0);
 };
 
-enum class StopReason { no_pose, pose_stale, pose_uncertain, base_silent, way_blocked };
+enum class StopReason {
+  no_pose,
+  pose_stale,
+  pose_uncertain,
+  base_silent,
+  way_blocked,
+  camera_silent,
+  camera_repeats,
+  camera_dark,
+  camera_bright,
+  camera_late,
+  camera_clock,
+  contradicted,
+  pose_moved,
+  wheels_wrong,
+  carried_away,   ///< for good
+  wheels_broken,  ///< for good
+};
 std::string_view to_string(StopReason reason);
+
+/// Nothing that the robot sees later ends such a stop: somebody must look after it and start it again.
+bool is_for_good(StopReason reason);
+
+/// Would a marker in view end the stop?
+bool would_a_marker_mend(StopReason reason);
 
 /// Why the robot must not move now, for what it knows of itself; nothing when it may. The robot never drives
 /// on a guess.

@@ -168,14 +168,22 @@ std::vector<CeilingDisc> scatter_glints(const Ceiling& ceiling, const Extent& ex
 
 }  // namespace
 
+std::vector<CeilingMarker> hang_markers(const MarkerRegistry& registry, const SimulatedCameraOptions& options,
+                                        std::uint64_t seed) {
+  const Random random = Random(seed).stream(dots_of_markers);
+  std::vector<CeilingMarker> markers;
+  for (std::size_t i = 0; i < registry.markers.size(); ++i) {
+    markers.push_back(
+        hang(registry, registry.markers[i], options.dot_gray, options.dot_gray_sigma, random.stream(i)));
+  }
+  return markers;
+}
+
 Ceiling fit_ceiling(const MarkerRegistry& registry, const SimulatedCameraOptions& options,
                     std::uint64_t seed) {
   const Random random(seed);
   Ceiling ceiling;
-  for (std::size_t i = 0; i < registry.markers.size(); ++i) {
-    ceiling.markers.push_back(hang(registry, registry.markers[i], options.dot_gray, options.dot_gray_sigma,
-                                   random.stream(dots_of_markers).stream(i)));
-  }
+  ceiling.markers = hang_markers(registry, options, seed);
   ceiling.height_m = median_height_m(ceiling.markers);
   const Extent extent = extent_of(ceiling.markers);
   if (options.tubes) ceiling.tubes = fit_tubes(ceiling, extent);

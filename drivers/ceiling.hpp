@@ -42,6 +42,10 @@ struct Ceiling {
 /// Half the side of a marker's film; no glint shines through it.
 inline constexpr double marker_film_half_side_m = 0.085;
 
+/// Hangs up the registry's markers alone. Deterministic in the seed.
+std::vector<CeilingMarker> hang_markers(const MarkerRegistry& registry, const SimulatedCameraOptions& options,
+                                        std::uint64_t seed);
+
 /// Fits the ceiling around the registry's markers, some metres beyond them to all sides. Tubes and lamps keep
 /// clear of the markers, as an electrician and a surveyor would; glints keep off their film only. Markers
 /// that share an ID all hang there. Deterministic in the seed.

@@ -90,6 +90,7 @@ cv::Mat ImageFormer::expose(const Eigen::Isometry3d& map_from_camera_at_opening,
   paint_squares(squares_, shutter);
   for (const CeilingTube& tube : ceiling_.tubes) paint_tube(tube, shutter);
   for (const CeilingDisc& lamp : ceiling_.lamps) paint_disc(lamp, lamp.gray, shutter);
+  for (const CeilingDisc& lamp : more_lamps_) paint_disc(lamp, lamp.gray, shutter);
   for (const CeilingDisc& glint : ceiling_.glints) paint_disc(glint, glint.gray, shutter);
   paint_markers(shutter);
   paint_squares(covers_, shutter);

@@ -46,6 +46,12 @@ class ImageFormer {
   /// What hides the markers from now on, instead of what did so before.
   void cover(std::vector<PrintedSquare> covers) { covers_ = std::move(covers); }
 
+  /// Hangs these markers instead of those before, and such lamps beside what the ceiling has.
+  void rehang(std::vector<CeilingMarker> markers, std::vector<CeilingDisc> more_lamps) {
+    ceiling_.markers = std::move(markers);
+    more_lamps_ = std::move(more_lamps);
+  }
+
   /// Leaves the ceiling as it is, but without the markers.
   void take_markers_down() { ceiling_.markers.clear(); }
 
@@ -70,6 +76,7 @@ class ImageFormer {
   Ceiling ceiling_;
   std::vector<PrintedSquare> squares_;
   std::vector<PrintedSquare> covers_;
+  std::vector<CeilingDisc> more_lamps_;
   Vignetting vignetting_;
   double blur_sigma_px_;  ///< lens and pixel together
   double widest_ray_;     ///< largest hypot(x, y) of the rays (x, y, 1) in the image

@@ -1,5 +1,7 @@
 #include "drivers/simulated_camera.hpp"
 
+#include <utility>
+
 #include "maps/input_error.hpp"
 #include "maps/random.hpp"
 
@@ -60,6 +62,10 @@ void SimulatedCamera::observe(Stamp now, const Pose2& true_map_from_base) {
     }
   }
   last_ = current;
+}
+
+void SimulatedCamera::rehang(const MarkerRegistry& registry, std::vector<CeilingDisc> more_lamps) {
+  image_former_.rehang(hang_markers(registry, options_, seed_), std::move(more_lamps));
 }
 
 std::optional<Frame> SimulatedCamera::poll() {

@@ -28,6 +28,9 @@ class SimulatedCamera : public Camera {
   /// The base's true pose at `now`. Stamps ascend; between two of them the base is taken to move evenly.
   void observe(Stamp now, const Pose2& true_map_from_base);
 
+  /// From the next frame on these markers hang on the ceiling, and such lamps beside its own.
+  void rehang(const MarkerRegistry& registry, std::vector<CeilingDisc> more_lamps);
+
   /// A frame is formed when it is asked for, so one that nobody polls costs nothing.
   std::optional<Frame> poll() override;
 

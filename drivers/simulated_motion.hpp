@@ -27,6 +27,13 @@ class SimulatedMotion {
   /// What the motors are told: speeds at the rim, as the firmware believes the wheels to be.
   void set_wheel_targets(double left_mps, double right_mps);
 
+  /// From now on the floor goes by less than the wheels roll, by these shares; 0: as usual.
+  void slip(double left_share, double right_share);
+
+  /// Somebody carries the robot so far, in one of the directions where it then stands free, and turns it by
+  /// so much; nobody does where there is no room.
+  void carry_off(double by_m, double turn_rad, Random random);
+
   /// Rolls on for a short time, a millisecond or two, on an exact arc.
   void step(Duration by);
 
@@ -50,6 +57,7 @@ class SimulatedMotion {
     double target_mps = 0.0;
     double speed_mps = 0.0;
     double rolled_m = 0.0;
+    double slipping_share = 0.0;
   };
 
   double roll(Wheel& wheel, double scale, double elapsed_s);

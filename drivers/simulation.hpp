@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "drivers/camera.hpp"
 #include "drivers/can_bus.hpp"
+#include "drivers/fault.hpp"
 #include "drivers/scoring.hpp"
 #include "drivers/simulated_base.hpp"
 #include "drivers/simulated_camera_options.hpp"
@@ -25,6 +27,7 @@ struct SimulationOptions {
   Duration physics_step = std::chrono::milliseconds(1);
   Duration scoring_period = std::chrono::milliseconds(20);  ///< between records of the true pose
   std::uint64_t seed = 1;
+  std::vector<Fault> faults;
 };
 
 /// The simulated world as a set of drivers: a camera and a CAN bus, moved along in simulated time. Nothing
@@ -56,6 +59,9 @@ class Simulation {
 
   /// Called with every CAN frame on the bus, either way, when it is on the wire (for the run's can.log).
   void on_can_frame(std::function<void(const StampedCanFrame&)> listener);
+
+  /// What has gone wrong so far; for judges and reports.
+  [[nodiscard]] std::vector<FaultEvent> faults() const;
 
   /// The judge, who sees the truth.
   [[nodiscard]] Scorer& scorer();

@@ -16,6 +16,7 @@ struct Command {
 };
 
 std::vector<Command> replay_commands(CLI::App& lodestar);
+std::vector<Command> campaign_commands(CLI::App& lodestar);
 std::vector<Command> localize_commands(CLI::App& lodestar);
 std::vector<Command> detect_commands(CLI::App& lodestar);
 std::vector<Command> plan_commands(CLI::App& lodestar);
@@ -23,6 +24,7 @@ std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
 std::vector<Command> marker_file_commands(CLI::App& markers);  ///< convert, print: words of `markers`
 std::vector<Command> serve_commands(CLI::App& lodestar);
+std::vector<Command> soak_commands(CLI::App& lodestar);
 std::vector<Command> calibrate_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
 Command bench_localize_command(CLI::App& bench);

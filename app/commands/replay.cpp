@@ -16,6 +16,7 @@
 #include "app/live/attendant.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/progress.hpp"
+#include "app/replay_faults.hpp"
 #include "app/replay_runs.hpp"
 #include "app/report/run_folder.hpp"
 #include "app/viewers/run_mcap.hpp"
@@ -37,6 +38,7 @@ struct ReplayArguments {
   std::optional<double> pictures_hz;
   PoseKeepingOptions pose_keeping;
   Hardships hardships;
+  std::string faults;
   bool realtime = false;
   bool quiet = false;
   bool json = false;
@@ -60,6 +62,7 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
                         .hardships = arguments.hardships,
                         .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                         .realtime = arguments.realtime};
+  if (!arguments.faults.empty()) options.faults = faults_named(arguments.faults);
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
                      "--camera to name one of its cameras");
@@ -95,6 +98,7 @@ std::string repeat_command(const ReplayArguments& arguments, const ReplayOptions
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
   }
+  if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
   return command + hardship_flags(options.hardships);
 }
 
@@ -333,6 +337,8 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
           "--remove-markers", arguments->hardships.removed_markers,
           "Share of markers that no longer hang, drawn from the seed; those nearest to start and goals stay")
       ->check(share);
+  command->add_option("--faults", arguments->faults,
+                      "What goes wrong: a file, or a name of the library as wheel-slip");
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
   CLI::Option* serve = command->add_flag("--serve", arguments->serve,
                                          "Show it in a browser, and wait there for more goals until Ctrl-C");

@@ -27,6 +27,19 @@ std::string goal_row(const GoalRecord& goal) {
       seconds(goal.travel_time), error, heading);
 }
 
+std::string faults_table(const std::vector<FaultEvent>& faults) {
+  if (faults.empty()) return {};
+  std::string html =
+      "<h2>Faults injected</h2>\n<table><tr><th>Fault</th><th>From</th><th>To</th><th>Marker</th></tr>\n";
+  for (const FaultEvent& fault : faults) {
+    html += fmt::format("<tr><td>{}</td><td>{:.2f} s</td><td>{}</td><td>{}</td></tr>\n",
+                        to_string(fault.kind), seconds(fault.begin),
+                        fault.end ? fmt::format("{:.2f} s", seconds(*fault.end)) : "the end",
+                        fault.marker ? fmt::format("{}", *fault.marker) : "");
+  }
+  return html + "</table>\n";
+}
+
 std::string fact_row(const std::string& name, const nlohmann::ordered_json& spread, double factor,
                      const std::string& unit) {
   std::string row = fmt::format("<tr><td>{}</td>", name);
@@ -125,8 +138,9 @@ std::string report_html(const RunRecord& record, const std::string& map_png) {
       "<h2>Goals</h2>\n<table><tr><th>Goal (m)</th><th>End</th><th>Planned</th><th>Time</th><th>Off "
       "by</th><th>Heading off by</th></tr>\n";
   for (const GoalRecord& goal : record.goals) html += goal_row(goal);
+  html += "</table>\n" + faults_table(record.faults);
   html +=
-      "</table>\n<h2>Errors against the truth</h2>\n<table><tr><th></th><th>median</th><th>95 "
+      "<h2>Errors against the truth</h2>\n<table><tr><th></th><th>median</th><th>95 "
       "%</th><th>largest</th></tr>\n";
   html += fact_row("Track from the planned curve", summary["path_distance_m"], mm_per_m, " mm");
   html += fact_row("Position of the estimate", summary["estimate_position_error_m"], mm_per_m, " mm");

@@ -7,6 +7,7 @@
 
 #include "app/goal.hpp"
 #include "drivers/can_bus.hpp"
+#include "drivers/fault.hpp"
 #include "drivers/scoring.hpp"
 #include "localization/marker_trust.hpp"
 #include "maps/marker_registry.hpp"
@@ -51,6 +52,13 @@ struct GoalRecord {
   std::optional<ArrivalScore> score;  ///< by the truth, when it arrived
 };
 
+/// From here on something was wrong, in the navigator's words, or nothing any more.
+struct NoticeRecord {
+  Stamp stamp;
+  std::string words;  ///< empty: all is well again
+  bool stops = false;
+};
+
 struct RunRecord {
   std::string site;
   std::string camera;  ///< profile: wide or paper
@@ -66,6 +74,8 @@ struct RunRecord {
   std::vector<StampedCanFrame> can_frames;
   std::vector<TruePose> truth;
   std::vector<double> path_distances_m;  ///< of the true track from the planned curve
+  std::vector<NoticeRecord> notices;
+  std::vector<FaultEvent> faults;  ///< that were injected
   int contacts = 0;
   int frames = 0;            ///< that arrived from the camera
   double wall_time_s = 0.0;  ///< never written to a file that must repeat byte for byte

@@ -3,6 +3,18 @@
 #include "app/report/figure.hpp"
 
 namespace lodestar {
+namespace {
+
+/// What the navigator would say if it were asked now.
+NoticeRecord notice_of(const SensorInput& input, const NavigationStep& step) {
+  if (input.base.state == BaseState::fault && input.base.fault)
+    return {input.now, std::string(to_string(*input.base.fault)), true};
+  if (step.stop) return {input.now, std::string(to_string(*step.stop)), true};
+  if (step.camera) return {input.now, std::string(to_string(*step.camera)), false};
+  return {input.now, {}, false};
+}
+
+}  // namespace
 
 void record_step(RunRecord& record, const SensorInput& input, const NavigationStep& step) {
   record.frames += static_cast<int>(input.frames.size());
@@ -16,6 +28,9 @@ void record_step(RunRecord& record, const SensorInput& input, const NavigationSt
                             .accepted = accepted});
   }
   record.distrusted = step.distrusted;
+  const NoticeRecord notice = notice_of(input, step);
+  const std::string& last = record.notices.empty() ? std::string() : record.notices.back().words;
+  if (notice.words != last) record.notices.push_back(notice);
   if (!step.estimate) return;
   record.steps.push_back({.estimate = *step.estimate,
                           .commanded = step.command,

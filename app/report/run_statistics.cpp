@@ -70,6 +70,17 @@ Json distrusted_json(const std::vector<DistrustedMarker>& distrusted) {
   return markers;
 }
 
+Json faults_json(const std::vector<FaultEvent>& faults) {
+  Json list = Json::array();
+  for (const FaultEvent& fault : faults) {
+    list.push_back({{"fault", to_string(fault.kind)},
+                    {"begin_s", seconds(fault.begin)},
+                    {"end_s", fault.end ? Json(seconds(*fault.end)) : Json(nullptr)},
+                    {"marker", fault.marker ? Json(*fault.marker) : Json(nullptr)}});
+  }
+  return list;
+}
+
 double driven_m(const RunRecord& record) {
   double total = 0.0;
   for (std::size_t i = 1; i < record.truth.size(); ++i) {
@@ -164,7 +175,8 @@ nlohmann::ordered_json summary_of(const RunRecord& record) {
           {"fixes_refused", record.fixes.size() - accepted},
           {"mean_confidence", mean_confidence(record)},
           {"nees", optional_json(mean_nees(errors))},
-          {"distrusted_markers", distrusted_json(record.distrusted)}};
+          {"distrusted_markers", distrusted_json(record.distrusted)},
+          {"faults", faults_json(record.faults)}};
 }
 
 }  // namespace lodestar

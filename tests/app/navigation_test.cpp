@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
@@ -41,8 +42,10 @@ struct Lab {
 SensorInput sense(const Lab& lab, Simulation& simulation, BaseDriver& base) {
   simulation.advance(period);
   SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
-  while (std::optional<Frame> frame = simulation.camera().poll())
-    if (lab.sees(frame->stamp)) input.frames.push_back(std::move(*frame));
+  while (std::optional<Frame> frame = simulation.camera().poll()) {
+    if (!lab.sees(frame->stamp)) cv::blur(frame->gray, frame->gray, {101, 101});
+    input.frames.push_back(std::move(*frame));
+  }
   return input;
 }
 
@@ -161,7 +164,8 @@ TEST(Navigation, pauses_goes_on_and_can_be_cancelled) {
   EXPECT_TRUE(navigation.paused());
   EXPECT_EQ(run(150).forward_mps, 0.0);
   navigation.resume();
-  EXPECT_GT(run(100).forward_mps, 0.1);
+  for (int i = 0; i < 20 && run(25).forward_mps < 0.3; ++i) continue;
+  EXPECT_GT(run(1).forward_mps, 0.1);
   navigation.cancel();
   EXPECT_GT(run(1).forward_mps, 0.1) << "gently";
   EXPECT_EQ(run(200).forward_mps, 0.0);

@@ -14,10 +14,11 @@ const std::set<std::string> face_of_the_hardware{
     "drivers/camera_stand_in.hpp",  "drivers/clock.hpp",         "drivers/guard.hpp",
     "drivers/pluggable_camera.hpp", "drivers/recorded_bus.hpp",  "drivers/socketcan_bus.hpp",
     "drivers/v4l2_camera.hpp"};
-const std::set<std::string> simulated_world{"drivers/hosted_base.hpp", "drivers/image_former.hpp",
+const std::set<std::string> simulated_world{"drivers/fault.hpp",          "drivers/fault_file.hpp",
+                                            "drivers/hosted_base.hpp",    "drivers/image_former.hpp",
                                             "drivers/printed_square.hpp", "drivers/scoring.hpp",
                                             "drivers/simulation.hpp"};
-const std::regex friends_of_the_judge{"app/(replay|run_|report|figure|bench|commands/base).*"};
+const std::regex friends_of_the_judge{"app/(replay|campaign|run_|report|figure|bench|commands/base).*"};
 
 std::string folder_of(const std::string& path) {
   return path.substr(0, path.find('/'));

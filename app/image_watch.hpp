@@ -8,7 +8,7 @@
 namespace lodestar {
 
 /// Do the images still come? They are missed when three of their usual periods have passed without one.
-class CameraWatch {
+class ImageWatch {
  public:
   /// At every step, with what has arrived since the last one. What is new about the camera, in words for
   /// people; nothing when it is as before.

@@ -1,4 +1,4 @@
-#include "app/camera_watch.hpp"
+#include "app/image_watch.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
 /// A control loop of 20 ms that looks at a camera.
-class CameraWatchTest : public testing::Test {
+class ImageWatchTest : public testing::Test {
  protected:
   std::optional<std::string> step(std::size_t frames) {
     now += milliseconds(20);
@@ -25,16 +25,16 @@ class CameraWatchTest : public testing::Test {
     }
   }
 
-  CameraWatch watch;
+  ImageWatch watch;
   Stamp now{milliseconds(1)};
 };
 
-TEST_F(CameraWatchTest, has_nothing_to_say_of_a_camera_that_works) {
+TEST_F(ImageWatchTest, has_nothing_to_say_of_a_camera_that_works) {
   watch_images(500);
   EXPECT_FALSE(watch.is_silent());
 }
 
-TEST_F(CameraWatchTest, misses_images_after_three_periods_and_says_so_once) {
+TEST_F(ImageWatchTest, misses_images_after_three_periods_and_says_so_once) {
   watch_images(50);
   int steps = 0;
   std::optional<std::string> words;
@@ -50,7 +50,7 @@ TEST_F(CameraWatchTest, misses_images_after_three_periods_and_says_so_once) {
   watch_images(50);
 }
 
-TEST_F(CameraWatchTest, gives_a_camera_two_seconds_to_start) {
+TEST_F(ImageWatchTest, gives_a_camera_two_seconds_to_start) {
   for (int i = 0; i < 99; ++i) EXPECT_FALSE(step(0));
   EXPECT_FALSE(watch.is_silent());
   for (int i = 0; i < 5; ++i) (void)step(0);

@@ -1,4 +1,4 @@
-#include "app/camera_watch.hpp"
+#include "app/image_watch.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,11 +13,11 @@ constexpr Duration first_patience = std::chrono::seconds(2);         ///< until 
 
 }  // namespace
 
-Duration CameraWatch::patience() const {
+Duration ImageWatch::patience() const {
   return period_ ? std::max(missed_frames * *period_, least_patience) : first_patience;
 }
 
-std::optional<std::string> CameraWatch::see(Stamp now, std::size_t frames) {
+std::optional<std::string> ImageWatch::see(Stamp now, std::size_t frames) {
   if (!last_) last_ = now;
   const Duration since = now - *last_;
   if (frames > 0) {

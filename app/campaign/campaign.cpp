@@ -1,0 +1,162 @@
+#include "app/campaign/campaign.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <mutex>
+
+#include "app/campaign/random_faults.hpp"
+#include "app/campaign/random_site.hpp"
+#include "app/parallel.hpp"
+#include "maps/input_error.hpp"
+#include "maps/marker_code.hpp"
+#include "maps/random.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum Purpose : std::uint64_t { building = 1, faults };
+
+std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
+  std::map<std::uint64_t, MissionOutcome> outcomes;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (json.is_discarded()) continue;  // cut off while it was written: that mission is run again
+    MissionOutcome outcome = outcome_from(json);
+    outcomes[outcome.mission] = std::move(outcome);
+  }
+  return outcomes;
+}
+
+/// The first thing that the navigator said or refused after the fault had begun.
+std::optional<double> noticed_after_s(const RunRecord& record) {
+  if (record.faults.size() != 1) return std::nullopt;
+  const Stamp begin = record.faults.front().begin;
+  std::optional<Stamp> first;
+  const auto consider = [&](Stamp stamp) {
+    if (stamp >= begin && (!first || stamp < *first)) first = stamp;
+  };
+  for (const NoticeRecord& notice : record.notices)
+    if (!notice.words.empty()) consider(notice.stamp);
+  for (const FixRecord& fix : record.fixes)
+    if (!fix.accepted) consider(fix.stamp);
+  if (!first) return std::nullopt;
+  return seconds(*first - begin);
+}
+
+/// The way from each reason to stop until the robot stood.
+std::optional<double> stopped_within_m(const RunRecord& record) {
+  constexpr double still_m = 0.0002;  // between two records
+  constexpr double carried_m = 0.1;   // no wheel does that
+  std::optional<double> longest;
+  for (const NoticeRecord& notice : record.notices) {
+    if (!notice.stops) continue;
+    double way_m = 0.0;
+    auto pose = std::ranges::lower_bound(record.truth, notice.stamp, {}, &TruePose::stamp);
+    for (; pose != record.truth.end() && std::next(pose) != record.truth.end(); ++pose) {
+      const double step_m =
+          (std::next(pose)->map_from_base.position_m - pose->map_from_base.position_m).norm();
+      if (step_m < still_m) break;
+      if (step_m < carried_m) way_m += step_m;
+    }
+    longest = std::max(longest.value_or(0.0), way_m);
+  }
+  return longest;
+}
+
+}  // namespace
+
+std::vector<int> campaign_ids() {
+  constexpr int most = 64;
+  return choose_marker_ids(most, {}, {.min_distance = 3});
+}
+
+CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number) {
+  const Random random(number);
+  CampaignMission mission;
+  mission.site = random_site(robot_and_cameras, ids, random.stream(building).bits());
+  mission.replay = {.camera = robot_and_cameras.default_camera,
+                    .seed = number,
+                    .goals = mission.site.goals,
+                    .faults = random_faults(random.stream(faults).bits())};
+  return mission;
+}
+
+MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record) {
+  const GoalRecord& goal = record.goals.front();
+  MissionOutcome outcome{.mission = number};
+  for (const FaultEvent& fault : record.faults) outcome.faults.emplace_back(to_string(fault.kind));
+  outcome.arrived = goal.arrived;
+  if (goal.score) outcome.error_m = goal.score->position_error_m;
+  outcome.failure = goal.failure;
+  outcome.contacts = record.contacts;
+  outcome.driven_s = record.truth.empty() ? 0.0 : seconds(record.truth.back().stamp);
+  outcome.noticed_after_s = noticed_after_s(record);
+  outcome.stopped_within_m = stopped_within_m(record);
+  return outcome;
+}
+
+nlohmann::ordered_json as_json(const MissionOutcome& outcome) {
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"mission", outcome.mission},
+          {"faults", outcome.faults},
+          {"arrived", outcome.arrived},
+          {"error_m", outcome.error_m},
+          {"failure", outcome.failure},
+          {"contacts", outcome.contacts},
+          {"driven_s", outcome.driven_s},
+          {"noticed_after_s", optional(outcome.noticed_after_s)},
+          {"stopped_within_m", optional(outcome.stopped_within_m)}};
+}
+
+MissionOutcome outcome_from(const nlohmann::json& json) {
+  const auto optional = [&](const char* key) {
+    return json.at(key).is_null() ? std::nullopt : std::optional(json.at(key).get<double>());
+  };
+  return {.mission = json.at("mission"),
+          .faults = json.at("faults"),
+          .arrived = json.at("arrived"),
+          .error_m = json.at("error_m"),
+          .failure = json.at("failure"),
+          .contacts = json.at("contacts"),
+          .driven_s = json.at("driven_s"),
+          .noticed_after_s = optional("noticed_after_s"),
+          .stopped_within_m = optional("stopped_within_m")};
+}
+
+std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const CampaignOptions& options,
+                                         const fs::path& folder, const std::function<void(double)>& done) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const fs::path file = folder / "missions.jsonl";
+  auto known = options.resume ? outcomes_in(file) : std::map<std::uint64_t, MissionOutcome>();
+  std::ofstream log(file, options.resume ? std::ios::app : std::ios::trunc);
+  if (!log) throw InputError(file, 0, "a file that cannot be written", "one that can");
+
+  const std::vector<int> ids = campaign_ids();
+  std::vector<MissionOutcome> outcomes(static_cast<std::size_t>(options.missions));
+  std::mutex mutex;
+  int finished = 0;
+  in_parallel(options.missions, [&](int i) {
+    const std::uint64_t number = options.first + static_cast<std::uint64_t>(i);
+    MissionOutcome& outcome = outcomes[static_cast<std::size_t>(i)];
+    const auto before = known.find(number);
+    if (before != known.end()) {
+      outcome = before->second;
+    } else {
+      const CampaignMission mission = mission_of(robot_and_cameras, ids, number);
+      outcome = outcome_of(number, replay(mission.site, mission.replay));
+    }
+    const std::lock_guard lock(mutex);
+    if (before == known.end()) log << as_json(outcome).dump() << "\n" << std::flush;
+    done(static_cast<double>(++finished) / options.missions);
+  });
+  return outcomes;
+}
+
+}  // namespace lodestar

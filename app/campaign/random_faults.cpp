@@ -1,0 +1,134 @@
+#include "app/campaign/random_faults.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "maps/random.hpp"
+
+namespace lodestar {
+namespace {
+
+int how_many(Random& random) {
+  const double chance = random.uniform();
+  if (chance < 0.08) return 0;
+  if (chance < 0.68) return 1;
+  return chance < 0.90 ? 2 : 3;
+}
+
+std::optional<Duration> passing(double least_s, double most_s, Random& random) {
+  const bool lasts_to_the_end = random.uniform() < 0.15;
+  const double lasts_s = random.uniform(least_s, most_s);
+  return lasts_to_the_end ? std::nullopt : std::optional(from_seconds(lasts_s));
+}
+
+/// A marker that misleads a robot which has seen no other yet: what cannot be known stays unknown. Such
+/// faults begin when the robot has a pose.
+bool may_mislead_at_the_start(FaultKind kind) {
+  return kind == FaultKind::marker_moved || kind == FaultKind::marker_wrong_id ||
+         kind == FaultKind::markers_swapped || kind == FaultKind::marker_duplicated ||
+         kind == FaultKind::kidnapping;
+}
+
+bool blinds(const Fault& fault) {
+  using enum FaultKind;
+  switch (fault.kind) {
+    case markers_occluded:
+    case camera_frozen:
+    case camera_dropped:
+    case camera_black:
+    case camera_saturated:
+    case camera_blurred:
+    case camera_late:
+    case clock_jump:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Nothing on board could tell a blind robot that it was carried off.
+void leave_out_what_nobody_could_see(std::vector<Fault>& faults) {
+  if (std::ranges::none_of(faults, blinds)) return;
+  std::erase_if(faults, [](const Fault& fault) { return fault.kind == FaultKind::kidnapping; });
+}
+
+Fault random_fault(FaultKind kind, Random random) {
+  constexpr double pi = std::numbers::pi;
+  Fault fault{.kind = kind};
+  const bool from_the_start = random.uniform() < 0.15 && !may_mislead_at_the_start(kind);
+  const double begin_s = random.uniform(1.5, 12.0);
+  fault.begin = from_seconds(from_the_start ? 0.0 : begin_s);
+  fault.direction_rad = random.uniform(-pi, pi);
+  switch (kind) {
+    case FaultKind::marker_moved:
+      fault.shift_m = random.uniform(0.05, 0.5);
+      fault.turn_rad = random.uniform() < 0.5 ? 0.0 : random.uniform(-0.5, 0.5);
+      break;
+    case FaultKind::marker_duplicated:
+      fault.shift_m = random.uniform(0.25, 1.0);
+      fault.turn_rad = random.uniform(-pi, pi);
+      break;
+    case FaultKind::markers_occluded:
+    case FaultKind::camera_frozen:
+    case FaultKind::camera_dropped:
+    case FaultKind::camera_black:
+    case FaultKind::camera_saturated:
+      fault.lasts = passing(0.2, 8.0, random);
+      break;
+    case FaultKind::camera_blurred:
+      fault.lasts = passing(0.2, 8.0, random);
+      fault.blur_sigma_px = random.uniform(1.0, 10.0);
+      break;
+    case FaultKind::camera_late:
+      fault.lasts = passing(0.5, 8.0, random);
+      fault.delay_s = random.uniform(0.0, 0.6);
+      break;
+    case FaultKind::clock_jump:
+      fault.lasts = passing(0.5, 8.0, random);
+      fault.delay_s = random.uniform() < 0.5 ? 3600.0 : -3600.0;
+      break;
+    case FaultKind::decoy_lamps:
+      fault.count = 5.0 + static_cast<double>(random.below(60));
+      fault.shift_m = random.uniform(0.1, 0.6);
+      break;
+    case FaultKind::can_loss:
+    case FaultKind::can_duplication:
+    case FaultKind::can_corruption:
+      fault.lasts = passing(1.0, 10.0, random);
+      fault.share = random.uniform(0.0, 0.5);
+      break;
+    case FaultKind::can_delay:
+      fault.lasts = passing(1.0, 10.0, random);
+      fault.delay_s = random.uniform(0.0, 0.06);
+      break;
+    case FaultKind::wheel_slip:
+      fault.lasts = from_seconds(random.uniform(0.2, 3.0));
+      fault.left_share = random.uniform(-0.2, 0.6);
+      fault.right_share = random.uniform(-0.2, 0.6);
+      break;
+    case FaultKind::kidnapping:
+      fault.shift_m = random.uniform(0.4, 3.0);
+      fault.turn_rad = random.uniform(-pi, pi);
+      break;
+    case FaultKind::marker_wrong_id:
+    case FaultKind::markers_swapped:
+    case FaultKind::encoder_stuck:
+      break;
+  }
+  return fault;
+}
+
+}  // namespace
+
+std::vector<Fault> random_faults(std::uint64_t seed) {
+  Random random(seed);
+  const std::vector<FaultKind> kinds = all_fault_kinds();
+  std::vector<Fault> faults(static_cast<std::size_t>(how_many(random)));
+  std::uint64_t number = 1;
+  for (Fault& fault : faults)
+    fault = random_fault(kinds[random.below(kinds.size())], Random(seed).stream(number++));
+  leave_out_what_nobody_could_see(faults);
+  return faults;
+}
+
+}  // namespace lodestar

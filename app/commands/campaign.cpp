@@ -1,0 +1,96 @@
+#include "app/campaign/campaign.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <memory>
+
+#include "app/campaign/campaign_report.hpp"
+#include "app/commands/command.hpp"
+#include "app/progress.hpp"
+#include "app/report/run_folder.hpp"
+#include "maps/atomic_file.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CampaignArguments {
+  std::string site;
+  std::uint64_t first = 1;
+  int missions = 100;
+  std::optional<std::uint64_t> mission;
+  bool resume = false;
+  bool quiet = false;
+  std::string output = "runs/campaign";
+};
+
+void print_failure(const MissionOutcome& outcome) {
+  std::string faults;
+  for (const std::string& fault : outcome.faults) faults += (faults.empty() ? "" : ", ") + fault;
+  fmt::print("{}: {} ({}); repeat with: {}\n", outcome.mission,
+             outcome.hit_something() ? "contact" : "silently wrong", faults, repeat_command(outcome));
+}
+
+ExitCode verdict(const std::vector<MissionOutcome>& outcomes) {
+  const bool has_failed = std::ranges::any_of(outcomes, [](const MissionOutcome& outcome) {
+    return outcome.hit_something() || outcome.silently_wrong();
+  });
+  return has_failed ? job_failed : done;
+}
+
+ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const fs::path& output) {
+  const CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number);
+  RunRecord record = replay(mission.site, mission.replay);
+  const MissionOutcome outcome = outcome_of(number, record);
+  record.repeat = repeat_command(outcome);
+  const fs::path folder = output / fmt::format("mission-{}", number);
+  write_run_folder(folder, record, mission.site.map.map, mission.site.registry);
+  fmt::print("{}\nrun folder: {}\n", as_json(outcome).dump(2), folder.string());
+  return verdict({outcome});
+}
+
+ExitCode campaign_command(const CampaignArguments& arguments) {
+  const Site site =
+      load_site(arguments.site.empty() ? fs::path(LODESTAR_SITES_DIR) / "lab" : fs::path(arguments.site));
+  if (arguments.mission) return run_one(site, *arguments.mission, arguments.output);
+  std::vector<MissionOutcome> outcomes;
+  {
+    Progress progress("campaign", arguments.quiet);
+    outcomes = run_campaign(
+        site, {.first = arguments.first, .missions = arguments.missions, .resume = arguments.resume},
+        arguments.output, [&progress](double share) { progress.show(share); });
+  }
+  const nlohmann::ordered_json report = campaign_json(outcomes);
+  write_file_atomically(fs::path(arguments.output) / "campaign.json", report.dump(2) + "\n");
+  write_file_atomically(fs::path(arguments.output) / "campaign.html", campaign_html(outcomes));
+  for (const MissionOutcome& outcome : outcomes)
+    if (outcome.hit_something() || outcome.silently_wrong()) print_failure(outcome);
+  const auto& all = report["all"];
+  fmt::print("{} missions: {} arrivals, {} safe stops, {} with contacts, {} silently wrong; report: {}\n",
+             all["missions"].get<int>(), all["arrivals"].get<int>(), all["safe_stops"].get<int>(),
+             all["contacts"].get<int>(), all["silently_wrong"].get<int>(),
+             (fs::path(arguments.output) / "campaign.html").string());
+  return verdict(outcomes);
+}
+
+}  // namespace
+
+std::vector<Command> campaign_commands(CLI::App& lodestar) {
+  const auto arguments = std::make_shared<CampaignArguments>();
+  CLI::App* command = lodestar.add_subcommand(
+      "campaign", "Missions through made-up buildings with faults; exit 1 on a contact or a wrong arrival");
+  command->add_option("missions", arguments->missions, "How many")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  command->add_option("--site", arguments->site, "Whose robot and cameras to take; the lab's when left out");
+  command->add_option("--first", arguments->first, "Number of the first mission")->capture_default_str();
+  command->add_option("--mission", arguments->mission, "Only this one, and leave its run folder");
+  command->add_flag("--resume", arguments->resume, "Go on with a campaign that was cut off");
+  command->add_flag("--quiet", arguments->quiet, "No progress bar");
+  command->add_option("-o,--output", arguments->output, "Folder of the report")->capture_default_str();
+  return {{command, [arguments] { return campaign_command(*arguments); }}};
+}
+
+}  // namespace lodestar

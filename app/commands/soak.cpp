@@ -1,0 +1,154 @@
+#include <atomic>
+#include <filesystem>
+#include <fmt/core.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/commands/command.hpp"
+#include "app/console/console.hpp"
+#include "app/console/http_server.hpp"
+#include "app/interruption.hpp"
+#include "app/process_health.hpp"
+#include "app/replay.hpp"
+#include "app/stopwatch.hpp"
+#include "maps/atomic_file.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SoakArguments {
+  std::string site;
+  double minutes = 60.0;
+  bool realtime = false;
+  unsigned short port = 0;
+  std::string output = "runs/soak";
+};
+
+struct SoakResult {
+  ProcessHealth warm;  ///< after a tenth of the time
+  ProcessHealth last;
+  int missions = 0;
+  int failed = 0;
+  TimeHistogram computing;  ///< of each step of the navigator
+  TimeHistogram period;     ///< from one step to the next, in real time only
+};
+
+/// A server that answers clients from a thread of its own as long as it lives.
+class BackgroundConsole {
+ public:
+  BackgroundConsole(const fs::path& site, const fs::path& runs, unsigned short port)
+      : console_(site, runs),
+        server_({.access = {.bind = "127.0.0.1", .port = port}},
+                [this](const HttpRequest& request) { return console_.answer(request); }),
+        thread_([this] {
+          while (!stopping_) server_.run_for(std::chrono::milliseconds(100));
+        }) {}
+  ~BackgroundConsole() {
+    stopping_ = true;
+    thread_.join();
+  }
+  BackgroundConsole(const BackgroundConsole&) = delete;
+  BackgroundConsole& operator=(const BackgroundConsole&) = delete;
+
+  [[nodiscard]] unsigned short port() const { return server_.port(); }
+
+ private:
+  Console console_;
+  HttpServer server_;
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;
+};
+
+double growth_percent(const SoakResult& result) {
+  if (result.warm.resident_kb == 0) return 0.0;
+  return 100.0 * static_cast<double>(result.last.resident_kb - result.warm.resident_kb) /
+         static_cast<double>(result.warm.resident_kb);
+}
+
+nlohmann::ordered_json times(const TimeHistogram& histogram) {
+  const auto at = [&](double share) {
+    const std::optional<double> ms = histogram.quantile_ms(share);
+    return ms ? nlohmann::ordered_json(*ms) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"count", histogram.count()}, {"p50", at(0.5)}, {"p99_9", at(0.999)}, {"max", histogram.max_ms()}};
+}
+
+nlohmann::ordered_json as_json(const SoakResult& result, double minutes) {
+  return {{"minutes", minutes},
+          {"missions", result.missions},
+          {"failed", result.failed},
+          {"resident_kb_warm", result.warm.resident_kb},
+          {"resident_kb", result.last.resident_kb},
+          {"growth_percent", growth_percent(result)},
+          {"descriptors_warm", result.warm.descriptors},
+          {"descriptors", result.last.descriptors},
+          {"computing_ms", times(result.computing)},
+          {"period_ms", times(result.period)}};
+}
+
+ReplayOptions mission(const Site& site, const SoakArguments& arguments, SoakResult& result) {
+  ReplayOptions options{.camera = site.default_camera, .goals = site.goals, .realtime = arguments.realtime};
+  const auto last = std::make_shared<std::optional<std::chrono::steady_clock::time_point>>();
+  options.on_step = [&result, last, realtime = arguments.realtime](std::chrono::nanoseconds computing) {
+    const auto now = std::chrono::steady_clock::now();
+    result.computing.add(computing);
+    if (realtime && *last) result.period.add(now - **last);
+    *last = now;
+  };
+  return options;
+}
+
+ExitCode soak(const SoakArguments& arguments) {
+  const fs::path folder =
+      arguments.site.empty() ? fs::path(LODESTAR_SITES_DIR) / "lab" : fs::path(arguments.site);
+  const Site site = load_site(folder);
+  fs::create_directories(arguments.output);
+  const BackgroundConsole console(folder, arguments.output, arguments.port);
+  fmt::print("http://127.0.0.1:{}/\n", console.port());
+  std::fflush(stdout);
+
+  const Interruption interruption;
+  const Stopwatch watch;
+  const double seconds_per_minute = 60.0;
+  const double wanted_s = seconds_per_minute * arguments.minutes;
+  constexpr double warm_share = 0.1;
+  SoakResult result;
+  while (watch.seconds() < wanted_s && !Interruption::asked()) {
+    ReplayOptions options = mission(site, arguments, result);
+    options.seed = static_cast<std::uint64_t>(++result.missions);
+    const RunRecord record = replay(site, options);
+    if (!record.arrived() || record.contacts > 0) ++result.failed;
+    result.last = process_health();
+    if (result.warm.resident_kb == 0 && watch.seconds() >= warm_share * wanted_s) result.warm = result.last;
+    write_file_atomically(fs::path(arguments.output) / "soak.json",
+                          as_json(result, watch.seconds() / seconds_per_minute).dump(2) + "\n");
+  }
+  fmt::print("{}\n", as_json(result, watch.seconds() / seconds_per_minute).dump(2));
+  constexpr double most_growth_percent = 1.0;
+  constexpr int descriptors_of_clients = 32;  // those that are connected at the moment
+  const bool is_fine = result.failed == 0 && growth_percent(result) < most_growth_percent &&
+                       result.last.descriptors <= result.warm.descriptors + descriptors_of_clients;
+  return is_fine ? done : job_failed;
+}
+
+}  // namespace
+
+std::vector<Command> soak_commands(CLI::App& lodestar) {
+  const auto arguments = std::make_shared<SoakArguments>();
+  CLI::App* command = lodestar.add_subcommand(
+      "soak", "Drive for hours beside the console; exit 1 when memory or descriptors grow, or a drive fails");
+  command->add_option("site", arguments->site, "Site folder; the lab when left out");
+  command->add_option("--minutes", arguments->minutes, "How long")
+      ->check(CLI::Range(0.01, 1e6))
+      ->capture_default_str();
+  command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
+  command->add_option("--port", arguments->port, "Of the console; 0 takes any free one")
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "Folder of soak.json")->capture_default_str();
+  return {{command, [arguments] { return soak(*arguments); }}};
+}
+
+}  // namespace lodestar
