@@ -176,7 +176,7 @@ double mean_nees(const Mode& mode, int trials, const std::vector<int>& free_axes
 
 TEST(FixPose, covariance_is_honest_in_every_mode) {
   // The band is that of the 95 % limits of a mean of chi-square values; 2 % on top for Huber's loss.
-  constexpr int trials = 2000;
+  constexpr int trials = 10000;
   for (const Mode& mode : {Mode{"exact tilt", 0.0, 1, 0.1}, Mode{"tilt within 0.3 deg", radians(0.3), 1, 0.1},
                            Mode{"tilt within 0.3 deg, three markers", radians(0.3), 3, 0.1},
                            Mode{"free, two markers", std::nullopt, 2, 0.05},
