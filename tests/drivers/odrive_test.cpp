@@ -6,25 +6,18 @@
 #include "drivers/simulated_motion.hpp"
 #include "drivers/simulated_odrive.hpp"
 
+#include "tests/drivers/perfect_base.hpp"
+
 namespace lodestar {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-SimulatedBaseOptions perfect_wheels() {
-  SimulatedBaseOptions options;
-  options.true_track_width_m = options.track_width_m;
-  options.left_wheel_scale = 1.0;
-  options.right_wheel_scale = 1.0;
-  options.slip_sigma_per_sqrt_m = 0.0;
-  return options;
-}
-
 /// Two axes at one end of a bus, the driver at the other.
 struct World {
   explicit World(const SimulatedOdriveOptions& options = {})
-      : motion(perfect_wheels(), {}, 1), base(bus.attach(), motion, options) {}
+      : motion(perfect_base(), {}, 1), base(bus.attach(), motion, options) {}
 
   void drive(const BodyVelocity& velocity, Duration time, bool commands = true) {
     for (const Stamp end = now + time; now < end;) {

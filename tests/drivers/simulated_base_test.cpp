@@ -11,21 +11,13 @@
 #include "drivers/in_process_bus.hpp"
 #include "drivers/simulated_motion.hpp"
 
+#include "tests/drivers/perfect_base.hpp"
+
 namespace lodestar {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-/// A base without any of its faults but quantization.
-SimulatedBaseOptions perfect_base() {
-  SimulatedBaseOptions options;
-  options.true_track_width_m = options.track_width_m;
-  options.left_wheel_scale = 1.0;
-  options.right_wheel_scale = 1.0;
-  options.slip_sigma_per_sqrt_m = 0.0;
-  return options;
-}
 
 /// Loses frames at random, either way.
 class LossyBus final : public CanBus {
