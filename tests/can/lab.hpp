@@ -38,7 +38,8 @@ class CanLab : public testing::Test {
   /// Nobody commands motion any more, from so soon after `since` on.
   void expect_no_motion_after(Duration bound, Stamp since) const;
 
-  /// Drives, on a straight leg. The time at which that was seen.
+  /// Drives, on a straight leg, if need be after a resume: a busy machine may have stopped it on its way
+  /// there. The time at which that was seen.
   Stamp wait_until_driving();
   /// The exit code of the mission; nothing when it does not end in time, or is stopped by a fault.
   std::optional<int> wait_for_the_end(Duration longest) const;
