@@ -43,8 +43,8 @@ struct RobotState {
   std::vector<DistrustedMarker> distrusted;
   std::optional<Frame> frame;  ///< the newest
 
-  std::optional<double> error_m;  ///< by the truth, which only a simulation is told
-  std::vector<DriveEvent> events;      ///< the latest, oldest first
+  std::optional<double> error_m;   ///< by the truth, which only a simulation is told
+  std::vector<DriveEvent> events;  ///< the latest, oldest first
 };
 
 }  // namespace lodestar
