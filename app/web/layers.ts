@@ -9,6 +9,12 @@ const names: [LayerName, string][] = [
 const colours: [FloorColour, string][] = [
   ['coverage', 'coverage'], ['deviation', 'deviation'], ['plain', 'nothing']];
 
+const legends: Record<FloorColour, [string, string][]> = {
+  coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more']],
+  deviation: [['more', '5 mm or less'], ['one', '20 mm or more, one deviation of a fix'], ['none', 'no marker at some heading']],
+  plain: [],
+};
+
 export class Layers {
   shown: Record<LayerName, boolean> = { map: true, markers: true, ids: true, reach: true, route: true };
   floor: FloorColour = 'coverage';
@@ -33,5 +39,11 @@ export class Layers {
     this.floor = colour;
     this.choice.value = colour;
     this.onChange();
+  }
+
+  /** What the floor's colours mean. */
+  showLegend(): void {
+    byId('legend').replaceChildren('From above, as through the ceiling.',
+      ...legends[this.floor].flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words]));
   }
 }

@@ -6,13 +6,14 @@ import { isTyping, keyOf } from './commands.js';
 import type { Command } from './commands.js';
 import { Coverage, Floor } from './coverage.js';
 import { askAboutConflict, exportTo, importFrom, pickFile, printChosen, showHelp } from './dialogs.js';
-import { button, byId, el } from './dom.js';
+import { button, byId } from './dom.js';
 import { Editor } from './editor.js';
 import type { Registry } from './editor.js';
 import { centerOf } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import { merged, openHistory } from './history.js';
 import { Layers } from './layers.js';
+import { markerCommands } from './marker_commands.js';
 import { Measure } from './measure.js';
 import { Panel } from './panel.js';
 import { Live } from './live.js';
@@ -88,7 +89,7 @@ class Console {
     this.pointer.onDrag = () => this.dragged();
     this.editor.onChange = () => this.changed();
     byId('title').textContent = `Lodestar: ${site.name}`;
-    this.showLegend();
+    this.layers.showLegend();
     this.makeTools();
     this.makeModes();
     this.listenToKeys();
@@ -132,17 +133,10 @@ class Console {
   }
 
   private layersChanged(): void {
-    this.showLegend();
+    this.layers.showLegend();
     this.stage.paintRaster();
     this.stage.redraw();
     if (this.layers.floor === 'deviation') attempt(() => this.showDeviations());
-  }
-
-  private showLegend(): void {
-    const entries = { coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more']],
-      deviation: [['more', '5 mm or less'], ['one', '20 mm or more, one deviation of a fix'], ['none', 'no marker at some heading']], plain: [] }[this.layers.floor];
-    byId('legend').replaceChildren('From above, as through the ceiling.',
-      ...entries.flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words!]));
   }
 
   // -- documents --------------------------------------------------------------------------------------------
@@ -222,33 +216,14 @@ class Console {
 
   private makeCommands(): Command[] {
     const { editor } = this;
-    const any = () => editor.selection.size > 0;
-    const snap = this.pointer.snap;
-    const nudges: Command[] = ([['', 0.01, '1 cm'], ['Shift+', 0.1, '10 cm'], ['Alt+', 0.001, '1 mm']] as const).flatMap(([mod, by, words]) =>
-      ([['ArrowLeft', -1, 0], ['ArrowRight', 1, 0], ['ArrowUp', 0, 1], ['ArrowDown', 0, -1]] as const).map(([key, x, y]): Command =>
-        ({ name: `${mod}${key}`, key: `${mod}${key}`, title: `move by ${words}`, run: () => this.actions.nudge(x * by, y * by), possible: any })));
     return [
       { name: 'undo', button: 'Undo', key: 'Ctrl+Z', title: 'undo', run: () => editor.undo(), possible: () => editor.canUndo },
       { name: 'redo', button: 'Redo', key: 'Ctrl+Shift+Z', title: 'redo', run: () => editor.redo(), possible: () => editor.canRedo },
       { name: 'redo2', key: 'Ctrl+Y', title: 'redo', run: () => editor.redo() },
-      { name: 'add', button: 'Add', key: 'N', title: 'new marker in the middle of the view', run: () => this.actions.addAt(this.view.center) },
-      { name: 'duplicate', button: 'Duplicate', key: 'Ctrl+D', title: 'duplicate, with the safest free IDs', run: () => this.actions.duplicate(), possible: any },
-      { name: 'array', button: 'Array', key: 'A', title: 'copies in rows and columns', run: () => attempt(() => this.actions.array()), possible: any },
-      { name: 'move-by', button: 'Move by', key: 'M', title: 'move and turn the chosen by numbers', run: () => attempt(() => this.actions.moveBy()), possible: any },
-      { name: 'distribute', key: 'D', title: 'put three or more at equal steps on a line', run: () => this.actions.distribute(), possible: () => editor.selection.size > 2 },
-      { name: 'wall', key: 'W', title: 'move the chosen straight to a distance from the nearest wall', run: () => attempt(() => this.actions.wall()), possible: any },
-      { name: 'pick-id', key: 'I', title: 'another ID, the safest free ones first', run: () => attempt(() => this.actions.pickId()), possible: () => editor.selection.size === 1 },
-      { name: 'delete', button: 'Delete', key: 'Delete', title: 'delete', run: () => editor.remove(editor.selection), possible: any },
-      { name: 'all', key: 'Ctrl+A', title: 'choose all', run: () => editor.select(editor.markers.keys()) },
-      { name: 'none', key: 'Escape', title: 'choose nothing; leave a drag', run: () => { this.measure.end(); this.pointer.pick = null; this.pointer.cancel(); editor.select([]); } },
-      { name: 'ccw', key: '[', title: 'turn by 1° counter-clockwise', run: () => this.actions.turn(1), possible: any },
-      { name: 'cw', key: ']', title: 'turn by 1° clockwise', run: () => this.actions.turn(-1), possible: any },
-      { name: 'quarter', key: 'R', title: 'turn by 90°', run: () => this.actions.turn(90), possible: any },
-      { name: 'snap', button: 'Snap', key: 'G', title: 'snap to 5 cm and 15° while dragging', run: () => { snap.on = !snap.on; }, pressed: () => snap.on },
+      ...markerCommands(this, attempt),
       { name: 'coverage', everywhere: true, button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => this.toggleCoverage(), pressed: () => this.layers.floor === 'coverage' },
       { name: 'measure', everywhere: true, button: 'Measure', key: 'T', title: 'tape measure between two places', run: () => this.measure.toggle(), pressed: () => this.measure.on },
       { name: 'deviation', everywhere: true, key: 'V', title: 'show how sure of its pose the robot would be', run: () => this.layers.paintFloor(this.layers.floor === 'deviation' ? 'coverage' : 'deviation') },
-      { name: 'fill', key: 'K', title: 'fill the gaps', run: () => attempt(() => this.actions.fill()) },
       { name: 'turn-view', everywhere: true, key: '.', title: 'turn the view by 15° clockwise', run: () => this.turnView(-15) },
       { name: 'turn-view-back', everywhere: true, key: ',', title: 'turn the view by 15° counter-clockwise', run: () => this.turnView(15) },
       { name: 'north', everywhere: true, key: '0', title: 'the map upright again', run: () => this.turnView(-this.view.turnDeg) },
@@ -262,7 +237,6 @@ class Console {
       { name: 'save', button: 'Save', key: 'Ctrl+S', title: 'save', run: () => this.save(), possible: () => editor.dirty },
       { name: 'theme', everywhere: true, button: 'Light/dark', title: 'light or dark', run: () => this.theme() },
       { name: 'help', everywhere: true, button: 'Help', key: '?', title: 'this sheet', run: () => attempt(() => showHelp(this.commands)) },
-      ...nudges,
     ];
   }
 
