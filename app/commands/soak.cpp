@@ -28,7 +28,7 @@ struct SoakArguments {
 };
 
 struct SoakResult {
-  ProcessHealth warm;  ///< after a tenth of the time
+  ProcessHealth warm;  ///< after a quarter of the time
   ProcessHealth last;
   int missions = 0;
   int failed = 0;
@@ -114,7 +114,7 @@ ExitCode soak(const SoakArguments& arguments) {
   const Stopwatch watch;
   const double seconds_per_minute = 60.0;
   const double wanted_s = seconds_per_minute * arguments.minutes;
-  constexpr double warm_share = 0.1;
+  constexpr double warm_share = 0.25;
   SoakResult result;
   while (watch.seconds() < wanted_s && !Interruption::asked()) {
     ReplayOptions options = mission(site, arguments, result);
