@@ -40,7 +40,7 @@ struct EstimateMoment {
 std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp);
 /// /tf, /pose, /robot and /drive.
 std::vector<Message> estimate_messages(const EstimateMoment& moment, double robot_radius_m);
-Message planned_message(Stamp stamp, const Path& path);
+Message planned_message(Stamp stamp, const Path& planned);
 Message ceiling_message(Stamp stamp, const MarkerRegistry& registry, const std::vector<int>& distrusted);
 Message words_message(Stamp stamp, LogLevel level, const std::string& words);
 /// `jpeg`: the picture, encoded.
@@ -51,7 +51,7 @@ Message error_message(const PoseEstimate& estimate, double error_m);
 /// What only the judge of a simulated drive knows, after the drive.
 std::vector<Message> truth_messages(const RunRecord& record);
 
-std::vector<int> ids_of(const std::vector<DistrustedMarker>& markers);
+std::vector<int> ids_of(const std::vector<DistrustedMarker>& distrusted);
 
 /// Puts a drive into messages, moment by moment.
 class DriveMessages {
