@@ -68,7 +68,7 @@ std::vector<Polygon> placed(const std::vector<Polygon>& pieces_m, const Pose2& g
 std::vector<Polygon> swept(std::vector<Polygon> pieces, const Vec2& shift) {
   for (Polygon& piece : pieces) {
     const std::size_t count = piece.size();
-    for (std::size_t i = 0; i < count; ++i) piece.push_back(piece[i] + shift);
+    for (std::size_t i = 0; i < count; ++i) piece.emplace_back(piece[i] + shift);
     piece = hull_of(std::move(piece));
   }
   return pieces;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double negligible = 1e-9;  ///< of cost, relative: not worth another path
 /// Seconds: of two ways to a place that differ by less than this and a turn from one's heading to the
-/// other's, one is enough. On the lab no path became longer by it, and every third label went.
+/// other's, one is enough.
 constexpr double as_good_s = 0.3;
 /// By so much the bound of what still follows may be stretched: it knows nothing of walls.
 constexpr double stretch = 0.2;

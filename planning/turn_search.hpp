@@ -15,11 +15,11 @@ struct TurnPath {
   std::size_t expanded = 0;  ///< turn points from which the search went on
 };
 
-/// The cheapest path of straight clear legs that turns at turn points only: A* on their visibility graph. A
-/// state is a turn point and the heading of arrival, for the next turn depends on it; one that could be
-/// reached cheaper by another way and a turn on the spot is dropped. Lines of sight are looked at last, for
-/// the few legs that come up as cheapest (lazy A*, Cohen, Phillips and Likhachev 2014). Memory is kept from
-/// search to search.
+/// The shortest, or nearly the fastest, path of straight clear legs that turns at turn points only: A* on
+/// their visibility graph. A state is a turn point and the heading of arrival, for the next turn depends on
+/// it; one that could be reached cheaper by another way and a turn on the spot is dropped. Lines of sight are
+/// looked at last, for the few legs that come up as cheapest (lazy A*, Cohen, Phillips and Likhachev 2014).
+/// Memory is kept from search to search.
 class TurnSearch {
  public:
   /// The space must outlive it.

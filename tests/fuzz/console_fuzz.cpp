@@ -1,4 +1,5 @@
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "app/console/access.hpp"
@@ -58,19 +59,25 @@ void expect_sound(const HttpResponse& response) {
   }
 }
 
+/// A console over a site of its own.
+struct Desk {
+  fs::path site = fresh_site();
+  Console console{site, site / "runs"};
+};
+
 void ask(const std::string& text) {
-  static fs::path site = fresh_site();
-  Console console(site, site / "runs");
+  static std::optional<Desk> desk;
+  if (!desk) desk.emplace();
   HttpRequest request = request_from(text);
   const AccessRules rules{.port = 8080, .token = "secret"};
   if (const std::optional<HttpResponse> refused = turned_away(request, rules)) expect_sound(*refused);
   expect_sound(open_session(request, rules));
   if (request.if_match == "now")
-    request.if_match = console.answer({.method = "GET", .target = "/api/markers"}).etag;
-  expect_sound(console.answer(request));
+    request.if_match = desk->console.answer({.method = "GET", .target = "/api/markers"}).etag;
+  expect_sound(desk->console.answer(request));
   if (request.method != "PUT") return;
-  (void)load_registry(site / "markers.yaml");  // whatever was saved can be read
-  site = fresh_site();
+  (void)load_registry(desk->site / "markers.yaml");  // whatever was saved can be read
+  desk.reset();
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "maps/random.hpp"
+
 #include "tests/scenarios/command_line.hpp"
 
 // Whatever is wrong with a file or an option: exit code 2, the place, what was found and what was wanted; and
@@ -172,6 +174,25 @@ TEST(CommandLine, prints_help_and_version_with_exit_code_0) {
     EXPECT_THAT(help.out, HasSubstr(word));
   }
   EXPECT_EQ(run_lodestar("--version", scratch.path()).exit_code, 0);
+}
+
+/// Words from a small dictionary, in any order: each line ends with an option that no command has.
+TEST(CommandLine, is_refused_in_words_whatever_it_is) {
+  const ScratchFolder scratch;
+  const std::vector<std::string> words{
+      "replay",  "plan",      "map",      "markers", "localize", "detect", "calibrate", "doctor", "bench",
+      "--goal",  "1,2",       "1,2,3,4",  "nan,inf", "--start",  "--seed", "-1",        "1e999",  "''",
+      "--map",   "/dev/null", "--radius", "-o",      "check",    "slice",  "--format",  "json",   "--planner",
+      "fastest", "%n",        "-",        "0x10",    "--runs",   "\\xff"};
+  Random random(3);
+  for (int trial = 0; trial < 25; ++trial) {
+    std::string line;
+    const std::uint64_t count = random.below(8);
+    for (std::uint64_t i = 0; i < count; ++i) line += words[random.below(words.size())] + " ";
+    const Ran ran = run_lodestar(line + "--no-such-option", scratch.path());
+    EXPECT_EQ(ran.exit_code, 2) << line << ran.err;
+    EXPECT_FALSE(ran.err.empty()) << line;
+  }
 }
 
 }  // namespace
