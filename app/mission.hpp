@@ -89,11 +89,10 @@ class Mission {
   State state_ = State::starting;
   std::size_t current_ = 0;
   DriveOptions drive_options_;
+  int attempt_ = 0;   ///< at the present goal
   Stamp drive_ends_;  ///< at the latest
   bool paused_ = false;
   Stamp last_step_;
-  int attempt_ = 0;             ///< at the present goal
-  Stamp drive_ends_;            ///< at the latest
   std::optional<Stamp> since_;  ///< of the present state, or of the present stop while driving
   Path path_;
   double ideal_s_ = 0.0;

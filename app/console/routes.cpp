@@ -56,7 +56,7 @@ std::string place_line(const Place& place) {
   return line + "}\n";
 }
 
-std::string route_line(const Route& route) {
+std::string route_line(const NamedRoute& route) {
   std::string names;
   for (const std::string& place : route.places) names += (names.empty() ? "" : ", ") + quoted(place);
   return fmt::format("  - {{name: {}, places: [{}]}}\n", quoted(route.name), names);
@@ -95,7 +95,7 @@ std::string routes_text(const Routes& routes) {
   text += routes.places.empty() ? "places: []\n" : "places:\n";
   for (const Place& place : routes.places) text += place_line(place);
   text += routes.routes.empty() ? "routes: []\n" : "routes:\n";
-  for (const Route& route : routes.routes) text += route_line(route);
+  for (const NamedRoute& route : routes.routes) text += route_line(route);
   return text;
 }
 
@@ -107,7 +107,8 @@ ordered_json routes_json(const Routes& routes) {
     if (place.goal.heading_rad) places.back()["yaw_deg"] = tidy(degrees(*place.goal.heading_rad));
   }
   ordered_json list = ordered_json::array();
-  for (const Route& route : routes.routes) list.push_back({{"name", route.name}, {"places", route.places}});
+  for (const NamedRoute& route : routes.routes)
+    list.push_back({{"name", route.name}, {"places", route.places}});
   return {{"format", "lodestar-routes"}, {"version", 1}, {"places", places}, {"routes", list}};
 }
 

@@ -16,7 +16,7 @@ struct Place {
 };
 
 /// Places in the order in which they are driven to.
-struct Route {
+struct NamedRoute {
   std::string name;
   std::vector<std::string> places;
 };
@@ -31,7 +31,7 @@ struct Route {
 ///       - {name: "round", places: ["desk", "door"]}
 struct Routes {
   std::vector<Place> places;
-  std::vector<Route> routes;
+  std::vector<NamedRoute> routes;
 };
 
 /// Strict: throws InputError with file and line, also for a name that stands twice or a route over no or an
