@@ -16,16 +16,24 @@ bool plans_at_once(PlannerKind kind) {
   return kind == PlannerKind::astar || kind == PlannerKind::anyangle || kind == PlannerKind::fastest;
 }
 
+GridPlannerOptions with_margin(const NavigationOptions& options) {
+  GridPlannerOptions planner = options.planner;
+  planner.radius_m += options.tracking_margin_m;
+  return planner;
+}
+
 }  // namespace
 
-Navigation::Ground::Ground(const OccupancyMap& map, const GridPlannerOptions& options)
-    : planner(map, options), free_way(map, options.radius_m) {}
+Navigation::Ground::Ground(const OccupancyMap& map, const NavigationOptions& options)
+    : planner(map, with_margin(options)),
+      tight(map, options.planner),
+      free_way(map, options.planner.radius_m) {}
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
       sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix,
              options.filter),
-      ground_(std::make_unique<const Ground>(world.map, options.planner)),
+      ground_(std::make_unique<const Ground>(world.map, options)),
       known_{PoseFilter(options.filter), MarkerTrust(options.trust), CameraWatch(options.camera),
              Doubt(options.doubt)},
       motion_{.look_around = LookAround(options.look_around),
@@ -129,7 +137,7 @@ RouteUpdate Navigation::route_from(const Motion& motion, const Pose2& pose) cons
   Route route{motion.drive->path_ahead(), motion.goal_heading_rad};
   // What blocks a robot that is on its way lies between it and the leg's end, not on the leg.
   if (motion.is_blocked) route.path.waypoints_m.front() = pose.position_m;
-  return updated(route, pose, ground_->planner, options_.route);
+  return updated(route, pose, motion.is_tight ? ground_->tight : ground_->planner, options_.route);
 }
 
 std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
@@ -137,8 +145,10 @@ std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
   motion_.looks_again = motion_.reroutes = motion_.is_blocked = false;
   if (!estimate_) return std::nullopt;
   const Pose2& pose = estimate_->map_from_base;
-  PlanResult result = ground_->planner.plan(pose.position_m, goal.position_m,
-                                            {.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad});
+  const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad};
+  PlanResult result = ground_->planner.plan(pose.position_m, goal.position_m, headings);
+  motion_.is_tight = std::holds_alternative<PlanFailure>(result);
+  if (motion_.is_tight) result = ground_->tight.plan(pose.position_m, goal.position_m, headings);
   if (const auto* plan = std::get_if<Plan>(&result)) {
     motion_.drive.emplace(plan->path, goal.heading_rad, drive_options(plan->path));
     motion_.goal_heading_rad = goal.heading_rad;
@@ -147,7 +157,7 @@ std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
 }
 
 void Navigation::map_changed(const OccupancyMap& map) {
-  ground_ = std::make_unique<const Ground>(map, options_.planner);
+  ground_ = std::make_unique<const Ground>(map, options_);
   motion_.looks_again = true;
 }
 

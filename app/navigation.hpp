@@ -34,6 +34,9 @@ struct NavigationOptions {
   CameraWatchOptions camera;
   DoubtOptions doubt;
   GridPlannerOptions planner;
+  /// Paths keep so much more than the radius where they can: one that grazes a corner is driven a little
+  /// beside it, now and then on the wrong side.
+  double tracking_margin_m = 0.03;
   RouteOptions route;
   DriveOptions drive;
   SafetyStopOptions safety;
@@ -101,8 +104,9 @@ class Navigation {
  private:
   /// What is planned on, made anew for every map.
   struct Ground {
-    Ground(const OccupancyMap& map, const GridPlannerOptions& options);
-    GridPlanner planner;
+    Ground(const OccupancyMap& map, const NavigationOptions& options);
+    GridPlanner planner;  ///< keeps the tracking margin
+    GridPlanner tight;    ///< for where there is no room for it
     FreeWay free_way;
   };
 
@@ -112,6 +116,7 @@ class Navigation {
     RotateThenDrive on_the_spot;  ///< what moves the robot while it follows nothing
     std::optional<RotateThenDrive> drive;
     std::optional<double> goal_heading_rad;
+    bool is_tight = false;     ///< the path leaves no tracking margin
     bool looks_again = false;  ///< at its path: something has changed
     bool reroutes = false;     ///< it comes to rest, to plan anew from there
     bool is_blocked = false;   ///< something stands in front of the robot

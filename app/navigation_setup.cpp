@@ -3,12 +3,6 @@
 #include "control/travel_time.hpp"
 
 namespace lodestar {
-namespace {
-
-/// A path that grazes a corner is driven a little beside it, now and then on the wrong side.
-constexpr double tracking_margin_m = 0.03;
-
-}  // namespace
 
 PosePrior pose_prior(const Robot& robot) {
   PosePrior prior;
@@ -42,7 +36,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.filter.fix_sigma_floor_m = robot.shared_fix_sigma_m.value_or(options.filter.fix_sigma_floor_m);
   options.filter.fix_sigma_floor_rad =
       robot.shared_fix_sigma_rad.value_or(options.filter.fix_sigma_floor_rad);
-  options.planner.radius_m = robot.radius_m + tracking_margin_m;
+  options.planner.radius_m = robot.radius_m;
   options.planner.footprint = robot.footprint;
   options.planner.preferred_clearance_m = robot.preferred_clearance_m;
   options.drive.max_forward_mps = robot.max_forward_mps;

@@ -71,7 +71,7 @@ std::span<const DetectedMarker> MarkerTracker::detect(const cv::Mat& gray,
   if (look_at_all) return search_all(gray);
   ++frames_since_full_search_;
   const std::span<const DetectedMarker> found = detector_.detect_within(parts_, gray);
-  return lacks_any(found) ? search_all(gray) : found;
+  return found.empty() || lacks_any(found) ? search_all(gray) : found;  // none: it may be anywhere
 }
 
 /// Finds which parts of the frame to look at, and which markers must be there whatever the view's error.

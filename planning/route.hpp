@@ -10,7 +10,7 @@ struct RouteOptions {
   double worth_changing =
       0.1;  ///< a new path must save this share of the time that the present one still takes
   double worth_changing_s = 1.0;  ///< and at least so much; else the robot would waver between equals
-  double left_path_m = 0.3;       ///< farther from the path, the robot is no longer on it
+  double left_path_m = 0.2;       ///< farther from the path, the robot is no longer on it
   MotionLimits limits;
 };
 

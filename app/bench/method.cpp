@@ -28,6 +28,7 @@ class Lodestar final : public BenchMethod {
     return registry.markers[i].id;
   }
 
+  [[nodiscard]] bool is_quick() const override { return true; }
   std::vector<ReadMarker> read(const cv::Mat& gray) override { return readings_of(detector_.detect(gray)); }
 
   MethodResult run(const cv::Mat& gray, const MarkerRegistry& /*registry*/, const CameraModel& /*camera*/,

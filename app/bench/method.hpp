@@ -40,6 +40,8 @@ class BenchMethod {
   /// The ID that hangs at the place of the registry's i-th marker.
   [[nodiscard]] virtual int id_at(const MarkerRegistry& registry, std::size_t i) const = 0;
 
+  /// Is it run several times, for the least time? One that takes milliseconds gains nothing by it.
+  [[nodiscard]] virtual bool is_quick() const { return false; }
   virtual std::vector<ReadMarker> read(const cv::Mat& gray) = 0;
 
   /// Reads and measures. `tilt` is as in PosePrior.
