@@ -35,7 +35,8 @@ RobotState standing(double x_m, double y_m) {
 /// One client of a view.
 class Client {
  public:
-  explicit Client(LiveView& view, Role role = Role::drive) : session_(view.protocols().front().open(role, outbox_)) {}
+  explicit Client(LiveView& view, Role role = Role::drive)
+      : session_(view.protocols().front().open(role, outbox_)) {}
 
   void send(const json& message) const { session_->receive(message.dump(), false); }
   void send_text(const std::string& text) const { session_->receive(text, false); }

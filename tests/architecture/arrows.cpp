@@ -18,7 +18,8 @@ const std::set<std::string> simulated_world{"drivers/fault.hpp",          "drive
                                             "drivers/hosted_base.hpp",    "drivers/image_former.hpp",
                                             "drivers/printed_square.hpp", "drivers/scoring.hpp",
                                             "drivers/simulation.hpp"};
-const std::regex friends_of_the_judge{"app/(replay|hardships|campaign|run_|report|figure|bench|commands/base).*"};
+const std::regex friends_of_the_judge{
+    "app/(replay|hardships|campaign|run_|report|figure|bench|commands/base).*"};
 
 std::string folder_of(const std::string& path) {
   return path.substr(0, path.find('/'));
