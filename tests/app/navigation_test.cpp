@@ -115,7 +115,7 @@ TEST(Navigation, names_a_moved_marker_and_arrives_without_it) {
 
 TEST(Navigation, stops_when_blind_looks_around_and_drives_on_when_it_sees_again) {
   Lab lab;
-  lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0 || seconds(stamp) > 22.0; };
+  lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0 || seconds(stamp) > 34.0; };
   const Drive result = drive(lab, lab.site.goals.front());
   EXPECT_TRUE(result.arrived) << result.failure;
   EXPECT_TRUE(result.looked_around);

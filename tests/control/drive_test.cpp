@@ -205,7 +205,7 @@ TEST(SafetyStop, names_what_is_missing) {
   stale.last_fix = now - std::chrono::seconds(10);
   EXPECT_EQ(reason_to_stop(now, stale, {}), StopReason::pose_stale);
   PoseEstimate vague = good;
-  vague.covariance(0, 0) = vague.covariance(1, 1) = 0.0026;
+  vague.covariance(0, 0) = vague.covariance(1, 1) = 0.0066;
   vague.covariance(0, 1) = vague.covariance(1, 0) = 0.0;
   EXPECT_EQ(reason_to_stop(now, vague, {}), StopReason::pose_uncertain);
   PoseEstimate turned = good;
@@ -214,8 +214,8 @@ TEST(SafetyStop, names_what_is_missing) {
   PoseEstimate impossible = good;
   impossible.covariance(2, 2) = -0.1;
   EXPECT_EQ(reason_to_stop(now, impossible, {}), StopReason::pose_uncertain);
-  PoseEstimate slanted = good;  // along the diagonal 5.5 cm, along each axis less than 4
-  slanted.covariance.topLeftCorner<2, 2>() << 0.0015125, 0.0015, 0.0015, 0.0015125;
+  PoseEstimate slanted = good;  // along the diagonal 8.8 cm, along each axis less than 7
+  slanted.covariance.topLeftCorner<2, 2>() << 0.0039, 0.0038, 0.0038, 0.0039;
   EXPECT_EQ(reason_to_stop(now, slanted, {}), StopReason::pose_uncertain);
   PoseEstimate broken = good;
   broken.map_from_base.yaw_rad = std::nan("");
