@@ -16,18 +16,10 @@ bool plans_at_once(PlannerKind kind) {
   return kind == PlannerKind::astar || kind == PlannerKind::anyangle || kind == PlannerKind::fastest;
 }
 
-GridPlannerOptions with_margin(const NavigationOptions& options) {
-  GridPlannerOptions planner = options.planner;
-  planner.radius_m += options.tracking_margin_m;
-  return planner;
-}
-
 }  // namespace
 
 Navigation::Ground::Ground(const OccupancyMap& map, const NavigationOptions& options)
-    : planner(map, with_margin(options)),
-      tight(map, options.planner),
-      free_way(map, options.planner.radius_m) {}
+    : planner(map, options.planner), free_way(map, options.planner.radius_m) {}
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
@@ -137,7 +129,7 @@ RouteUpdate Navigation::route_from(const Motion& motion, const Pose2& pose) cons
   Route route{motion.drive->path_ahead(), motion.goal_heading_rad};
   // What blocks a robot that is on its way lies between it and the leg's end, not on the leg.
   if (motion.is_blocked) route.path.waypoints_m.front() = pose.position_m;
-  return updated(route, pose, motion.is_tight ? ground_->tight : ground_->planner, options_.route);
+  return updated(route, pose, ground_->planner, options_.route);
 }
 
 std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
@@ -147,8 +139,6 @@ std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
   const Pose2& pose = estimate_->map_from_base;
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad};
   PlanResult result = ground_->planner.plan(pose.position_m, goal.position_m, headings);
-  motion_.is_tight = std::holds_alternative<PlanFailure>(result);
-  if (motion_.is_tight) result = ground_->tight.plan(pose.position_m, goal.position_m, headings);
   if (const auto* plan = std::get_if<Plan>(&result)) {
     motion_.drive.emplace(plan->path, goal.heading_rad, drive_options(plan->path));
     motion_.goal_heading_rad = goal.heading_rad;
@@ -184,7 +174,7 @@ DriveOptions Navigation::drive_options(const Path& path) const {
     if (!corner) continue;
     const Vec2 begin = waypoint + corner->cut_m * (path.waypoints_m[i - 2] - waypoint).normalized();
     const Vec2 end = waypoint + corner->cut_m * (path.waypoints_m[i] - waypoint).normalized();
-    if (!ground_->planner.is_clear(begin, end)) options.blend_corridor_m = 0.0;
+    if (!ground_->planner.is_roomy(begin, end)) options.blend_corridor_m = 0.0;
   }
   return options;
 }

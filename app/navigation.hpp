@@ -14,6 +14,7 @@
 #include "control/speed_limit.hpp"
 #include "drivers/base_driver.hpp"
 #include "maps/frame.hpp"
+#include "planning/margin_planner.hpp"
 #include "planning/route.hpp"
 
 namespace lodestar {
@@ -34,9 +35,6 @@ struct NavigationOptions {
   CameraWatchOptions camera;
   DoubtOptions doubt;
   GridPlannerOptions planner;
-  /// Paths keep so much more than the radius where they can: one that grazes a corner is driven a little
-  /// beside it, now and then on the wrong side.
-  double tracking_margin_m = 0.03;
   RouteOptions route;
   DriveOptions drive;
   SafetyStopOptions safety;
@@ -105,8 +103,7 @@ class Navigation {
   /// What is planned on, made anew for every map.
   struct Ground {
     Ground(const OccupancyMap& map, const NavigationOptions& options);
-    GridPlanner planner;  ///< keeps the tracking margin
-    GridPlanner tight;    ///< for where there is no room for it
+    MarginPlanner planner;
     FreeWay free_way;
   };
 
@@ -116,7 +113,6 @@ class Navigation {
     RotateThenDrive on_the_spot;  ///< what moves the robot while it follows nothing
     std::optional<RotateThenDrive> drive;
     std::optional<double> goal_heading_rad;
-    bool is_tight = false;     ///< the path leaves no tracking margin
     bool looks_again = false;  ///< at its path: something has changed
     bool reroutes = false;     ///< it comes to rest, to plan anew from there
     bool is_blocked = false;   ///< something stands in front of the robot

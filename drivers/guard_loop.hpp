@@ -42,7 +42,7 @@ class GuardLoop {
   bool navigator_is_there_ = true;
   std::vector<bool> moves_;  ///< for each frame of `stop`: the newest command of its identifier is another
   bool holds_ = false;
-  bool released_ = false;  ///< somebody else drives
+  bool released_ = true;  ///< the base is not ours: nothing has been commanded yet, or it was given away
   int repeats_left_ = 0;
   Duration silence_{};  ///< of the navigator, as far as the guard itself was awake
   Stamp last_stop_;

@@ -10,7 +10,7 @@ double distance_to_leg_m(const Vec2& from, const Vec2& to, const Vec2& point) {
   return distance_to_path_m({{from, to}}, point);
 }
 
-bool is_clear(const Path& path, const GridPlanner& planner) {
+bool is_clear(const Path& path, const MarginPlanner& planner) {
   for (std::size_t i = 1; i < path.waypoints_m.size(); ++i) {
     if (!planner.is_clear(path.waypoints_m[i - 1], path.waypoints_m[i])) return false;
   }
@@ -63,7 +63,7 @@ Path rest_of(const Path& path, const Vec2& position_m) {
   return rest;
 }
 
-RouteUpdate updated(const Route& route, const Pose2& pose, const GridPlanner& planner,
+RouteUpdate updated(const Route& route, const Pose2& pose, const MarginPlanner& planner,
                     const RouteOptions& options) {
   if (route.path.waypoints_m.empty())
     return {.route = route, .change = RouteChange::kept, .failure = std::nullopt};

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "planning/grid_planner.hpp"
+#include "planning/margin_planner.hpp"
 
 namespace lodestar {
 
@@ -42,7 +42,7 @@ Path rest_of(const Path& path, const Vec2& position_m);
 
 /// Looks at the route again with a planner that knows the map as it is now. The route is kept unless it
 /// cannot be or another is clearly better; a kept route's waypoints do not change, apart from those passed.
-RouteUpdate updated(const Route& route, const Pose2& pose, const GridPlanner& planner,
+RouteUpdate updated(const Route& route, const Pose2& pose, const MarginPlanner& planner,
                     const RouteOptions& options = {});
 
 }  // namespace lodestar

@@ -8,7 +8,7 @@
 #include "app/navigation_setup.hpp"
 #include "maps/random.hpp"
 #include "planning/clear_space.hpp"
-#include "planning/grid_planner.hpp"
+#include "planning/margin_planner.hpp"
 
 namespace lodestar {
 namespace {
@@ -126,7 +126,7 @@ bool find_a_way(Site& site, Random random) {
   const OccupancyMap& map = site.map.map;
   const ClearSpace clear(map, site.robot.radius_m + 0.1);
   if (std::ranges::none_of(map.cells, is_drivable)) return false;
-  const GridPlanner planner(map, navigation_options(site.robot).planner);
+  const MarginPlanner planner(map, navigation_options(site.robot).planner);
   for (int i = 0; i < tries; ++i) {
     const Pose2 start = somewhere(map, clear, random);
     const Pose2 goal = somewhere(map, clear, random);

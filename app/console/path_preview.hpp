@@ -20,7 +20,7 @@ class PathPreview {
 
  private:
   NavigationOptions options_;
-  GridPlanner planner_;
+  MarginPlanner planner_;
 };
 
 }  // namespace lodestar

@@ -6,7 +6,7 @@
 #include "app/navigation_setup.hpp"
 #include "app/visibility.hpp"
 #include "maps/marker.hpp"
-#include "planning/grid_planner.hpp"
+#include "planning/margin_planner.hpp"
 
 namespace lodestar {
 namespace {
@@ -39,7 +39,7 @@ double ceiling_m(const Site& site) {
 }  // namespace
 
 ordered_json usual_routes(const Site& site) {
-  const GridPlanner planner(site.map.map, navigation_options(site.robot).planner);
+  const MarginPlanner planner(site.map.map, navigation_options(site.robot).planner);
   ordered_json routes = ordered_json::array();
   Vec2 from_m = site.start.position_m;
   for (const Goal& goal : site.goals) {

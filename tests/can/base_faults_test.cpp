@@ -26,7 +26,7 @@ bool says_fault_bits(const CanFrame& frame) {
 
 class BaseFaults : public CanLab {
  protected:
-  void drive(const std::string& fault = "", const std::string& goal = "4.2,5.6") {
+  void drive(const std::string& fault = "", const std::string& goal = "4.2,5.5") {
     start_base(fault.empty() ? "" : "--fault " + fault);
     start_run("--goal " + goal);
   }
@@ -67,7 +67,7 @@ class BaseFaults : public CanLab {
 };
 
 TEST_F(BaseFaults, an_emergency_stop_is_latched_and_not_ended_by_its_release) {
-  drive("estop@1+0.5", "2.4,5.6");
+  drive("estop@1+0.5", "2.4,5.5");
   const auto pressed = witness->wait_for(says_emergency_stop, Stamp{}, 20s);
   ASSERT_TRUE(pressed);
   expect_no_motion_after(40ms, pressed->stamp);
@@ -155,7 +155,7 @@ TEST_F(BaseFaults, a_second_master_is_noticed_within_40_ms) {
 }
 
 TEST_F(BaseFaults, odd_frames_and_a_flood_of_others_do_nothing) {
-  drive("", "2.4,5.6");
+  drive("", "2.4,5.5");
   wait_until_driving();
   ASSERT_TRUE(
       shell("for f in 211#00 211# 221#01 311#0102030405 241#FFFFFFFFFFFFFFFF 7FF#00 20000004#00 211##1FF "

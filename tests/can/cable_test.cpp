@@ -26,11 +26,11 @@ class Cable : public CanLab {
 
   void expect_to_arrive() {
     start_base();
-    start_run("--goal 2.4,5.6");
+    start_run("--goal 2.4,5.5");
     EXPECT_EQ(wait_for_the_end(40s), 0);
     const Truth truth = end_base();
     EXPECT_NEAR(truth.x_m, 2.4, 0.04);
-    EXPECT_NEAR(truth.y_m, 5.6, 0.04);
+    EXPECT_NEAR(truth.y_m, 5.5, 0.04);
     EXPECT_EQ(truth.contacts, 0);
   }
 };
@@ -56,7 +56,7 @@ TEST_F(Cable, that_delays_doubles_and_reorders_frames_is_driven_through) {
 /// No check sum watches here, so that whatever arrives may be wrong: identifier, length, content.
 TEST_F(Cable, that_spoils_what_the_base_says_breaks_nothing) {
   start_base();
-  start_run("--goal 2.4,5.6");
+  start_run("--goal 2.4,5.5");
   wait_until_driving();
   ASSERT_TRUE(shell("tc qdisc replace dev " + base_end + " root netem limit 1000 corrupt 20%"));
   EXPECT_FALSE(run->wait(3s)) << "it ended by itself";
@@ -69,7 +69,7 @@ TEST_F(Cable, that_spoils_what_the_base_says_breaks_nothing) {
 
 TEST_F(Cable, that_is_cut_is_noticed_within_100_ms) {
   start_base();
-  start_run("--goal 2.4,5.6");
+  start_run("--goal 2.4,5.5");
   wait_until_driving();
   Witness navigator_side(navigator_end);
   const Stamp cut = monotonic_now();
@@ -95,7 +95,7 @@ TEST_F(Cable, that_is_cut_is_noticed_within_100_ms) {
 
 TEST_F(Cable, that_takes_no_more_frames_is_noticed_and_brings_no_old_ones_later) {
   start_base();
-  start_run("--goal 2.4,5.6");
+  start_run("--goal 2.4,5.5");
   wait_until_driving();
   ASSERT_TRUE(shell("tc qdisc replace dev vxcan0 root netem limit 1 delay 1500ms"));
   EXPECT_TRUE(wait_for_words("base: stopped by a fault", 5s));

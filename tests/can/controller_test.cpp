@@ -27,7 +27,7 @@ class Controller : public CanLab {
 
 TEST_F(Controller, that_goes_bus_off_is_noticed_and_driven_with_again_after_a_restart_and_a_resume) {
   start_base();
-  start_run("--goal 2.4,5.6");
+  start_run("--goal 2.4,5.5");
   wait_until_driving();
   const Stamp off = monotonic_now();
   adapter->bus_off();

@@ -90,7 +90,7 @@ TEST_F(ProcessFaults, with_both_killed_the_base_comes_to_rest_by_itself) {
 
 TEST_F(ProcessFaults, an_hour_on_the_wall_clock_is_no_fault) {
   start_base();
-  start_run("--goal 2.4,5.6");
+  start_run("--goal 2.4,5.5");
   wait_until_driving();
   ASSERT_TRUE(shell("date -s '+1 hour' >/dev/null"));
   wait_for_words("never said", 500ms);

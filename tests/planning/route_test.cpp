@@ -24,7 +24,7 @@ const Vec2 start(0.5, 1.1);
 const Vec2 goal(3.5, 1.1);
 
 Route route_in(const OccupancyMap& map) {
-  return {std::get<Plan>(GridPlanner(map, options).plan(start, goal)).path, std::nullopt};
+  return {std::get<Plan>(MarginPlanner(map, options).plan(start, goal)).path, std::nullopt};
 }
 
 bool passes_above(const Path& path) {
@@ -33,7 +33,7 @@ bool passes_above(const Path& path) {
 
 TEST(Route, keeps_its_waypoints_while_nothing_changes) {
   const OccupancyMap map = hall(true);
-  const GridPlanner planner(map, options);
+  const MarginPlanner planner(map, options);
   const Route route = route_in(map);
   const RouteUpdate update = updated(route, {start, 0.0}, planner);
   EXPECT_EQ(update.change, RouteChange::kept);
@@ -52,7 +52,7 @@ TEST(Route, does_not_waver_between_two_ways_that_are_nearly_as_good) {
   ASSERT_FALSE(passes_above(below.path));
   // The way above opens. It is a little shorter from here, but not by enough to turn around for.
   const OccupancyMap open = hall(true);
-  const GridPlanner planner(open, options);
+  const MarginPlanner planner(open, options);
   ASSERT_TRUE(passes_above(route_in(open).path));
   const RouteUpdate update = updated(below, {start, 0.0}, planner);
   EXPECT_EQ(update.change, RouteChange::kept);
@@ -63,27 +63,27 @@ TEST(Route, takes_a_way_that_is_clearly_better) {
   Route detour;
   detour.path.waypoints_m = {start, {0.5, 0.3}, {3.0, 0.3}, {3.0, 1.7}, {3.7, 1.7}, goal};
   const OccupancyMap map = hall(true);
-  EXPECT_EQ(updated(detour, {start, 0.0}, GridPlanner(map, options)).change, RouteChange::better);
+  EXPECT_EQ(updated(detour, {start, 0.0}, MarginPlanner(map, options)).change, RouteChange::better);
 }
 
 TEST(Route, is_planned_anew_when_something_stands_in_its_way) {
   const Route below = route_in(hall(false));
   const OccupancyMap closed_below = hall(true, false);
-  const RouteUpdate update = updated(below, {start, 0.0}, GridPlanner(closed_below, options));
+  const RouteUpdate update = updated(below, {start, 0.0}, MarginPlanner(closed_below, options));
   EXPECT_EQ(update.change, RouteChange::blocked);
   EXPECT_TRUE(passes_above(update.route.path));
 }
 
 TEST(Route, is_planned_anew_when_the_robot_is_not_on_it) {
   const OccupancyMap map = hall(true);
-  const RouteUpdate update = updated(route_in(map), {{0.5, 0.3}, 0.0}, GridPlanner(map, options));
+  const RouteUpdate update = updated(route_in(map), {{0.5, 0.3}, 0.0}, MarginPlanner(map, options));
   EXPECT_EQ(update.change, RouteChange::left_path);
   EXPECT_EQ(update.route.path.waypoints_m.front(), Vec2(0.5, 0.3));
 }
 
 TEST(Route, says_why_it_is_lost) {
   const OccupancyMap closed = hall(false, false);
-  const RouteUpdate update = updated(route_in(hall(true)), {start, 0.0}, GridPlanner(closed, options));
+  const RouteUpdate update = updated(route_in(hall(true)), {start, 0.0}, MarginPlanner(closed, options));
   EXPECT_EQ(update.change, RouteChange::lost);
   EXPECT_EQ(update.failure, PlanFailure::no_path);
   EXPECT_TRUE(update.route.path.waypoints_m.empty());
@@ -91,7 +91,7 @@ TEST(Route, says_why_it_is_lost) {
 
 TEST(NearestReachable, is_this_side_of_a_closed_wall) {
   const OccupancyMap closed = hall(false, false);
-  const GridPlanner planner(closed, options);
+  const MarginPlanner planner(closed, options);
   const auto nearest = planner.nearest_reachable(start, goal);
   ASSERT_TRUE(nearest);
   EXPECT_NEAR(nearest->x(), 1.775, 1e-9);

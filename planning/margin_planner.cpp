@@ -1,0 +1,83 @@
+#include "planning/margin_planner.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace lodestar {
+
+MarginPlanner::MarginPlanner(const OccupancyMap& map, const GridPlannerOptions& options,
+                             std::span<const double> margins_m)
+    : map_(map), options_(options) {
+  if (!options.footprint)
+    for (const double margin_m : margins_m) levels_.push_back({margin_m, nullptr});
+  if (levels_.empty()) levels_.emplace_back();
+}
+
+const GridPlanner& MarginPlanner::at(std::size_t level) const {
+  Level& wanted = levels_[level];
+  if (!wanted.planner) {
+    GridPlannerOptions options = options_;
+    options.radius_m += wanted.margin_m;
+    wanted.planner = std::make_unique<const GridPlanner>(map_, options);
+  }
+  return *wanted.planner;
+}
+
+PlanResult MarginPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const PlanHeadings& headings) const {
+  for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
+    PlanResult result = plan_at(level, start_m, goal_m, headings);
+    if (std::holds_alternative<Plan>(result)) return result;
+  }
+  return narrowest().plan(start_m, goal_m, headings);
+}
+
+bool MarginPlanner::is_clear(const Vec2& from_m, const Vec2& to_m) const {
+  return narrowest().is_clear(from_m, to_m);
+}
+
+std::optional<Vec2> MarginPlanner::nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const {
+  return narrowest().nearest_reachable(start_m, goal_m);
+}
+
+/// The point itself, or the nearest cell's centre with room for the level's margin, straight from the point
+/// with the narrowest.
+std::optional<Vec2> MarginPlanner::roomy_place_near(const Vec2& point_m, std::size_t level) const {
+  const GridPlanner& roomy = at(level);
+  if (roomy.is_clear(point_m, point_m)) return point_m;
+  if (!map_.contains(map_.cell_at(point_m)) || !narrowest().is_clear(point_m, point_m)) return std::nullopt;
+  const Cell middle = map_.cell_at(point_m);
+  const int reach = 2 + static_cast<int>(std::ceil(levels_[level].margin_m / map_.resolution_m));
+  std::optional<Vec2> nearest;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int row = middle.row - reach; row <= middle.row + reach; ++row) {
+    for (int column = middle.column - reach; column <= middle.column + reach; ++column) {
+      const Vec2 place_m = map_.center_of({column, row});
+      const double away_m = (place_m - point_m).norm();
+      if (away_m >= least_m || !roomy.is_clear(place_m, place_m) || !narrowest().is_clear(point_m, place_m)) {
+        continue;
+      }
+      least_m = away_m;
+      nearest = place_m;
+    }
+  }
+  return nearest;
+}
+
+PlanResult MarginPlanner::plan_at(std::size_t level, const Vec2& start_m, const Vec2& goal_m,
+                                  const PlanHeadings& headings) const {
+  if (!start_m.allFinite() || !goal_m.allFinite()) return at(level).plan(start_m, goal_m, headings);
+  const Vec2 first_m = roomy_place_near(start_m, level).value_or(start_m);
+  const Vec2 last_m = roomy_place_near(goal_m, level).value_or(goal_m);
+  PlanHeadings between = headings;
+  if (first_m != start_m) between.start_rad.reset();
+  if (last_m != goal_m) between.goal_rad.reset();
+  PlanResult result = at(level).plan(first_m, last_m, between);
+  if (auto* plan = std::get_if<Plan>(&result)) {
+    std::vector<Vec2>& waypoints_m = plan->path.waypoints_m;
+    if (first_m != start_m) waypoints_m.insert(waypoints_m.begin(), start_m);
+    if (last_m != goal_m) waypoints_m.push_back(goal_m);
+  }
+  return result;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,87 @@
+#include "planning/margin_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/planning/sample_maps.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr double radius_m = 0.25;
+const GridPlannerOptions options{.kind = PlannerKind::fastest, .radius_m = radius_m, .clearance_weight = 0.0};
+
+/// A room of 4 x 2 m, cut in two by a wall with a door of so many centimetres in its middle.
+OccupancyMap rooms(int door_cm) {
+  std::vector<std::string> rows(200, std::string(400, '.'));
+  const std::size_t low = 100 - static_cast<std::size_t>(door_cm) / 2;
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (row < low || row >= low + static_cast<std::size_t>(door_cm)) rows[row].replace(200, 5, "#####");
+  return map_from(rows, 0.01);
+}
+
+std::vector<Vec2> points_of(const PlanResult& result) {
+  const auto* plan = std::get_if<Plan>(&result);
+  return plan ? plan->path.waypoints_m : std::vector<Vec2>{};
+}
+
+bool keeps(double margin_m, const OccupancyMap& map, const std::vector<Vec2>& points) {
+  GridPlannerOptions wider = options;
+  wider.radius_m += margin_m;
+  const GridPlanner planner(map, wider);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (!planner.is_clear(points[i - 1], points[i])) return false;
+  return points.size() > 1;
+}
+
+const Vec2 start(0.6, 1.5);
+const Vec2 goal(3.4, 1.4);
+
+TEST(MarginPlanner, keeps_the_widest_margin_that_a_door_leaves) {
+  for (const auto& [door_cm, margin_m] : {std::pair{61, 0.03}, std::pair{55, 0.02}, std::pair{53, 0.01}}) {
+    const OccupancyMap map = rooms(door_cm);
+    EXPECT_TRUE(keeps(margin_m, map, points_of(MarginPlanner(map, options).plan(start, goal)))) << door_cm;
+  }
+}
+
+TEST(MarginPlanner, takes_no_door_without_any) {
+  const OccupancyMap map = rooms(51);
+  EXPECT_EQ(std::get<PlanFailure>(MarginPlanner(map, options).plan(start, goal)), PlanFailure::no_path);
+  EXPECT_TRUE(std::holds_alternative<Plan>(GridPlanner(map, options).plan(start, goal)));
+}
+
+TEST(MarginPlanner, gives_up_the_margin_only_where_start_and_goal_lie_near_to_walls) {
+  const OccupancyMap map = rooms(60);
+  const Vec2 near_wall(0.6, 2.0 - radius_m - 0.015);
+  const Vec2 beside_wall(2.05 + radius_m + 0.012, 0.4);
+  const std::vector<Vec2> points = points_of(MarginPlanner(map, options).plan(near_wall, beside_wall));
+  ASSERT_GT(points.size(), 3U);
+  EXPECT_EQ(points.front(), near_wall);
+  EXPECT_EQ(points.back(), beside_wall);
+  EXPECT_TRUE(keeps(0.01, map, points));
+  EXPECT_TRUE(keeps(0.03, map, {points.begin() + 1, points.end() - 1}));
+  EXPECT_LT((points[1] - near_wall).norm(), 0.04);
+  EXPECT_LT((points[points.size() - 2] - beside_wall).norm(), 0.04);
+}
+
+/// A robot may stop a centimetre off its goal.
+TEST(MarginPlanner, has_no_goal_that_an_arrival_would_miss_by_a_contact) {
+  const OccupancyMap map = rooms(60);
+  const Vec2 touching(0.6, 2.0 - radius_m - 0.002);
+  const MarginPlanner planner(map, options);
+  EXPECT_EQ(std::get<PlanFailure>(planner.plan(start, touching)), PlanFailure::goal_occupied);
+  const std::optional<Vec2> offered = planner.nearest_reachable(start, touching);
+  ASSERT_TRUE(offered);
+  EXPECT_LT((*offered - touching).norm(), 0.03);
+  EXPECT_TRUE(std::holds_alternative<Plan>(planner.plan(start, *offered)));
+}
+
+TEST(MarginPlanner, leads_out_a_robot_that_touches_a_wall) {
+  const OccupancyMap map = rooms(60);
+  const Vec2 touching(0.6, 2.0 - radius_m + 0.01);
+  const std::vector<Vec2> points = points_of(MarginPlanner(map, options).plan(touching, goal));
+  ASSERT_GT(points.size(), 2U);
+  EXPECT_TRUE(keeps(0.03, map, {points.begin() + 1, points.end()}));
+}
+
+}  // namespace
+}  // namespace lodestar
