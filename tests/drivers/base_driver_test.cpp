@@ -188,6 +188,18 @@ TEST_F(BaseDriverTest, takes_no_leap_when_the_base_restarts_its_odometer) {
   EXPECT_DOUBLE_EQ(feedback.travel[0].left_m, 0.010);
 }
 
+TEST_F(BaseDriverTest, loses_no_travel_by_a_broken_reading) {
+  period();
+  odometer = {10 + (1 << 20), 10};
+  EXPECT_TRUE(period().travel.empty());
+  odometer = {20, 20};
+  const BaseFeedback feedback = period();
+  ASSERT_EQ(feedback.travel.size(), 1U);
+  EXPECT_DOUBLE_EQ(feedback.travel[0].left_m, 0.020);
+  EXPECT_DOUBLE_EQ(feedback.travel[0].right_m, 0.020);
+  EXPECT_EQ(driver.counts().odd_frames, 1U);
+}
+
 TEST_F(BaseDriverTest, does_not_believe_a_reading_from_the_past) {
   period();
   odometer = {10, 10};
