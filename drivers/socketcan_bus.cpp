@@ -203,6 +203,7 @@ void SocketCanBus::read_all() {
       confirm(frame.can_id & CAN_SFF_MASK);
     } else if ((frame.can_id & unwanted) == 0) {
       ++counts_.received;
+      if (state_ == BusState::bus_off) state_ = BusState::up;  // else nothing would arrive
       const Stamp stamp = stamp_from(message->wall_stamp, over_wall);
       newest_ = std::max(newest_, stamp);  // in the order of the bus, whatever the clocks do
       arrived_.push_back({newest_, frame_from(frame)});
