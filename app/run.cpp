@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/image_watch.hpp"
 #include "app/live/attendant.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
@@ -31,6 +30,30 @@ class BaseWatcher {
 
  private:
   const RunOptions& options_;
+  std::string said_;
+};
+
+/// Tells people what changes about the camera.
+class CameraWatcher {
+ public:
+  explicit CameraWatcher(const RunOptions& options) : options_(options), start_(monotonic_now()) {}
+
+  void see(const SensorInput& input, std::optional<CameraFault> fault) {
+    constexpr Duration patience = std::chrono::seconds(2);  // with a camera that starts
+    has_seen_ = has_seen_ || !input.frames.empty();
+    const bool is_missed = !has_seen_ && input.now - start_ > patience;
+    const std::string_view words = is_missed ? to_string(CameraFault::silent)
+                                   : fault   ? to_string(*fault)
+                                             : "";
+    if (words == said_) return;
+    options_.tell(fmt::format("camera: {}", words.empty() ? "its frames are of use again" : words));
+    said_ = words;
+  }
+
+ private:
+  const RunOptions& options_;
+  Stamp start_;
+  bool has_seen_ = false;
   std::string said_;
 };
 
@@ -120,7 +143,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
   RecordedBus recorded(bus, [&recording](const StampedCanFrame& frame) { recording.take(frame); });
   BaseDriver base(recorded, std::move(protocol));
   BaseWatcher watcher(options);
-  ImageWatch image_watch;
+  CameraWatcher camera_watcher(options);
   Mission mission(known_world(site, options.camera), navigation_options(site.robot), options.goals,
                   {.hold_on_base_fault = options.hold_on_base_fault});
 
@@ -135,7 +158,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     base.command(step.navigation.command);
 
     watcher.see(input.base);
-    if (const auto words = image_watch.see(input.now, input.frames.size())) options.tell(*words);
+    camera_watcher.see(input, step.navigation.camera);
     recording.take(input, mission, step);
     if (options.attendant != nullptr) options.attendant->show(input, step, mission);
     if (const std::string words = in_words(mission, step.event); !words.empty()) options.tell(words);

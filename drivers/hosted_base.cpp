@@ -19,7 +19,7 @@ constexpr Duration truth_period = std::chrono::milliseconds(10);
 /// After a longer pause of this process, the world goes on from there: no leap.
 constexpr Duration longest_pass = std::chrono::milliseconds(100);
 
-constexpr std::array<std::pair<const char*, ScriptedFault>, 8> fault_names{{
+constexpr std::array<std::pair<const char*, ScriptedFault>, 10> fault_names{{
     {"silent", ScriptedFault::silent},
     {"estop", ScriptedFault::emergency_stop},
     {"remote", ScriptedFault::remote},
@@ -28,6 +28,8 @@ constexpr std::array<std::pair<const char*, ScriptedFault>, 8> fault_names{{
     {"ignores", ScriptedFault::ignores},
     {"runaway", ScriptedFault::runaway},
     {"stuck-encoder", ScriptedFault::stuck_encoder},
+    {"slip", ScriptedFault::slip},
+    {"kidnap", ScriptedFault::kidnap},
 }};
 
 std::optional<SimulatedMotion::Surroundings> surroundings_of(const HostedBaseOptions& options) {
@@ -55,8 +57,11 @@ std::unique_ptr<SimulatedFirmware> make_firmware(CanBus& bus, SimulatedMotion& m
   return std::make_unique<SimulatedBase>(bus, motion, complete);
 }
 
-void set_fault(SimulatedFirmware& base, ScriptedFault fault, bool on) {
+void set_fault(SimulatedFirmware& base, SimulatedMotion& motion, std::uint64_t seed, ScriptedFault fault,
+               bool on) {
   constexpr std::uint16_t motor_driver_fault = 0x0100;
+  constexpr double slipping_share = 1.0 / 3.0;
+  constexpr double carried_m = 1.0;
   switch (fault) {
     case ScriptedFault::emergency_stop:
       return base.press_emergency_stop(on);
@@ -78,6 +83,11 @@ void set_fault(SimulatedFirmware& base, ScriptedFault fault, bool on) {
       return;
     case ScriptedFault::stuck_encoder:
       base.defects().left_encoder_stuck = on;
+      return;
+    case ScriptedFault::slip:
+      return on ? motion.slip(slipping_share, slipping_share) : motion.slip(0.0, 0.0);
+    case ScriptedFault::kidnap:
+      if (on) motion.carry_off(carried_m, 0.0, Random(seed));
       return;
   }
 }
@@ -134,7 +144,7 @@ struct HostedBase::World {
       const FaultSwitch& scripted = options.faults[i];
       const Duration since = now - *moved_first_at - scripted.at;
       const bool on = since >= Duration::zero() && !(scripted.lasting && since >= *scripted.lasting);
-      if (is_on[i] != on) set_fault(*base, scripted.fault, on);
+      if (is_on[i] != on) set_fault(*base, motion, options.seed, scripted.fault, on);
       is_on[i] = on;
     }
   }

@@ -12,7 +12,7 @@
 
 namespace lodestar {
 
-/// What can be made to happen to the simulated base while it drives.
+/// What can be made to happen to the simulated base, and to the world around it, while it drives.
 enum class ScriptedFault {
   silent,  ///< no feedback any more: the cable is cut behind the controller
   emergency_stop,
@@ -21,10 +21,13 @@ enum class ScriptedFault {
   stuck_counter,  ///< the firmware repeats itself
   ignores,        ///< stands, whatever it is told
   runaway,        ///< drives on, whatever it is told
-  stuck_encoder   ///< the left wheel turns, its odometer does not
+  stuck_encoder,  ///< the left wheel turns, its odometer does not
+  slip,           ///< the wheels turn, of the floor a third less goes by
+  kidnap          ///< somebody carries it 1 m away, at once
 };
 
-/// "silent", "estop", "remote", "fault-bits", "stuck-counter", "ignores", "runaway", "stuck-encoder".
+/// "silent", "estop", "remote", "fault-bits", "stuck-counter", "ignores", "runaway", "stuck-encoder", "slip",
+/// "kidnap".
 std::optional<ScriptedFault> fault_named(const std::string& name);
 
 struct FaultSwitch {

@@ -58,7 +58,7 @@ std::optional<CameraFault> CameraWatch::take_in(const Frame& frame, Stamp now) {
   const bool is_white = sample.darkest > options_.bright_gray;
   const bool is_same = last_picture_ == sample.hash && !is_white;
   last_picture_ = sample.hash;
-  last_arrival_ = now;
+  learn_period(now);
 
   const Duration age = now - frame.stamp;
   fault_.reset();
@@ -75,8 +75,15 @@ std::optional<CameraFault> CameraWatch::take_in(const Frame& frame, Stamp now) {
   return std::nullopt;
 }
 
+void CameraWatch::learn_period(Stamp arrival) {
+  const Duration gap = last_arrival_ ? arrival - *last_arrival_ : Duration::max();
+  last_arrival_ = arrival;
+  if (gap <= options_.longest_period) period_ = period_ ? *period_ + (gap - *period_) / 8 : gap;
+}
+
 std::optional<CameraFault> CameraWatch::fault(Stamp now) const {
-  if (last_arrival_ && now - *last_arrival_ > options_.max_silence) return CameraFault::silent;
+  const Duration patience = std::max(options_.max_silence, 3 * period_.value_or(Duration::zero()));
+  if (last_arrival_ && now - *last_arrival_ > patience) return CameraFault::silent;
   return fault_;
 }
 

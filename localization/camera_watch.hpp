@@ -22,10 +22,12 @@ enum class CameraFault {
 std::string_view to_string(CameraFault fault);
 
 struct CameraWatchOptions {
-  Duration max_silence = std::chrono::milliseconds(150);  ///< without any frame, usable or not
-  Duration max_age = std::chrono::milliseconds(250);      ///< of a frame on arrival, since mid-exposure
-  Duration max_ahead = std::chrono::milliseconds(20);     ///< of the stamp before the arrival
-  Duration another_age = std::chrono::seconds(5);         ///< no camera is so late; its clock is another one
+  /// Without any frame, usable or not; at least three of the camera's usual periods.
+  Duration max_silence = std::chrono::milliseconds(150);
+  Duration longest_period = std::chrono::seconds(1);   ///< a longer pause is none
+  Duration max_age = std::chrono::milliseconds(250);   ///< of a frame on arrival, since mid-exposure
+  Duration max_ahead = std::chrono::milliseconds(20);  ///< of the stamp before the arrival
+  Duration another_age = std::chrono::seconds(5);      ///< no camera is so late; its clock is another one
   int dark_gray = 20;     ///< a picture whose brightest sampled pixel is darker shows nothing
   int bright_gray = 240;  ///< and one whose darkest is brighter
 };
@@ -43,8 +45,11 @@ class CameraWatch {
   [[nodiscard]] std::optional<CameraFault> fault(Stamp now) const;
 
  private:
+  void learn_period(Stamp arrival);
+
   CameraWatchOptions options_;
   std::optional<Stamp> last_arrival_;
+  std::optional<Duration> period_;  ///< of arrivals, smoothed
   std::optional<std::uint64_t> last_picture_;
   std::optional<CameraFault> fault_;  ///< of the newest frame
 };

@@ -52,7 +52,7 @@ FaultSwitch parse_fault(const std::string& text) {
   throw InputError(
       fmt::format("--fault: found '{}', wanted NAME@SECONDS or NAME@SECONDS+SECONDS with one of the names "
                   "silent, estop, remote, "
-                  "fault-bits, stuck-counter, ignores, runaway, stuck-encoder",
+                  "fault-bits, stuck-counter, ignores, runaway, stuck-encoder, slip, kidnap",
                   text));
 }
 

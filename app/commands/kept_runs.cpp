@@ -36,7 +36,7 @@ const std::filesystem::path& KeptRuns::present_folder() {
 void KeptRuns::watch(const DriveMoment& moment) {
   if (mcap_refused_) return;
   try {
-    if (!mcap_) mcap_.emplace(present_folder(), world_, site_.robot.radius_m);
+    if (!mcap_) mcap_ = std::make_unique<RunMcap>(present_folder(), world_, site_.robot.radius_m);
     mcap_->watch(moment);
   } catch (const InputError& error) {
     mcap_refused_ = true;
@@ -45,21 +45,27 @@ void KeptRuns::watch(const DriveMoment& moment) {
 }
 
 void KeptRuns::keep(RunRecord record) {
-  if (mcap_) mcap_->add_truth(record);
-  mcap_.reset();
   mcap_refused_ = false;
   if (writing_.valid()) writing_.wait();
   const std::filesystem::path folder = present_folder();
   folder_.reset();
   ++count_;
-  writing_ = std::async(std::launch::async, [this, folder, kept = std::move(record)] {
-    try {
-      write_run_folder(folder, kept, site_.map.map, site_.registry);
-      fmt::print(stderr, "run folder: {}\n", folder.string());
-    } catch (const InputError& error) {
-      fmt::print(stderr, "lodestar: warning: {}\n", error.what());
-    }
-  });
+  writing_ =
+      std::async(std::launch::async, [this, folder, kept = std::move(record), mcap = std::move(mcap_)] {
+        std::string lost;
+        if (mcap) mcap->add_truth(kept);
+        if (mcap && !mcap->finish()) lost = "the disk did not take all of run.mcap";
+        try {
+          write_run_folder(folder, kept, site_.map.map, site_.registry);
+        } catch (const InputError& error) {
+          lost = error.what();
+        }
+        if (lost.empty()) {
+          fmt::print(stderr, "run folder: {}\n", folder.string());
+        } else {
+          fmt::print(stderr, "lodestar: warning: the run is not recorded as a whole: {}\n", lost);
+        }
+      });
 }
 
 }  // namespace lodestar

@@ -37,7 +37,7 @@ class KeptRuns {
   bool replaces_first_;
   const Site& site_;
   KnownWorld world_;
-  std::optional<RunMcap> mcap_;                  ///< of the present drive
+  std::unique_ptr<RunMcap> mcap_;                ///< of the present drive
   std::optional<std::filesystem::path> folder_;  ///< of the present drive, once it has one
   bool mcap_refused_ = false;
   int count_ = 0;

@@ -1,5 +1,6 @@
 #include "app/run.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -117,16 +118,26 @@ void say(const std::string& words) {
   fmt::print(stderr, "{}\n", words);
 }
 
+/// Where the disk does not take what a drive leaves, one word is enough; the drive goes on.
+class DiskWarning {
+ public:
+  void operator()(const std::string& words) {
+    if (!said_.exchange(true)) say("warning: the run is not recorded as a whole: " + words);
+  }
+
+ private:
+  std::atomic<bool> said_ = false;
+};
+
 /// The folder that this drive leaves, made already: what it cannot hold shall be known before the drive.
-fs::path make_run_folder(const RunArguments& arguments, const Site& site) {
+fs::path make_run_folder(const RunArguments& arguments, const Site& site, DiskWarning& warn) {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   const fs::path folder = arguments.output.empty()
                               ? fs::path("runs") / fmt::format("{}-{:%Y%m%dT%H%M%SZ}", site.name, now)
                               : fs::path(arguments.output);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error)
-    say(fmt::format("{}: cannot be made ({}); this drive is not kept", folder.string(), error.message()));
+  if (error) warn(fmt::format("{}: cannot be made ({})", folder.string(), error.message()));
   return folder;
 }
 
@@ -141,34 +152,41 @@ struct DriveParts {
 /// run.mcap of a drive that goes on without, where the disk does not take it.
 class RunViewersFile {
  public:
-  RunViewersFile(const fs::path& folder, const Site& site, RunOptions& options) {
+  RunViewersFile(const fs::path& folder, const Site& site, RunOptions& options, DiskWarning& warn)
+      : warn_(warn) {
     try {
       mcap_.emplace(folder, known_world(site, options.camera), site.robot.radius_m);
       options.watch = [this](const DriveMoment& moment) { mcap_->watch(moment); };
     } catch (const InputError& error) {
-      say(fmt::format("warning: {}", error.what()));
+      warn(error.what());
     }
   }
   ~RunViewersFile() {
-    if (mcap_ && !mcap_->healthy()) say("warning: the disk did not take all of run.mcap");
+    if (mcap_ && !mcap_->finish()) warn_("the disk did not take all of run.mcap");
   }
   RunViewersFile(const RunViewersFile&) = delete;
   RunViewersFile& operator=(const RunViewersFile&) = delete;
 
  private:
+  DiskWarning& warn_;
   std::optional<RunMcap> mcap_;
 };
 
 ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
                     const RunArguments& arguments) {
-  const fs::path folder = make_run_folder(arguments, parts.site);
+  DiskWarning warn;
+  const fs::path folder = make_run_folder(arguments, parts.site, warn);
   const RunRecord record = [&] {
-    const RunViewersFile mcap(folder, parts.site, options);
-    CanLog log(folder / "can.log", parts.interface, say);
+    const RunViewersFile mcap(folder, parts.site, options, warn);
+    CanLog log(folder / "can.log", parts.interface, std::ref(warn));
     RecordedBus logged(parts.bus, [&log](const StampedCanFrame& frame) { log.take(frame); });
     return run(parts.site, logged, std::move(protocol), parts.camera, options);
   }();
-  (void)leave_run_folder(folder, record, parts.site.map.map, parts.site.registry);
+  try {
+    write_run_folder(folder, record, parts.site.map.map, parts.site.registry);
+  } catch (const InputError& error) {
+    warn(error.what());
+  }
   print_goals(record);
   return record.arrived() ? done : job_failed;
 }

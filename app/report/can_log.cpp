@@ -43,7 +43,7 @@ void CanLog::work(const std::stop_token& stop) {
     ended_ = true;
     frames_.clear();
   }
-  tell_(fmt::format("{}: cannot be written; the drive goes on without a log", file_.string()));
+  tell_(fmt::format("{}: cannot be written", file_.string()));
 }
 
 }  // namespace lodestar

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/crc.hpp>
 #include <concepts>
+#include <utility>
 #include <zstd.h>
 
 #include "maps/input_error.hpp"
@@ -187,6 +188,7 @@ std::string McapFile::statistics() const {
 
 /// The summary: what the file holds, and where. Its CRC covers all of it, up to the CRC itself.
 void McapFile::finish() {
+  if (std::exchange(finished_, true)) return;
   finish_chunk();
   put(record(Op::data_end, Bytes().number(std::uint32_t{0})));  // no CRC over all: each chunk has its own
   const std::uint64_t schemas = written_;

@@ -33,6 +33,9 @@ class McapFile {
   /// Stamps need not ascend. What the disk does not take is lost; healthy() tells.
   void write(const Message& message);
 
+  /// The last bytes of the file; nothing can be written after that.
+  void finish();
+
   [[nodiscard]] bool healthy() const { return file_.good(); }
 
  private:
@@ -49,11 +52,11 @@ class McapFile {
 
   void put(const std::string& bytes);
   void finish_chunk();
-  void finish();
   [[nodiscard]] std::string statistics() const;
 
   McapOptions options_;
   std::ofstream file_;
+  bool finished_ = false;
   std::uint64_t written_ = 0;
   std::string schemas_;   ///< their records, as at the beginning of the file
   std::string channels_;  ///< likewise

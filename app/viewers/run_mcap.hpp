@@ -1,7 +1,11 @@
 #pragma once
 
+#include <condition_variable>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 #include "app/report/run_record.hpp"
 #include "app/viewers/drive_messages.hpp"
@@ -9,24 +13,48 @@
 
 namespace lodestar {
 
+struct RunMcapOptions {
+  /// What may wait for a slow disk. Beyond it a drive in real time goes on without a gap and the file has
+  /// one; a drive that can wait does.
+  std::size_t most_waiting_bytes = std::size_t{64} << 20U;
+  bool can_wait = false;
+};
+
 /// Writes run.mcap into a run folder while the robot drives: open it in Foxglove, Lichtblick or any other
-/// reader of MCAP files.
+/// reader of MCAP files. It is compressed and written on the side, so that no disk holds the wheels' commands
+/// up.
 class RunMcap {
  public:
   /// Makes the folder. Throws InputError when that or the file cannot be made.
-  RunMcap(const std::filesystem::path& folder, const KnownWorld& world, double robot_radius_m);
+  RunMcap(const std::filesystem::path& folder, const KnownWorld& world, double robot_radius_m,
+          const RunMcapOptions& options = {});
+  RunMcap(const RunMcap&) = delete;
+  RunMcap& operator=(const RunMcap&) = delete;
+  /// Writes what is left.
+  ~RunMcap();
 
   void watch(const DriveMoment& moment);
 
   /// After the drive: what only its judge knows.
   void add_truth(const RunRecord& record);
 
-  /// Has the disk taken all of it?
-  [[nodiscard]] bool healthy() const { return file_->healthy(); }
+  /// Waits until all is written. Has the disk taken it?
+  [[nodiscard]] bool finish();
 
  private:
+  void take(std::vector<Message> messages);
+  void work();
+
+  RunMcapOptions options_;
   DriveMessages messages_;
-  std::unique_ptr<McapFile> file_;
+  std::unique_ptr<McapFile> file_;  ///< the writer's alone while it works
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Message> waiting_;
+  std::size_t waiting_bytes_ = 0;
+  bool has_skipped_ = false;
+  bool ends_ = false;
+  std::thread writer_;
 };
 
 }  // namespace lodestar

@@ -140,6 +140,25 @@ TEST_F(BaseFaults, an_encoder_that_is_stuck_is_noticed_within_half_a_second) {
   measure("encoder stuck", *stuck);
 }
 
+/// What is seen overrules what the wheels say.
+TEST_F(BaseFaults, slipping_wheels_are_driven_through) {
+  drive("slip@1+2");
+  EXPECT_EQ(wait_for_the_end(40s), 0);
+  const Truth truth = end_base();
+  EXPECT_NEAR(truth.x_m, 4.2, 0.04);
+  EXPECT_NEAR(truth.y_m, 5.5, 0.04);
+  EXPECT_EQ(truth.contacts, 0);
+}
+
+TEST_F(BaseFaults, a_robot_that_is_carried_away_stops_within_300_ms_and_for_good) {
+  drive("kidnap@1.5");
+  EXPECT_EQ(run->wait(40s), 1);
+  EXPECT_TRUE(run->said("not where it was believed to be")) << run->output();
+  const auto moved_first = witness->wait_for(is_moving_command, Stamp{}, 1s);
+  ASSERT_TRUE(moved_first);
+  expect_no_motion_after(300ms, moved_first->stamp + 1500ms);
+}
+
 TEST_F(BaseFaults, a_second_master_is_noticed_within_40_ms) {
   drive();
   wait_until_driving();

@@ -33,6 +33,21 @@ TEST(CameraWatch, finds_nothing_wrong_with_fresh_pictures) {
   }
 }
 
+TEST(CameraWatch, misses_a_slow_camera_after_three_of_its_periods) {
+  CameraWatch watch;
+  Stamp now = noon;
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    now += milliseconds(200);
+    watch.take_in(frame_at(now, i), now);
+    EXPECT_FALSE(i > 0 && watch.fault(now + milliseconds(190)));
+  }
+  EXPECT_FALSE(watch.fault(now + milliseconds(600)));
+  EXPECT_EQ(watch.fault(now + milliseconds(601)), CameraFault::silent);
+  now += seconds(30);
+  watch.take_in(frame_at(now, 9), now);
+  EXPECT_EQ(watch.fault(now + milliseconds(601)), CameraFault::silent) << "a pause is no period";
+}
+
 TEST(CameraWatch, refuses_the_same_picture_again) {
   CameraWatch watch;
   watch.take_in(frame_at(noon, 1), noon);
