@@ -23,7 +23,9 @@ const GridPlanner& MarginPlanner::at(std::size_t level) const {
   return *wanted.planner;
 }
 
-PlanResult MarginPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const PlanHeadings& headings) const {
+PlanResult MarginPlanner::plan(const Vec2& start_m, const Vec2& wanted_m,
+                               const PlanHeadings& headings) const {
+  const Vec2 goal_m = goal_with_margin(wanted_m);
   for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
     PlanResult result = plan_at(level, start_m, goal_m, headings);
     if (std::holds_alternative<Plan>(result)) return result;
@@ -37,6 +39,23 @@ bool MarginPlanner::is_clear(const Vec2& from_m, const Vec2& to_m) const {
 
 std::optional<Vec2> MarginPlanner::nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const {
   return narrowest().nearest_reachable(start_m, goal_m);
+}
+
+Vec2 MarginPlanner::goal_with_margin(const Vec2& goal_m) const {
+  if (!goal_m.allFinite() || narrowest().is_clear(goal_m, goal_m)) return goal_m;
+  constexpr double spacing_m = 0.001;
+  constexpr int reach = static_cast<int>(goal_slack_m / spacing_m);
+  std::optional<Vec2> nearest;
+  double least_m = goal_slack_m + 1e-9;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const Vec2 aside_m = spacing_m * Vec2(x, y);
+      if (aside_m.norm() >= least_m || !narrowest().is_clear(goal_m + aside_m, goal_m + aside_m)) continue;
+      least_m = aside_m.norm();
+      nearest = goal_m + aside_m;
+    }
+  }
+  return nearest.value_or(goal_m);
 }
 
 /// The point itself, or the nearest cell's centre with room for the level's margin, straight from the point

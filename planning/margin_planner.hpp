@@ -16,9 +16,13 @@ namespace lodestar {
 inline constexpr std::array default_margins_m{0.03, 0.02, 0.01};
 
 /// Plans with the widest margin that there is room for. Where start or goal lie nearer to an obstacle than
-/// that, only the way between them and the nearest roomy place does too. One query at a time.
+/// that, only the way between them and the nearest roomy place does too. A goal that has not even the
+/// narrowest margin, as one that touches a wall, is replaced by the nearest place that has, when that is
+/// within `goal_slack_m`: the path ends there. One query at a time.
 class MarginPlanner {
  public:
+  static constexpr double goal_slack_m = 0.015;
+
   /// Outlines are planned without a margin.
   explicit MarginPlanner(const OccupancyMap& map, const GridPlannerOptions& options = {},
                          std::span<const double> margins_m = default_margins_m);
@@ -47,6 +51,7 @@ class MarginPlanner {
 
   [[nodiscard]] const GridPlanner& at(std::size_t level) const;
   [[nodiscard]] const GridPlanner& narrowest() const { return at(levels_.size() - 1); }
+  [[nodiscard]] Vec2 goal_with_margin(const Vec2& goal_m) const;
   [[nodiscard]] std::optional<Vec2> roomy_place_near(const Vec2& point_m, std::size_t level) const;
   [[nodiscard]] PlanResult plan_at(std::size_t level, const Vec2& start_m, const Vec2& goal_m,
                                    const PlanHeadings& headings) const;

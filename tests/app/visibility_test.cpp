@@ -5,17 +5,14 @@
 #include <octomap/OcTree.h>
 #include <unistd.h>
 
+#include "tests/maps/empty_floor.hpp"
+
 namespace lodestar {
 namespace {
 
 /// 4 m x 2 m of free floor in cells of 10 cm.
 OccupancyMap hall() {
-  OccupancyMap map;
-  map.columns = 40;
-  map.rows = 20;
-  map.resolution_m = 0.1;
-  map.cells.assign(800, OccupancyMap::free);
-  return map;
+  return empty_floor(40, 20, 0.1);
 }
 
 /// 90 degrees wide: from 1.5 m below, 3 m x 2.25 m of the ceiling.

@@ -4,17 +4,15 @@
 
 #include "maps/random.hpp"
 
+#include "tests/maps/empty_floor.hpp"
+
 namespace lodestar {
 namespace {
 
 /// A hall of 4 m x 3 m in cells of 5 cm, with one pillar.
 OccupancyMap hall() {
-  OccupancyMap map;
-  map.columns = 80;
-  map.rows = 60;
-  map.resolution_m = 0.05;
+  OccupancyMap map = empty_floor(80, 60, 0.05);
   map.map_from_grid.position_m = {-1.0, -1.0};
-  map.cells.assign(80 * 60, OccupancyMap::free);
   for (int row = 28; row < 32; ++row)
     for (int column = 50; column < 54; ++column) map.cells[map.index({column, row})] = OccupancyMap::occupied;
   return map;

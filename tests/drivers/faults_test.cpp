@@ -11,6 +11,8 @@
 #include "drivers/simulation.hpp"
 
 // The world that hurts, part by part.
+#include "tests/maps/empty_floor.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -145,12 +147,7 @@ TEST(FaultyBus, loses_doubles_delays_and_spoils_as_told) {
 }
 
 OccupancyMap free_floor() {
-  OccupancyMap map;
-  map.columns = 100;
-  map.rows = 60;
-  map.resolution_m = 0.1;
-  map.cells.assign(6000, OccupancyMap::free);
-  return map;
+  return empty_floor(100, 60, 0.1);
 }
 
 /// Where a robot that is told to drive ahead for two seconds truly ends.

@@ -5,6 +5,8 @@
 #include "drivers/disc_contact.hpp"
 #include "maps/random.hpp"
 
+#include "tests/maps/empty_floor.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -18,11 +20,7 @@ namespace {
 //        . . . . . . . .
 //   0 m                4 m
 OccupancyMap hand_made_map() {
-  OccupancyMap map;
-  map.columns = 8;
-  map.rows = 6;
-  map.resolution_m = 0.5;
-  map.cells.assign(48, OccupancyMap::free);
+  OccupancyMap map = empty_floor(8, 6, 0.5);
   map.cells[map.index({4, 3})] = OccupancyMap::occupied;
   map.cells[map.index({1, 2})] = OccupancyMap::unknown;
   return map;

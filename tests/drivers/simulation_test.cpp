@@ -7,18 +7,15 @@
 #include "drivers/candump.hpp"
 #include "maps/input_error.hpp"
 
+#include "tests/maps/empty_floor.hpp"
+
 namespace lodestar {
 namespace {
 
 using std::chrono::milliseconds;
 
 OccupancyMap free_floor() {
-  OccupancyMap map;
-  map.columns = 100;
-  map.rows = 60;
-  map.resolution_m = 0.1;
-  map.cells.assign(6000, OccupancyMap::free);
-  return map;
+  return empty_floor(100, 60, 0.1);
 }
 
 CameraModel small_camera() {

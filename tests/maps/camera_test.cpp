@@ -6,6 +6,7 @@
 #include "maps/input_error.hpp"
 #include "maps/random.hpp"
 
+#include "tests/maps/spoilt_file.hpp"
 #include "tests/maps/temporary_folder.hpp"
 
 namespace lodestar {
@@ -95,18 +96,11 @@ const std::string good =
     "-0.002, 0]}\n";
 
 std::string error_of(const std::string& text) {
-  const TemporaryFolder folder;
-  try {
-    (void)load_camera(folder.write("camera.yaml", text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of("camera.yaml", text, load_camera);
 }
 
 std::string with(const std::string& piece, const std::string& by) {
-  std::string text = good;
-  return text.replace(text.find(piece), piece.size(), by);
+  return lodestar::with(good, piece, by);
 }
 
 TEST(CameraFile, reads_camera_info) {

@@ -5,6 +5,7 @@
 
 #include "maps/input_error.hpp"
 
+#include "tests/maps/empty_floor.hpp"
 #include "tests/maps/temporary_folder.hpp"
 
 namespace lodestar {
@@ -12,12 +13,7 @@ namespace {
 
 /// Four metres by two, cells of 0.2 m; bands from 1 m on.
 OccupancyMap floor_map() {
-  OccupancyMap map;
-  map.columns = 20;
-  map.rows = 10;
-  map.resolution_m = 0.2;
-  map.cells.assign(200, OccupancyMap::free);
-  return map;
+  return empty_floor(20, 10, 0.2);
 }
 
 class HeightBandsTest : public ::testing::Test {

@@ -5,6 +5,7 @@
 #include "maps/marker.hpp"
 #include "maps/marker_registry.hpp"
 
+#include "tests/maps/spoilt_file.hpp"
 #include "tests/maps/temporary_folder.hpp"
 
 namespace lodestar {
@@ -18,18 +19,11 @@ const std::string good =
     "  - {id: 1782, x_m: 2, y_m: 3.4, z_m: 2.6, yaw_deg: -45.5}\n";
 
 std::string error_of(const std::string& text) {
-  const TemporaryFolder folder;
-  try {
-    (void)load_registry(folder.write("markers.yaml", text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of("markers.yaml", text, load_registry);
 }
 
 std::string with(const std::string& piece, const std::string& by) {
-  std::string text = good;
-  return text.replace(text.find(piece), piece.size(), by);
+  return lodestar::with(good, piece, by);
 }
 
 /// The ID of a pattern of coded dots, by a matrix of ones and zeros as in Eq. (9).

@@ -63,15 +63,24 @@ TEST(MarginPlanner, gives_up_the_margin_only_where_start_and_goal_lie_near_to_wa
   EXPECT_LT((points[points.size() - 2] - beside_wall).norm(), 0.04);
 }
 
-/// A robot may stop a centimetre off its goal.
-TEST(MarginPlanner, has_no_goal_that_an_arrival_would_miss_by_a_contact) {
+/// A robot may stop a centimetre off its goal: on the wrong side, that would be a contact.
+TEST(MarginPlanner, stops_a_centimetre_short_of_a_goal_that_touches_a_wall) {
   const OccupancyMap map = rooms(60);
-  const Vec2 touching(0.6, 2.0 - radius_m - 0.002);
+  const Vec2 touching(0.6, 2.0 - radius_m);
+  const std::vector<Vec2> points = points_of(MarginPlanner(map, options).plan(start, touching));
+  ASSERT_GT(points.size(), 1U);
+  EXPECT_NEAR((points.back() - touching).norm(), 0.01, 0.0011);
+  EXPECT_TRUE(keeps(0.01, map, points));
+}
+
+TEST(MarginPlanner, takes_no_goal_inside_a_wall_and_offers_one_beside_it) {
+  const OccupancyMap map = rooms(60);
+  const Vec2 overlapping(0.6, 2.0 - radius_m + 0.02);
   const MarginPlanner planner(map, options);
-  EXPECT_EQ(std::get<PlanFailure>(planner.plan(start, touching)), PlanFailure::goal_occupied);
-  const std::optional<Vec2> offered = planner.nearest_reachable(start, touching);
+  EXPECT_EQ(std::get<PlanFailure>(planner.plan(start, overlapping)), PlanFailure::goal_occupied);
+  const std::optional<Vec2> offered = planner.nearest_reachable(start, overlapping);
   ASSERT_TRUE(offered);
-  EXPECT_LT((*offered - touching).norm(), 0.03);
+  EXPECT_LT((*offered - overlapping).norm(), 0.05);
   EXPECT_TRUE(std::holds_alternative<Plan>(planner.plan(start, *offered)));
 }
 

@@ -157,33 +157,6 @@ TEST(Fastest, turns_the_shorter_way_to_the_heading_wanted_at_the_goal) {
   EXPECT_FALSE(passes_above(1.0));
 }
 
-TEST(TurnSearch, keeps_the_robot_clear_with_and_without_preferred_clearance) {
-  Random random(23);
-  int found = 0;
-  for (int trial = 0; trial < 80; ++trial) {
-    OccupancyMap map = random_map(random, 50, 40, 0.015);
-    map.map_from_grid = {{random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0)}, random.uniform(-3.0, 3.0)};
-    const GridPlanner planner(map, {.kind = trial % 2 == 0 ? PlannerKind::anyangle : PlannerKind::fastest,
-                                    .radius_m = 0.12,
-                                    .preferred_clearance_m = 0.1,
-                                    .clearance_weight = trial % 4 < 2 ? 0.0 : 1.0});
-    const Vec2 start = map.map_from_grid * Vec2(random.uniform(0.15, 2.3), random.uniform(0.15, 1.8));
-    const Vec2 goal = map.map_from_grid * Vec2(random.uniform(0.15, 2.3), random.uniform(0.15, 1.8));
-    if (touches(map, start, 0.12)) continue;
-    const PlanResult result = planner.plan(start, goal);
-    if (!std::holds_alternative<Plan>(result)) continue;
-    ++found;
-    const auto& points = std::get<Plan>(result).path.waypoints_m;
-    EXPECT_EQ(points.front(), start);
-    EXPECT_EQ(points.back(), goal);
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      for (int k = 0; k <= 50; ++k)
-        EXPECT_FALSE(touches(map, points[i - 1] + (points[i] - points[i - 1]) * (k / 50.0), 0.12));
-    }
-  }
-  EXPECT_GT(found, 15);
-}
-
 TEST(TurnSearch, keeps_off_walls_when_clearance_is_preferred) {
   std::vector<std::string> rows(41, std::string(60, '.'));
   for (std::size_t row = 29; row < 41; ++row) rows[row][30] = '#';
