@@ -1,6 +1,7 @@
 #include "localization/disc_light.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -10,9 +11,10 @@
 namespace lodestar {
 namespace {
 
-constexpr int lanes = 8;
+constexpr int lanes = 16;
 using Floats [[gnu::vector_size(lanes * sizeof(float))]] = float;
 using Ints [[gnu::vector_size(lanes * sizeof(std::int32_t))]] = std::int32_t;
+using Shorts [[gnu::vector_size(lanes * sizeof(std::uint16_t))]] = std::uint16_t;
 using Bytes [[gnu::vector_size(lanes)]] = std::uint8_t;
 
 /// The pixels about a place, in blocks of lanes; all of them lie in the frame.
@@ -52,33 +54,44 @@ std::optional<Patch> patch_about(const cv::Mat& gray, const Vec2& center_px, dou
   return patch;
 }
 
-/// Inlined, so that it is compiled for the processor that its caller is compiled for.
+// Inlined, so that they are compiled for the processor that their caller is compiled for.
+
 [[gnu::always_inline]] inline void load(const std::uint8_t* pixels, Floats& light) {
   Bytes bytes;
   std::memcpy(&bytes, pixels, lanes);
-  light = __builtin_convertvector(__builtin_convertvector(bytes, Ints), Floats);
+  const Shorts shorts = __builtin_convertvector(bytes, Shorts);  // doubled at each step, as instructions do
+  light = __builtin_convertvector(__builtin_convertvector(shorts, Ints), Floats);
 }
 
-constexpr Floats steps{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
-
-/// In pairs, so that no addition waits for the one before it.
-double sum_of(const Floats& v) {
-  const float even = (v[0] + v[2]) + (v[4] + v[6]);
-  const float odd = (v[1] + v[3]) + (v[5] + v[7]);
-  return static_cast<double>(even + odd);
+/// Zero instead of what is negative, by the sign bit: a register wider than the processor's has no other way.
+[[gnu::always_inline]] inline void cut_at_zero(Floats& v) {
+  constexpr int sign_bit = 31;
+  Ints bits;
+  std::memcpy(&bits, &v, sizeof(v));
+  bits &= ~(bits >> sign_bit);
+  std::memcpy(&v, &bits, sizeof(v));
 }
+
+/// Half of the lanes onto the other half, and so on.
+[[gnu::always_inline]] inline float sum_of(const Floats& v) {
+  using Four [[gnu::vector_size(4 * sizeof(float))]] = float;
+  std::array<Four, lanes / 4> parts;
+  std::memcpy(parts.data(), &v, sizeof(v));
+  const Four sum = (parts[0] + parts[2]) + (parts[1] + parts[3]);
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+constexpr Floats steps{0.0F, 1.0F, 2.0F,  3.0F,  4.0F,  5.0F,  6.0F,  7.0F,
+                       8.0F, 9.0F, 10.0F, 11.0F, 12.0F, 13.0F, 14.0F, 15.0F};
 
 struct LightSums {
-  Floats mass;
-  Floats moment_x;
-  Floats moment_y;
+  float mass = 0.0F;
+  float moment_x = 0.0F;
+  float moment_y = 0.0F;
 };
 
-/// Adds to sums that are zero.
 LODESTAR_WIDE_REGISTERS
 void sum_light(const Patch& patch, float edge, float slope, float background, LightSums& sums) {
-  const Floats zero{};
-  const Floats one = zero + 1.0F;
   for (int block = 0; block < patch.blocks; ++block) {
     const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
     const Floats squared_x = x * x;
@@ -87,33 +100,32 @@ void sum_light(const Patch& patch, float edge, float slope, float background, Li
     Floats moment_y{};
     for (int v = 0; v < patch.rows; ++v, pixels += patch.stride) {
       const float y = patch.top_px + static_cast<float>(v);
-      Floats weight = edge - (squared_x + y * y) * slope;
-      weight = weight > zero ? weight : zero;
-      weight = weight < one ? weight : one;
+      Floats missing = (squared_x + y * y) * slope - (edge - 1.0F);  // to the full weight of one
+      cut_at_zero(missing);
+      Floats weight = 1.0F - missing;
+      cut_at_zero(weight);
       Floats light;
       load(pixels, light);
       const Floats part = weight * (light - background);
       columns += part;
       moment_y += part * y;
     }
-    sums.mass += columns;
-    sums.moment_x += columns * x;
-    sums.moment_y += moment_y;
+    sums.mass += sum_of(columns);
+    sums.moment_x += sum_of(columns * x);
+    sums.moment_y += sum_of(moment_y);
   }
 }
 
 struct EdgeSums {
-  Floats along_x;  ///< gray times the weight for x
-  Floats along_y;  ///< and for y
-  Floats gain;     ///< what both change by together, a pixel
-  Floats squares;  ///< sum of both weights' squares
-  Floats shots;    ///< and of their products with the gray values
+  float along_x = 0.0F;  ///< gray times the weight for x
+  float along_y = 0.0F;  ///< and for y
+  float gain = 0.0F;     ///< what both change by together, a pixel
+  float squares = 0.0F;  ///< sum of both weights' squares
+  float shots = 0.0F;    ///< and of their products with the gray values
 };
 
-/// Adds to sums that are zero.
 LODESTAR_WIDE_REGISTERS
 void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSums& sums) {
-  const Floats zero{};
   for (int block = 0; block < patch.blocks; ++block) {
     const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
     const Floats squared_x = x * x;
@@ -130,7 +142,7 @@ void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSum
       const Floats squared_distance = squared_x + y * y;
       const Floats t = (squared_distance - squared_radius) * per_width;
       Floats inside = 1.0F - t * t;
-      inside = inside > zero ? inside : zero;
+      cut_at_zero(inside);
       const Floats cubed = inside * inside * inside;
       const Floats weight = cubed * inside;
       const Floats light_weight = light * weight;
@@ -141,12 +153,12 @@ void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSum
       squares += square;
       shots += square * light;
     }
-    sums.along_x += columns * x;
-    sums.along_y += along_y;
+    sums.along_x += sum_of(columns * x);
+    sums.along_y += sum_of(along_y);
     // d(w x)/dx + d(w y)/dy = 2 w + 2 d^2 dw/d(d^2), and dw/d(d^2) = -8 t (1 - t^2)^3 / width
-    sums.gain += 2.0F * columns - (16.0F * per_width) * change;
-    sums.squares += squares;
-    sums.shots += shots;
+    sums.gain += sum_of(2.0F * columns - (16.0F * per_width) * change);
+    sums.squares += sum_of(squares);
+    sums.shots += sum_of(shots);
   }
 }
 
@@ -158,11 +170,12 @@ std::optional<DiscLight> light_in_disc(const cv::Mat& gray, const Vec2& center_p
   const std::optional<Patch> patch = patch_about(gray, center_px, reach);
   if (!patch) return std::nullopt;
   // Weight 1 at radius - 1/2 and 0 at radius + 1/2, linear in d^2.
-  LightSums sums{};
+  LightSums sums;
   sum_light(*patch, static_cast<float>(reach * reach * 0.5 / radius_px), static_cast<float>(0.5 / radius_px),
             static_cast<float>(background_gray), sums);
-  DiscLight light{.mass = sum_of(sums.mass), .center_px = center_px};
-  if (light.mass > 0.0) light.center_px += Vec2(sum_of(sums.moment_x), sum_of(sums.moment_y)) / light.mass;
+  const double mass = sums.mass;
+  DiscLight light{.mass = mass, .center_px = center_px};
+  if (mass > 0.0) light.center_px += Vec2(sums.moment_x, sums.moment_y) / mass;
   return light;
 }
 
@@ -175,15 +188,15 @@ std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_
   for (int i = 0; i < options.most_steps; ++i) {
     const std::optional<Patch> patch = patch_about(gray, center.center_px, reach_px);
     if (!patch) return std::nullopt;
-    EdgeSums sums{};
+    EdgeSums sums;
     sum_edge(*patch, static_cast<float>(squared_radius), static_cast<float>(1.0 / width), sums);
     // The sum weighted by w x falls by half the gain as the weight moves on by a pixel.
-    const double gain = 0.5 * sum_of(sums.gain);
-    const Vec2 step = Vec2(sum_of(sums.along_x), sum_of(sums.along_y)) / gain;
+    const double gain = 0.5 * static_cast<double>(sums.gain);
+    const Vec2 step = Vec2(sums.along_x, sums.along_y) / gain;
     if (!(gain > 0.0 && step.norm() < options.longest_step_px)) return std::nullopt;
     center.center_px += step;
-    center.variance_per_variance_px2 = 0.5 * sum_of(sums.squares) / (gain * gain);
-    center.variance_per_gray_px2 = 0.5 * sum_of(sums.shots) / (gain * gain);
+    center.variance_per_variance_px2 = 0.5 * static_cast<double>(sums.squares) / (gain * gain);
+    center.variance_per_gray_px2 = 0.5 * static_cast<double>(sums.shots) / (gain * gain);
     if (step.norm() < options.small_step_px) break;
   }
   return center;
