@@ -27,9 +27,12 @@ void find_bright_bits(const std::uint8_t* pixels, std::size_t stride, int count,
 #if CV_SIMD128
   if (count == tile) {
     const cv::v_uint8x16 limit = cv::v_setall_u8(threshold);
+    const auto half = [&](const std::uint8_t* first) {
+      const cv::v_uint8x16 seen = cv::v_load(first);
+      return static_cast<std::uint32_t>(cv::v_signmask(cv::v_max(seen, limit) == seen));
+    };
     for (std::uint32_t& bits : rows) {
-      bits = static_cast<std::uint32_t>(cv::v_signmask(cv::v_load(pixels) >= limit)) |
-             static_cast<std::uint32_t>(cv::v_signmask(cv::v_load(pixels + tile / 2) >= limit)) << 16U;
+      bits = half(pixels) | half(pixels + tile / 2) << 16U;
       pixels += stride;
     }
     return;
@@ -93,7 +96,8 @@ void join_touching_runs(std::span<const Run> runs, DisjointSets& sets) {
 }
 
 /// Area, box and second moments of one area's runs. A run of n pixels from u has the sums n, n * mean and
-/// n * (mean^2 + (n^2 - 1) / 12); each pixel is a square, which adds 1/12. Halves and twelfths are kept whole.
+/// n * (mean^2 + (n^2 - 1) / 12); each pixel is a square, which adds 1/12. Halves and twelfths are kept
+/// whole.
 void measure(std::span<const Run> runs, BrightArea& area) {
   area.left = runs.front().begin;
   area.right = runs.front().end - 1;

@@ -11,11 +11,85 @@
 namespace lodestar {
 namespace {
 
+// Sixteen pixels at a time: a dot's whole width, as a rule. One register of the processors that have such
+// wide ones, two of eight for all others. All is inlined, so that it is compiled for the processor that its
+// caller is compiled for.
 constexpr int lanes = 16;
-using Floats [[gnu::vector_size(lanes * sizeof(float))]] = float;
-using Ints [[gnu::vector_size(lanes * sizeof(std::int32_t))]] = std::int32_t;
-using Shorts [[gnu::vector_size(lanes * sizeof(std::uint16_t))]] = std::uint16_t;
-using Bytes [[gnu::vector_size(lanes)]] = std::uint8_t;
+using Sixteen [[gnu::vector_size(16 * sizeof(float))]] = float;
+using Eight [[gnu::vector_size(8 * sizeof(float))]] = float;
+using Four [[gnu::vector_size(4 * sizeof(float))]] = float;
+
+struct TwoOfEight {
+  Eight low;
+  Eight high;
+
+  TwoOfEight() = default;
+  [[gnu::always_inline]] TwoOfEight(const Eight& l, const Eight& h) : low(l), high(h) {}
+  [[gnu::always_inline]] TwoOfEight(float all)
+      : low(Eight{} + all),
+        high(Eight{} + all) {}  // NOLINT(google-explicit-constructor): as a vector's operators do it
+
+  [[gnu::always_inline]] friend TwoOfEight operator+(const TwoOfEight& a, const TwoOfEight& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  [[gnu::always_inline]] friend TwoOfEight operator-(const TwoOfEight& a, const TwoOfEight& b) {
+    return {a.low - b.low, a.high - b.high};
+  }
+  [[gnu::always_inline]] friend TwoOfEight operator*(const TwoOfEight& a, const TwoOfEight& b) {
+    return {a.low * b.low, a.high * b.high};
+  }
+  [[gnu::always_inline]] TwoOfEight& operator+=(const TwoOfEight& b) { return *this = *this + b; }
+};
+
+using EightBytes [[gnu::vector_size(8)]] = std::uint8_t;
+using EightShorts [[gnu::vector_size(16)]] = std::uint16_t;
+using EightInts [[gnu::vector_size(32)]] = std::int32_t;
+using SixteenBytes [[gnu::vector_size(16)]] = std::uint8_t;
+using SixteenShorts [[gnu::vector_size(32)]] = std::uint16_t;
+using SixteenInts [[gnu::vector_size(64)]] = std::int32_t;
+
+/// Pixels as floats. Their width is doubled at each step, as instructions do it.
+template <typename Bytes, typename Shorts, typename Ints, typename Floats>
+[[gnu::always_inline]] inline void widen(const std::uint8_t* pixels, Floats& light) {
+  Bytes bytes;
+  std::memcpy(&bytes, pixels, sizeof(bytes));
+  const Shorts shorts = __builtin_convertvector(bytes, Shorts);
+  light = __builtin_convertvector(__builtin_convertvector(shorts, Ints), Floats);
+}
+
+[[gnu::always_inline]] inline void load(const std::uint8_t* pixels, Sixteen& light) {
+  widen<SixteenBytes, SixteenShorts, SixteenInts>(pixels, light);
+}
+
+[[gnu::always_inline]] inline void load(const std::uint8_t* pixels, TwoOfEight& light) {
+  widen<EightBytes, EightShorts, EightInts>(pixels, light.low);
+  widen<EightBytes, EightShorts, EightInts>(pixels + 8, light.high);
+}
+
+template <typename Floats>
+[[gnu::always_inline]] inline void clamp_to(float least, float most, Floats& v) {
+  const Floats low = Floats{} + least;
+  const Floats high = Floats{} + most;
+  v = v > low ? v : low;
+  v = v < high ? v : high;
+}
+
+[[gnu::always_inline]] inline void clamp_to(float least, float most, TwoOfEight& v) {
+  clamp_to(least, most, v.low);
+  clamp_to(least, most, v.high);
+}
+
+/// Half of the lanes onto the other half, and so on.
+template <typename Floats>
+[[gnu::always_inline]] inline float sum_of(const Floats& v) {
+  static_assert(sizeof(v) == 4 * sizeof(Four));
+  std::array<Four, 4> parts;
+  std::memcpy(parts.data(), &v, sizeof(v));
+  const Four sum = (parts[0] + parts[2]) + (parts[1] + parts[3]);
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+constexpr std::array<float, lanes> steps{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 /// The pixels about a place, in blocks of lanes; all of them lie in the frame.
 struct Patch {
@@ -54,56 +128,27 @@ std::optional<Patch> patch_about(const cv::Mat& gray, const Vec2& center_px, dou
   return patch;
 }
 
-// Inlined, so that they are compiled for the processor that their caller is compiled for.
-
-[[gnu::always_inline]] inline void load(const std::uint8_t* pixels, Floats& light) {
-  Bytes bytes;
-  std::memcpy(&bytes, pixels, lanes);
-  const Shorts shorts = __builtin_convertvector(bytes, Shorts);  // doubled at each step, as instructions do
-  light = __builtin_convertvector(__builtin_convertvector(shorts, Ints), Floats);
-}
-
-/// Zero instead of what is negative, by the sign bit: a register wider than the processor's has no other way.
-[[gnu::always_inline]] inline void cut_at_zero(Floats& v) {
-  constexpr int sign_bit = 31;
-  Ints bits;
-  std::memcpy(&bits, &v, sizeof(v));
-  bits &= ~(bits >> sign_bit);
-  std::memcpy(&v, &bits, sizeof(v));
-}
-
-/// Half of the lanes onto the other half, and so on.
-[[gnu::always_inline]] inline float sum_of(const Floats& v) {
-  using Four [[gnu::vector_size(4 * sizeof(float))]] = float;
-  std::array<Four, lanes / 4> parts;
-  std::memcpy(parts.data(), &v, sizeof(v));
-  const Four sum = (parts[0] + parts[2]) + (parts[1] + parts[3]);
-  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
-}
-
-constexpr Floats steps{0.0F, 1.0F, 2.0F,  3.0F,  4.0F,  5.0F,  6.0F,  7.0F,
-                       8.0F, 9.0F, 10.0F, 11.0F, 12.0F, 13.0F, 14.0F, 15.0F};
-
 struct LightSums {
   float mass = 0.0F;
   float moment_x = 0.0F;
   float moment_y = 0.0F;
 };
 
-LODESTAR_WIDE_REGISTERS
-void sum_light(const Patch& patch, float edge, float slope, float background, LightSums& sums) {
+template <typename Floats>
+[[gnu::always_inline]] inline void sum_light(const Patch& patch, float edge, float slope, float background,
+                                             LightSums& sums) {
   for (int block = 0; block < patch.blocks; ++block) {
-    const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
+    Floats x;
+    std::memcpy(&x, steps.data(), sizeof(x));
+    x += patch.left_px + static_cast<float>(block * lanes);
     const Floats squared_x = x * x;
     const std::uint8_t* pixels = patch.first + static_cast<std::ptrdiff_t>(block) * lanes;
-    Floats columns{};
-    Floats moment_y{};
+    Floats columns = Floats{} + 0.0F;
+    Floats moment_y = columns;
     for (int v = 0; v < patch.rows; ++v, pixels += patch.stride) {
       const float y = patch.top_px + static_cast<float>(v);
-      Floats missing = (squared_x + y * y) * slope - (edge - 1.0F);  // to the full weight of one
-      cut_at_zero(missing);
-      Floats weight = 1.0F - missing;
-      cut_at_zero(weight);
+      Floats weight = edge - (squared_x + y * y) * slope;
+      clamp_to(0.0F, 1.0F, weight);
       Floats light;
       load(pixels, light);
       const Floats part = weight * (light - background);
@@ -124,17 +169,20 @@ struct EdgeSums {
   float shots = 0.0F;    ///< and of their products with the gray values
 };
 
-LODESTAR_WIDE_REGISTERS
-void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSums& sums) {
+template <typename Floats>
+[[gnu::always_inline]] inline void sum_edge(const Patch& patch, float squared_radius, float per_width,
+                                            EdgeSums& sums) {
   for (int block = 0; block < patch.blocks; ++block) {
-    const Floats x = steps + (patch.left_px + static_cast<float>(block * lanes));
+    Floats x;
+    std::memcpy(&x, steps.data(), sizeof(x));
+    x += patch.left_px + static_cast<float>(block * lanes);
     const Floats squared_x = x * x;
     const std::uint8_t* pixels = patch.first + static_cast<std::ptrdiff_t>(block) * lanes;
-    Floats columns{};
-    Floats along_y{};
-    Floats change{};
-    Floats squares{};
-    Floats shots{};
+    Floats columns = Floats{} + 0.0F;
+    Floats along_y = columns;
+    Floats change = columns;
+    Floats squares = columns;
+    Floats shots = columns;
     for (int v = 0; v < patch.rows; ++v, pixels += patch.stride) {
       const float y = patch.top_px + static_cast<float>(v);
       Floats light;
@@ -142,7 +190,7 @@ void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSum
       const Floats squared_distance = squared_x + y * y;
       const Floats t = (squared_distance - squared_radius) * per_width;
       Floats inside = 1.0F - t * t;
-      cut_at_zero(inside);
+      clamp_to(0.0F, 1.0F, inside);
       const Floats cubed = inside * inside * inside;
       const Floats weight = cubed * inside;
       const Floats light_weight = light * weight;
@@ -162,6 +210,42 @@ void sum_edge(const Patch& patch, float squared_radius, float per_width, EdgeSum
   }
 }
 
+#ifdef LODESTAR_SIXTEEN_LANES
+LODESTAR_SIXTEEN_LANES
+void sum_light_by_sixteen(const Patch& patch, float edge, float slope, float background, LightSums& sums) {
+  sum_light<Sixteen>(patch, edge, slope, background, sums);
+}
+LODESTAR_SIXTEEN_LANES
+void sum_edge_by_sixteen(const Patch& patch, float squared_radius, float per_width, EdgeSums& sums) {
+  sum_edge<Sixteen>(patch, squared_radius, per_width, sums);
+}
+#endif
+LODESTAR_WIDE_REGISTERS
+void sum_light_by_eight(const Patch& patch, float edge, float slope, float background, LightSums& sums) {
+  sum_light<TwoOfEight>(patch, edge, slope, background, sums);
+}
+LODESTAR_WIDE_REGISTERS
+void sum_edge_by_eight(const Patch& patch, float squared_radius, float per_width, EdgeSums& sums) {
+  sum_edge<TwoOfEight>(patch, squared_radius, per_width, sums);
+}
+
+struct Sums {
+  decltype(&sum_light_by_eight) light = sum_light_by_eight;
+  decltype(&sum_edge_by_eight) edge = sum_edge_by_eight;
+};
+
+/// The fastest that this processor has. Both give the same, to the last bit.
+const Sums& sums_of_this_processor() {
+  static const Sums sums = [] {
+    Sums best;
+#ifdef LODESTAR_SIXTEEN_LANES
+    if (__builtin_cpu_supports("avx512f")) best = {sum_light_by_sixteen, sum_edge_by_sixteen};
+#endif
+    return best;
+  }();
+  return sums;
+}
+
 }  // namespace
 
 std::optional<DiscLight> light_in_disc(const cv::Mat& gray, const Vec2& center_px, double radius_px,
@@ -171,8 +255,9 @@ std::optional<DiscLight> light_in_disc(const cv::Mat& gray, const Vec2& center_p
   if (!patch) return std::nullopt;
   // Weight 1 at radius - 1/2 and 0 at radius + 1/2, linear in d^2.
   LightSums sums;
-  sum_light(*patch, static_cast<float>(reach * reach * 0.5 / radius_px), static_cast<float>(0.5 / radius_px),
-            static_cast<float>(background_gray), sums);
+  sums_of_this_processor().light(*patch, static_cast<float>(reach * reach * 0.5 / radius_px),
+                                 static_cast<float>(0.5 / radius_px), static_cast<float>(background_gray),
+                                 sums);
   const double mass = sums.mass;
   DiscLight light{.mass = mass, .center_px = center_px};
   if (mass > 0.0) light.center_px += Vec2(sums.moment_x, sums.moment_y) / mass;
@@ -189,15 +274,17 @@ std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_
     const std::optional<Patch> patch = patch_about(gray, center.center_px, reach_px);
     if (!patch) return std::nullopt;
     EdgeSums sums;
-    sum_edge(*patch, static_cast<float>(squared_radius), static_cast<float>(1.0 / width), sums);
+    sums_of_this_processor().edge(*patch, static_cast<float>(squared_radius), static_cast<float>(1.0 / width),
+                                  sums);
     // The sum weighted by w x falls by half the gain as the weight moves on by a pixel.
     const double gain = 0.5 * static_cast<double>(sums.gain);
     const Vec2 step = Vec2(sums.along_x, sums.along_y) / gain;
-    if (!(gain > 0.0 && step.norm() < options.longest_step_px)) return std::nullopt;
+    if (!(gain > 0.0 && step.squaredNorm() < options.longest_step_px * options.longest_step_px))
+      return std::nullopt;
     center.center_px += step;
     center.variance_per_variance_px2 = 0.5 * static_cast<double>(sums.squares) / (gain * gain);
     center.variance_per_gray_px2 = 0.5 * static_cast<double>(sums.shots) / (gain * gain);
-    if (step.norm() < options.small_step_px) break;
+    if (step.squaredNorm() < options.small_step_px * options.small_step_px) break;
   }
   return center;
 }

@@ -189,8 +189,8 @@ void DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::siz
   std::optional<Dot> dot =
       measured_dot(gray, area, options_, dark_noise_gray, light_noise_.variance_per_gray());
   if (!dot || is_found_already(*dot, area, dots_)) return;
-  if (dot->radius_px >= options_.flat_radius_px)
-    light_noise_.add(gray, dot->center_px, dot->background_gray, dark_noise_gray);
+  light_noise_.add(gray, dot->center_px, dot->radius_px >= options_.flat_radius_px, dot->background_gray,
+                   dark_noise_gray);
   dot->area = index;
   dots_.push_back(*dot);
 }

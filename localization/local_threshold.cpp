@@ -43,9 +43,9 @@ std::array<std::uint8_t, 4> least_of_four(const Bytes& a, const Bytes& b, const 
   };
   const Bytes ab = halved(a, b);
   const Bytes cd = halved(c, d);
-  Bytes v = least_of(
-      __builtin_shufflevector(ab, cd, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27),
-      __builtin_shufflevector(ab, cd, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31));
+  Bytes v =
+      least_of(__builtin_shufflevector(ab, cd, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27),
+               __builtin_shufflevector(ab, cd, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31));
   v = least_of(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
   v = least_of(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14));
   return {v[0], v[4], v[8], v[12]};
@@ -191,8 +191,8 @@ void LocalThresholds::find_within(std::span<const cv::Rect> parts, const cv::Mat
 }
 
 /// Every other row tells whether a closer look is worth while: half a pixel above or below its middle even
-/// the smallest dot has more than this share of its light. Noise adds to the range of these rows as to that of
-/// all: the darkest of 512 pixels is rarely less than 2.5 sigmas below their mean.
+/// the smallest dot has more than this share of its light. Noise adds to the range of these rows as to that
+/// of all: the darkest of 512 pixels is rarely less than 2.5 sigmas below their mean.
 void LocalThresholds::look_at_tiles(const cv::Mat& gray, int row, int first, int end) {
   constexpr double share_between_rows = 0.65;
   constexpr std::size_t at_once = 64;

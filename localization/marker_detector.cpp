@@ -140,12 +140,11 @@ struct Hanging {
 };
 
 /// A lattice fits any few dots, and a square of it somebody's ID: what speaks against a reading must be
-/// balanced by dots that speak for it. Where any ID may hang, nothing may speak against it.
+/// balanced by dots that speak for it.
 bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& decoder,
                 const LatticeOptions& options) {
   constexpr double contradiction = 1.0;
   const bool contradicted = marker.id.cost > contradiction;
-  if (!decoder.knows_ids()) return !contradicted && strangers == 0;
   const std::size_t dots = marker.square.dots.size();
   return decoder.accepts(marker.id.id) && marker.id.cost <= options.most_contradiction &&
          4 * strangers <= dots && (!contradicted || dots >= options.least_dots_contradicted);
@@ -160,29 +159,35 @@ Bytes darker(const Bytes& a, const std::uint8_t* pixels) {
   return a < b ? a : b;
 }
 
-/// The darkest of each pixel and its four neighbours, for pixels in a row from here on.
-std::array<std::uint8_t, pixels_at_once> eroded(const std::uint8_t* pixels, std::size_t stride) {
+/// Of pixels in a row from here on, those that are at least `lowest_dot_gray` together with their four
+/// neighbours: 255 for each of these, 0 for the others.
+std::array<std::uint64_t, 2> inner_pixels(const std::uint8_t* pixels, std::size_t stride) {
   Bytes least;
   std::memcpy(&least, pixels, sizeof(least));
   least = darker(darker(least, pixels - 1), pixels + 1);
   least = darker(darker(least, pixels - stride), pixels + stride);
-  std::array<std::uint8_t, pixels_at_once> result;
-  std::memcpy(result.data(), &least, sizeof(least));
+  const auto inner = least >= static_cast<std::uint8_t>(lowest_dot_gray);
+  std::array<std::uint64_t, 2> result;
+  std::memcpy(result.data(), &inner, sizeof(inner));
   return result;
 }
 
 /// Adds the pixels of a run that are in the paper's binary image after its erosion by a cross of three. A
 /// frame narrower than what is looked at together has no room for a marker.
 void add_inner_pixels(const cv::Mat& gray, const Run& run, ConfidenceSum& confidence) {
+  constexpr int pixels_of_half = pixels_at_once / 2;
   if (run.row == 0 || run.row + 1 == gray.rows) return;
   const auto* const row = gray.ptr<std::uint8_t>(run.row);
   for (int u = std::max(run.begin, 1); u < run.end; u += pixels_at_once) {
     const int from = std::min(u, gray.cols - pixels_at_once - 1);
     if (from < 1) return;
-    const std::array<std::uint8_t, pixels_at_once> least = eroded(row + from, gray.step[0]);
+    const std::array<std::uint64_t, 2> inner = inner_pixels(row + from, gray.step[0]);
     const int end = std::min({run.end, from + pixels_at_once, gray.cols - 1});
-    for (int i = u; i < end; ++i)
-      if (least[static_cast<std::size_t>(i - from)] >= lowest_dot_gray) confidence.add(row[i]);
+    for (int i = u; i < end; ++i) {
+      const int place = i - from;
+      const std::uint64_t half = inner[static_cast<std::size_t>(place / pixels_of_half)];
+      if ((half >> (8 * (place % pixels_of_half)) & 1U) != 0) confidence.add(row[i]);
+    }
   }
 }
 
@@ -239,11 +244,15 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const
     const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
     const IdReading id = id_decoder_.read(cells);
     const double probability = id.weight / id.all_weight;
-    if (probability < options_.least_probability || cells.undecided() > options_.most_undecided) continue;
+    if (probability < options_.least_probability || cells.undecided() > options_.most_undecided ||
+        !id_decoder_.accepts(id.id)) {
+      continue;
+    }
     markers_.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
                                 [&](GridCell cell) { return reading.grid.center_px(cell); }));
   }
-  if (readings.empty() && options_.lattice_search) append_marker_of_lattice(gray, dots);
+  if (readings.empty() && options_.lattice_search && id_decoder_.knows_ids())
+    append_marker_of_lattice(gray, dots);
 }
 
 /// Every way that a marker may hang on the lattice is weighed against all others.

@@ -5,7 +5,9 @@
 /// compiled without contracting a product and a sum into one operation. Sanitizers are not ready when that
 /// choice is made.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define LODESTAR_WIDE_REGISTERS [[gnu::target_clones("avx512f", "avx2", "default")]]
+#define LODESTAR_WIDE_REGISTERS [[gnu::target_clones("avx2", "default")]]
+/// And for those processors only that have registers of sixteen floats.
+#define LODESTAR_SIXTEEN_LANES [[gnu::target("avx512f")]]
 #else
 #define LODESTAR_WIDE_REGISTERS
 #endif
