@@ -1,6 +1,7 @@
 #include "localization/marker_detector.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -159,35 +160,38 @@ Bytes darker(const Bytes& a, const std::uint8_t* pixels) {
   return a < b ? a : b;
 }
 
-/// Of pixels in a row from here on, those that are at least `lowest_dot_gray` together with their four
-/// neighbours: 255 for each of these, 0 for the others.
-std::array<std::uint64_t, 2> inner_pixels(const std::uint8_t* pixels, std::size_t stride) {
+/// Bit i tells of byte i, all of whose bits are alike: multiplied, each byte's one bit comes to stand in the
+/// uppermost byte, at its own place.
+unsigned bits_of(std::uint64_t bytes) {
+  return static_cast<unsigned>((bytes & 0x0101010101010101U) * 0x0102040810204080U >> 56U);
+}
+
+/// Of pixels in a row from here on, bit by bit: those that are at least `lowest_dot_gray` together with their
+/// four neighbours.
+unsigned inner_pixels(const std::uint8_t* pixels, std::size_t stride) {
   Bytes least;
   std::memcpy(&least, pixels, sizeof(least));
   least = darker(darker(least, pixels - 1), pixels + 1);
   least = darker(darker(least, pixels - stride), pixels + stride);
   const auto inner = least >= static_cast<std::uint8_t>(lowest_dot_gray);
-  std::array<std::uint64_t, 2> result;
-  std::memcpy(result.data(), &inner, sizeof(inner));
-  return result;
+  std::array<std::uint64_t, 2> halves;
+  std::memcpy(halves.data(), &inner, sizeof(inner));
+  return bits_of(halves[0]) | bits_of(halves[1]) << 8U;
 }
 
 /// Adds the pixels of a run that are in the paper's binary image after its erosion by a cross of three. A
 /// frame narrower than what is looked at together has no room for a marker.
 void add_inner_pixels(const cv::Mat& gray, const Run& run, ConfidenceSum& confidence) {
-  constexpr int pixels_of_half = pixels_at_once / 2;
   if (run.row == 0 || run.row + 1 == gray.rows) return;
   const auto* const row = gray.ptr<std::uint8_t>(run.row);
   for (int u = std::max(run.begin, 1); u < run.end; u += pixels_at_once) {
     const int from = std::min(u, gray.cols - pixels_at_once - 1);
     if (from < 1) return;
-    const std::array<std::uint64_t, 2> inner = inner_pixels(row + from, gray.step[0]);
     const int end = std::min({run.end, from + pixels_at_once, gray.cols - 1});
-    for (int i = u; i < end; ++i) {
-      const int place = i - from;
-      const std::uint64_t half = inner[static_cast<std::size_t>(place / pixels_of_half)];
-      if ((half >> (8 * (place % pixels_of_half)) & 1U) != 0) confidence.add(row[i]);
-    }
+    if (end <= u) return;
+    const unsigned of_run = (1U << (end - from)) - (1U << (u - from));
+    for (unsigned bits = inner_pixels(row + from, gray.step[0]) & of_run; bits != 0; bits &= bits - 1)
+      confidence.add(row[from + std::countr_zero(bits)]);
   }
 }
 
