@@ -57,9 +57,11 @@ template <typename Bytes, typename Shorts, typename Ints, typename Floats>
   light = __builtin_convertvector(__builtin_convertvector(shorts, Ints), Floats);
 }
 
+#ifdef LODESTAR_SIXTEEN_LANES
 [[gnu::always_inline]] inline void load(const std::uint8_t* pixels, Sixteen& light) {
   widen<SixteenBytes, SixteenShorts, SixteenInts>(pixels, light);
 }
+#endif
 
 [[gnu::always_inline]] inline void load(const std::uint8_t* pixels, TwoOfEight& light) {
   widen<EightBytes, EightShorts, EightInts>(pixels, light.low);
