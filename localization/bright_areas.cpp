@@ -16,18 +16,32 @@ constexpr int tile = LocalThresholds::tile_px;
 
 /// Bit i is set when pixel i of a tile's row is bright.
 std::uint32_t bright_bits(const std::uint8_t* pixels, int count, std::uint8_t threshold) {
-#if CV_SIMD128
-  if (count == tile) {
-    const cv::v_uint8x16 limit = cv::v_setall_u8(threshold);
-    const auto part = [&](int from) {
-      return static_cast<std::uint32_t>(cv::v_signmask(cv::v_load(pixels + from) >= limit));
-    };
-    return part(0) | part(16) << 16U;
-  }
-#endif
   std::uint32_t bits = 0;
   for (int i = 0; i < count; ++i) bits |= static_cast<std::uint32_t>(pixels[i] >= threshold) << i;
   return bits;
+}
+
+/// The same of rows of a tile.
+void find_bright_bits(const std::uint8_t* pixels, std::size_t stride, int count, std::uint8_t threshold,
+                      std::span<std::uint32_t> rows) {
+#if CV_SIMD128
+  if (count == tile) {
+    const cv::v_uint8x16 limit = cv::v_setall_u8(threshold);
+    const auto half = [&](const std::uint8_t* first) {
+      const cv::v_uint8x16 seen = cv::v_load(first);
+      return static_cast<std::uint32_t>(cv::v_signmask(cv::v_max(seen, limit) == seen));
+    };
+    for (std::uint32_t& bits : rows) {
+      bits = half(pixels) | half(pixels + tile / 2) << 16U;
+      pixels += stride;
+    }
+    return;
+  }
+#endif
+  for (std::uint32_t& bits : rows) {
+    bits = bright_bits(pixels, count, threshold);
+    pixels += stride;
+  }
 }
 
 /// Appends where bits change from 0 to 1 as a new run, and ends it where they change back or the bits end.
@@ -82,35 +96,35 @@ void join_touching_runs(std::span<const Run> runs, DisjointSets& sets) {
 }
 
 /// Area, box and second moments of one area's runs. A run of n pixels from u has the sums n, n * mean and
-/// n * (mean^2 + (n^2 - 1) / 12); each pixel is a square, which adds 1/12.
+/// n * (mean^2 + (n^2 - 1) / 12); each pixel is a square, which adds 1/12. Halves and twelfths are kept
+/// whole.
 void measure(std::span<const Run> runs, BrightArea& area) {
   area.left = runs.front().begin;
   area.right = runs.front().end - 1;
   area.top = runs.front().row;
   area.bottom = runs.back().row;
-  double sum_u = 0.0, sum_v = 0.0, sum_uu = 0.0, sum_uv = 0.0, sum_vv = 0.0;
+  std::int64_t sum_2u = 0, sum_v = 0, sum_12uu = 0, sum_2uv = 0, sum_vv = 0;
   for (const Run& run : runs) {
-    const int length = run.end - run.begin;
+    const std::int64_t n = run.end - run.begin;
     area.left = std::min(area.left, run.begin);
     area.right = std::max(area.right, run.end - 1);
-    area.area_px += length;
-    const double n = length;
-    const double u = 0.5 * (run.begin + run.end - 1) - runs.front().begin;
-    const double v = run.row - area.top;
-    sum_u += n * u;
+    area.area_px += run.end - run.begin;
+    const std::int64_t twice_u = run.begin + run.end - 1 - 2 * runs.front().begin;
+    const std::int64_t v = run.row - area.top;
+    sum_2u += n * twice_u;
     sum_v += n * v;
-    sum_uu += n * (u * u + n * n / 12.0);
-    sum_uv += n * u * v;
-    sum_vv += n * (v * v + 1.0 / 12.0);
+    sum_12uu += n * (3 * twice_u * twice_u + n * n);
+    sum_2uv += n * twice_u * v;
+    sum_vv += n * v * v;
   }
-  const double n = area.area_px;
-  const double u = sum_u / n;
-  const double v = sum_v / n;
+  const double per_pixel = 1.0 / area.area_px;
+  const double u = 0.5 * per_pixel * static_cast<double>(sum_2u);
+  const double v = per_pixel * static_cast<double>(sum_v);
   area.mean_u_px = runs.front().begin + u;
   area.mean_v_px = area.top + v;
-  const double uu = sum_uu / n - u * u;
-  const double uv = sum_uv / n - u * v;
-  const double vv = sum_vv / n - v * v;
+  const double uu = per_pixel / 12.0 * static_cast<double>(sum_12uu) - u * u;
+  const double uv = 0.5 * per_pixel * static_cast<double>(sum_2uv) - u * v;
+  const double vv = per_pixel * static_cast<double>(sum_vv) + 1.0 / 12.0 - v * v;
   const double half_difference = std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv);
   const double half_sum = 0.5 * (uu + vv);
   area.aspect_ratio = std::sqrt((half_sum + half_difference) / std::max(half_sum - half_difference, 1e-9));
@@ -184,20 +198,23 @@ const BrightAreas& BrightAreaFinder::find(const cv::Mat& gray, const LocalThresh
 void BrightAreaFinder::find_runs(const cv::Mat& gray, const LocalThresholds& thresholds) {
   runs_.clear();
   for (int tile_row = 0; tile_row < thresholds.tile_rows(); ++tile_row) {
+    const int top = tile_row * tile;
+    const int rows = std::min(tile, gray.rows - top);
     active_.clear();
     for (int column = 0; column < thresholds.tile_columns(); ++column) {
       const std::uint8_t threshold = thresholds.of_tile(tile_row, column);
-      if (threshold != LocalThresholds::nothing_bright) active_.push_back({column, threshold});
+      if (threshold == LocalThresholds::nothing_bright) continue;
+      ActiveTile& active = active_.emplace_back();
+      active.left = column * tile;
+      active.width = std::min(tile, gray.cols - active.left);
+      find_bright_bits(gray.ptr<std::uint8_t>(top) + active.left, gray.step[0], active.width, threshold,
+                       std::span(active.bright_bits).first(static_cast<std::size_t>(rows)));
     }
     if (active_.empty()) continue;
-    const int bottom = std::min((tile_row + 1) * tile, gray.rows);
-    for (int v = tile_row * tile; v < bottom; ++v) {
-      const auto* const pixels = gray.ptr<std::uint8_t>(v);
+    for (int v = 0; v < rows; ++v) {
       for (const ActiveTile& active : active_) {
-        const int left = active.column * tile;
-        const int count = std::min(tile, gray.cols - left);
-        const std::uint32_t bits = bright_bits(pixels + left, count, active.threshold);
-        if (bits != 0) append_runs(bits, left, count, v, runs_);
+        const std::uint32_t bits = active.bright_bits[static_cast<std::size_t>(v)];
+        if (bits != 0) append_runs(bits, active.left, active.width, top + v, runs_);
       }
     }
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <span>
 #include <vector>
@@ -87,8 +89,9 @@ class BrightAreaFinder {
   void find_runs(const cv::Mat& gray, const LocalThresholds& thresholds);
 
   struct ActiveTile {
-    int column = 0;
-    std::uint8_t threshold = 0;
+    int left = 0;
+    int width = 0;
+    std::array<std::uint32_t, LocalThresholds::tile_px> bright_bits;  ///< row by row
   };
   std::vector<ActiveTile> active_;  ///< of one row of tiles
   std::vector<Run> runs_;

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "localization/wide_registers.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -24,10 +26,12 @@ using Samples [[gnu::vector_size(ring_samples)]] = std::uint8_t;
 
 /// The value that `rank` of the samples are smaller than: the greatest of those that no more than so many
 /// are. Counted for all samples at once; there is nothing to sort.
-std::uint8_t of_rank(const Samples& samples, std::uint8_t rank) {
+LODESTAR_WIDE_REGISTERS
+std::uint8_t of_rank(const std::uint8_t* ring, std::uint8_t rank) {
+  Samples samples;
+  std::memcpy(&samples, ring, sizeof(samples));
   Samples smaller{};
-  for (std::size_t i = 0; i < ring_samples; ++i)
-    smaller += static_cast<Samples>(samples > samples[i]) & static_cast<std::uint8_t>(1);
+  for (std::size_t i = 0; i < ring_samples; ++i) smaller -= static_cast<Samples>(samples > ring[i]);
   Samples v = smaller <= rank ? samples : Samples{};
   const auto greatest = [](const Samples& a, const Samples& b) { return a > b ? a : b; };
   v = greatest(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
@@ -62,9 +66,7 @@ double background_around(const cv::Mat& gray, const Vec2& center_px, double reac
     ring[4 * i + 2] = at(u - du, v - dv);
     ring[4 * i + 3] = at(u + dv, v - du);
   }
-  Samples samples;
-  std::memcpy(&samples, ring.data(), sizeof(samples));
-  return of_rank(samples, third);
+  return of_rank(ring.data(), third);
 }
 
 /// The dot's middle: the mean of the three brightest of the nine pixels there. Less noisy than the brightest
@@ -187,8 +189,8 @@ void DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::siz
   std::optional<Dot> dot =
       measured_dot(gray, area, options_, dark_noise_gray, light_noise_.variance_per_gray());
   if (!dot || is_found_already(*dot, area, dots_)) return;
-  if (dot->radius_px >= options_.flat_radius_px)
-    light_noise_.add(gray, dot->center_px, dot->background_gray, dark_noise_gray);
+  light_noise_.add(gray, dot->center_px, dot->radius_px >= options_.flat_radius_px, dot->background_gray,
+                   dark_noise_gray);
   dot->area = index;
   dots_.push_back(*dot);
 }

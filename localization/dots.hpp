@@ -37,7 +37,7 @@ struct DotOptions {
   double max_area_px = 900.0;     ///< larger ones are tubes and lamps
   double max_aspect_ratio = 2.2;  ///< longer ones are tubes
   int erosion_px = 3;             ///< arm to arm of the cross that parts dots which touch; odd
-  double flat_radius_px = 2.6;    ///< a dot so large is flat about its middle, which then tells of noise
+  double flat_radius_px = 2.6;    ///< a dot so large is flat about its middle
   double tail_px = 1.7;           ///< how far a dot's blurred edge reaches beyond its bright pixels
   EdgeOptions edge;
 };

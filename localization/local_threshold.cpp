@@ -34,41 +34,85 @@ Bytes least_of_halves(const TileRow& row) {
   return least_of(halves[0], halves[1]);
 }
 
-/// Each step halves how many are left, of both at once: the brightest is the least of the complements.
-Extremes extremes_of(const TileRow& low, const TileRow& high) {
-  const Bytes a = least_of_halves(low);
-  const Bytes b = least_of_halves(~high);
+/// The least of each of four. Every step halves how many are left, of all at once.
+std::array<std::uint8_t, 4> least_of_four(const Bytes& a, const Bytes& b, const Bytes& c, const Bytes& d) {
+  const auto halved = [](const Bytes& x, const Bytes& y) {
+    return least_of(
+        __builtin_shufflevector(x, y, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23),
+        __builtin_shufflevector(x, y, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31));
+  };
+  const Bytes ab = halved(a, b);
+  const Bytes cd = halved(c, d);
   Bytes v =
-      least_of(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23),
-               __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31));
-  v = least_of(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
+      least_of(__builtin_shufflevector(ab, cd, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27),
+               __builtin_shufflevector(ab, cd, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31));
   v = least_of(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
-  return {std::min(v[0], v[1]), static_cast<std::uint8_t>(~std::min(v[8], v[9]))};
+  v = least_of(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14));
+  return {v[0], v[4], v[8], v[12]};
 }
 
-/// Of the first, the next but `step`, ... row of neighbouring tiles, whose whole width lies in the frame.
+/// What is darkest and brightest in each column of a tile.
+struct Columns {
+  TileRow low;
+  TileRow high;
+};
+
+[[gnu::always_inline]] inline void start(Columns& columns, const std::uint8_t* pixels) {
+  std::memcpy(&columns.low, pixels, tile);
+  columns.high = columns.low;
+}
+
+[[gnu::always_inline]] inline void take(Columns& columns, const std::uint8_t* pixels) {
+  TileRow row;
+  std::memcpy(&row, pixels, tile);
+  columns.low = row < columns.low ? row : columns.low;
+  columns.high = row > columns.high ? row : columns.high;
+}
+
+/// Of the first, the next but `step`, ... row of neighbouring tiles, whose whole width lies in the frame. Two
+/// tiles at a time share a line of the cache. The brightest is the least of the complements.
 LODESTAR_WIDE_REGISTERS
 void find_extremes(const std::uint8_t* pixels, std::size_t stride, int rows, int step,
                    std::span<Extremes> tiles) {
   const std::size_t step_bytes = static_cast<std::size_t>(step) * stride;
-  for (Extremes& extremes : tiles) {
+  for (std::size_t i = 0; i < tiles.size(); i += 2, pixels += 2 * static_cast<std::ptrdiff_t>(tile)) {
+    const bool is_pair = i + 1 < tiles.size();
     const std::uint8_t* place = pixels;
-    TileRow low;
-    std::memcpy(&low, place, tile);
-    TileRow high = low;
+    const std::ptrdiff_t next = is_pair ? tile : 0;
+    Columns a;
+    Columns b;
+    start(a, place);
+    start(b, place + next);
     for (int v = step; v < rows; v += step) {
       place += step_bytes;
-      TileRow row;
-      std::memcpy(&row, place, tile);
-      low = row < low ? row : low;
-      high = row > high ? row : high;
+      take(a, place);
+      take(b, place + next);
     }
-    extremes = extremes_of(low, high);
-    pixels += tile;
+    const std::array<std::uint8_t, 4> least = least_of_four(least_of_halves(a.low), least_of_halves(~a.high),
+                                                            least_of_halves(b.low), least_of_halves(~b.high));
+    tiles[i] = {least[0], static_cast<std::uint8_t>(~least[1])};
+    if (is_pair) tiles[i + 1] = {least[2], static_cast<std::uint8_t>(~least[3])};
   }
 }
 
+/// Of a part of a tile; where it is half as wide or more, two halves that may overlap cover it.
 Extremes extremes_of_part(const cv::Mat& gray, const cv::Rect& part) {
+  constexpr int half = sizeof(Bytes);
+  if (part.width >= half && part.height > 0) {
+    Bytes low = ~Bytes{};
+    Bytes high_complement = low;
+    for (int v = part.y; v < part.br().y; ++v) {
+      const auto* const row = gray.ptr<std::uint8_t>(v);
+      for (const int u : {part.x, part.br().x - half}) {
+        Bytes pixels;
+        std::memcpy(&pixels, row + u, half);
+        low = least_of(low, pixels);
+        high_complement = least_of(high_complement, ~pixels);
+      }
+    }
+    const std::array<std::uint8_t, 4> least = least_of_four(low, high_complement, low, high_complement);
+    return {least[0], static_cast<std::uint8_t>(~least[1])};
+  }
   Extremes result;
   for (int v = part.y; v < part.br().y; ++v) {
     const auto* const pixels = gray.ptr<std::uint8_t>(v);
@@ -147,11 +191,14 @@ void LocalThresholds::find_within(std::span<const cv::Rect> parts, const cv::Mat
 }
 
 /// Every other row tells whether a closer look is worth while: half a pixel above or below its middle even
-/// the smallest dot has more than this share of its light.
+/// the smallest dot has more than this share of its light. Noise adds to the range of these rows as to that
+/// of all: the darkest of 512 pixels is rarely less than 2.5 sigmas below their mean.
 void LocalThresholds::look_at_tiles(const cv::Mat& gray, int row, int first, int end) {
   constexpr double share_between_rows = 0.65;
   constexpr std::size_t at_once = 64;
-  const int least_glance = static_cast<int>(share_between_rows * least_range_);
+  constexpr double sigmas_below_mean = 2.5;
+  const double noise = sigmas_below_mean * noise_gray_;
+  const int least_glance = static_cast<int>(noise + share_between_rows * (least_range_ - noise));
   const int rows = std::min(tile, gray.rows - row * tile);
   const int whole_end = std::min(end, gray.cols / tile);
   std::array<Extremes, at_once> glances;

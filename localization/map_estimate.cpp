@@ -296,7 +296,7 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
 
   double damping = 1e-6;
   constexpr int max_iterations = 40;
-  constexpr double small_gain = 1e-6;  // of the cost: a step of a thousandth of a sigma
+  constexpr double small_gain = 1e-3;  // of the cost: a last step of 0.03 sigma, which leaves a tenth of that
   constexpr double negligible_bend_px = 1e-4;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     Mat6 damped = normal->information;

@@ -55,7 +55,9 @@ void MarkerAreaFinder::join(std::span<const Dot> dots) {
     const double reach_px = join_distance_px(options_.max_size_ratio * dot.radius_px, options_);
     for (std::size_t j = i + 1; j < order_.size(); ++j) {
       const Dot& other = dots[order_[j]];
-      if (other.center_px.y() - dot.center_px.y() > reach_px) break;
+      const Vec2 apart = other.center_px - dot.center_px;
+      if (apart.y() > reach_px) break;
+      if (std::abs(apart.x()) > reach_px) continue;
       if (joins(dot, other, options_)) sets_.join(order_[i], order_[j]);
     }
   }

@@ -54,14 +54,15 @@ bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
       (dots[direction.o].radius_px + dots[direction.x].radius_px + dots[direction.y].radius_px) / 3.0;
   const double wanted_px = std::sqrt(area) / (marker_grid_size - 1) / radii_per_pitch;
   const double tolerance = 1.0 + options.size_tolerance;
-  return radius_px <= (tolerance + options.growth_px / radius_px) * wanted_px &&
-         wanted_px <= (tolerance + options.alike_tolerance_px / radius_px) * radius_px;
+  const double growth_px = few ? options.growth_of_few_px : options.growth_px;
+  return radius_px <= (tolerance + growth_px / radius_px) * wanted_px &&
+         wanted_px <= (tolerance + options.small_dot_tolerance_px / radius_px) * radius_px;
 }
 
 bool sizes_are_alike(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
   const auto [small, large] = std::ranges::minmax(dots, {}, &Dot::radius_px);
   return large.radius_px - small.radius_px <=
-         options.alike_tolerance * small.radius_px + options.alike_tolerance_px;
+         options.alike_tolerance * small.radius_px + options.alike_tolerance_px2 / small.radius_px;
 }
 
 /// One cell for each dot; nothing when a dot has none, or another dot's, or the corner that is always empty.

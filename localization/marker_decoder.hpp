@@ -16,17 +16,22 @@ namespace lodestar {
 /// is refused, for a marker not read costs a frame and a marker misread costs the pose.
 struct MarkerDecoderOptions {
   double most_tilt_rad = radians(36.0);  ///< of the marker to the image, by how much it is foreshortened
-  std::size_t least_dots_for_tilt = 5;   ///< fewer would fit too many grids, and must look upright
+  std::size_t least_dots_for_tilt = 5;   ///< fewer would fit too many grids: they are few
   double most_tilt_of_few_rad = radians(14.0);
-  double alike_tolerance = 0.1;      ///< how alike the dots' radii must be, as a share of them,
-  double alike_tolerance_px = 0.12;  ///< and besides, for dots of a few pixels
+  double alike_tolerance = 0.1;  ///< how alike the dots' radii must be, as a share of them,
+  /// and besides, over them: neighbours shine into the ring that tells a small dot's background, more on one
+  /// among many.
+  double alike_tolerance_px2 = 0.4;
+  double small_dot_tolerance_px = 0.12;  ///< by so much a dot of a few pixels may look too small
   double cell_tolerance =
       0.2;  ///< how far a dot may be from its cell, in pitches, before perspective is known
   double fit_tolerance = 0.08;  ///< and after
   double size_tolerance = 0.2;  ///< how near 4 radii must be to a pitch
-  /// By so much more a dot may look too large, saturated or blurred. Dots two pitches apart that are taken
-  /// for O and X make theirs too large by half, and by more than this allows.
-  double growth_px = 0.35;
+  /// By so much more a dot may look too large: saturated, or so small that blur dims its middle, by which its
+  /// radius is told. Three or four dots two pitches apart that are taken for O, X and Y make theirs too large
+  /// by half, and by more than few are allowed; five such dots fit no grid.
+  double growth_px = 0.8;
+  double growth_of_few_px = 0.35;
   double guard_pitches = 1.0;  ///< about a marker that shares its area with others, so much must be clear
   std::size_t least_dots_in_a_crowd = 5;  ///< and so many dots agree: three always fit some grid
   std::size_t most_dots = 48;             ///< an area with more holds no markers

@@ -1,6 +1,7 @@
 #include "localization/marker_detector.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -140,12 +141,11 @@ struct Hanging {
 };
 
 /// A lattice fits any few dots, and a square of it somebody's ID: what speaks against a reading must be
-/// balanced by dots that speak for it. Where any ID may hang, nothing may speak against it.
+/// balanced by dots that speak for it.
 bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& decoder,
                 const LatticeOptions& options) {
   constexpr double contradiction = 1.0;
   const bool contradicted = marker.id.cost > contradiction;
-  if (!decoder.knows_ids()) return !contradicted && strangers == 0;
   const std::size_t dots = marker.square.dots.size();
   return decoder.accepts(marker.id.id) && marker.id.cost <= options.most_contradiction &&
          4 * strangers <= dots && (!contradicted || dots >= options.least_dots_contradicted);
@@ -160,15 +160,23 @@ Bytes darker(const Bytes& a, const std::uint8_t* pixels) {
   return a < b ? a : b;
 }
 
-/// The darkest of each pixel and its four neighbours, for pixels in a row from here on.
-std::array<std::uint8_t, pixels_at_once> eroded(const std::uint8_t* pixels, std::size_t stride) {
+/// Bit i tells of byte i, all of whose bits are alike: multiplied, each byte's one bit comes to stand in the
+/// uppermost byte, at its own place.
+unsigned bits_of(std::uint64_t bytes) {
+  return static_cast<unsigned>((bytes & 0x0101010101010101U) * 0x0102040810204080U >> 56U);
+}
+
+/// Of pixels in a row from here on, bit by bit: those that are at least `lowest_dot_gray` together with their
+/// four neighbours.
+unsigned inner_pixels(const std::uint8_t* pixels, std::size_t stride) {
   Bytes least;
   std::memcpy(&least, pixels, sizeof(least));
   least = darker(darker(least, pixels - 1), pixels + 1);
   least = darker(darker(least, pixels - stride), pixels + stride);
-  std::array<std::uint8_t, pixels_at_once> result;
-  std::memcpy(result.data(), &least, sizeof(least));
-  return result;
+  const auto inner = least >= static_cast<std::uint8_t>(lowest_dot_gray);
+  std::array<std::uint64_t, 2> halves;
+  std::memcpy(halves.data(), &inner, sizeof(inner));
+  return bits_of(halves[0]) | bits_of(halves[1]) << 8U;
 }
 
 /// Adds the pixels of a run that are in the paper's binary image after its erosion by a cross of three. A
@@ -179,10 +187,11 @@ void add_inner_pixels(const cv::Mat& gray, const Run& run, ConfidenceSum& confid
   for (int u = std::max(run.begin, 1); u < run.end; u += pixels_at_once) {
     const int from = std::min(u, gray.cols - pixels_at_once - 1);
     if (from < 1) return;
-    const std::array<std::uint8_t, pixels_at_once> least = eroded(row + from, gray.step[0]);
     const int end = std::min({run.end, from + pixels_at_once, gray.cols - 1});
-    for (int i = u; i < end; ++i)
-      if (least[static_cast<std::size_t>(i - from)] >= lowest_dot_gray) confidence.add(row[i]);
+    if (end <= u) return;
+    const unsigned of_run = (1U << (end - from)) - (1U << (u - from));
+    for (unsigned bits = inner_pixels(row + from, gray.step[0]) & of_run; bits != 0; bits &= bits - 1)
+      confidence.add(row[from + std::countr_zero(bits)]);
   }
 }
 
@@ -239,11 +248,15 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const
     const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
     const IdReading id = id_decoder_.read(cells);
     const double probability = id.weight / id.all_weight;
-    if (probability < options_.least_probability || cells.undecided() > options_.most_undecided) continue;
+    if (probability < options_.least_probability || cells.undecided() > options_.most_undecided ||
+        !id_decoder_.accepts(id.id)) {
+      continue;
+    }
     markers_.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
                                 [&](GridCell cell) { return reading.grid.center_px(cell); }));
   }
-  if (readings.empty() && options_.lattice_search) append_marker_of_lattice(gray, dots);
+  if (readings.empty() && options_.lattice_search && id_decoder_.knows_ids())
+    append_marker_of_lattice(gray, dots);
 }
 
 /// Every way that a marker may hang on the lattice is weighed against all others.

@@ -23,14 +23,17 @@ struct DetectorOptions {
   LatticeOptions lattice;
   CellEvidenceOptions evidence;
   /// IDs of the registered markers. With them a marker is read whose cells cannot all be seen, when only one
-  /// of them fits; another ID is reported when every cell is sure of it and it differs from theirs in more
-  /// than one. Without them every cell must be sure, and each of the 4096 IDs is as likely as any other.
+  /// of them fits, and no other ID is: a marker of which something as gray as the ceiling hides dots looks
+  /// just like one that hangs there unregistered. Without them every cell must be sure, and each of the 4096
+  /// IDs is as likely as any other.
   std::vector<int> registered_ids;
   double least_probability = 0.99;  ///< that the ID is right; less is refused
   /// Of the 16 cells. What covers more of them is large, and cells no longer err independently of each other.
   /// IDs at distance 4 stay distinct with three lost.
   int most_undecided = 3;
-  bool lattice_search = true;  ///< where the paper's rule fails, look for any lattice of dots
+  /// Where the paper's rule fails, look for any lattice of dots, of which some may be hidden. Only with
+  /// registered IDs: where any may hang, each square of a lattice is somebody's.
+  bool lattice_search = true;
 };
 
 /// The paper's own way (sections 4.1 and 4.2): the threshold 200 everywhere, centres of binary dots,

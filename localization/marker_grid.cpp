@@ -29,23 +29,44 @@ MarkerGrid::MarkerGrid(const Vec2& o_px, const Vec2& x_px, const Vec2& y_px)
 /// degrees at 1.3 m) balance.
 MarkerGrid MarkerGrid::fitted(std::span<const MarkerDot> dots, const MarkerGrid& start) {
   using Rows = Eigen::Matrix<double, 3, 2>;  // one column for u, one for v; or for the parts of w
-  Eigen::Matrix3d places = Eigen::Matrix3d::Zero();
-  std::array<Rows, 2> mixed{Rows::Zero(), Rows::Zero()};
-  Eigen::Matrix2d perspective = Eigen::Matrix2d::Identity();
-  Rows right = Rows::Zero();
-  Vec2 perspective_right = Vec2::Zero();
+  // Sums over dots, number by number: each stands in several places of the symmetric equations.
   const double pitch_px = start.pitch_px();
+  const double per_pitch = 1.0 / pitch_px;
+  Vec2 q_sum = Vec2::Zero();
+  Vec2 d_sum = Vec2::Zero();
+  Vec2 far_q_sum = Vec2::Zero();  // times d^2
+  Vec3 qq_sum = Vec3::Zero();     // x^2, x y and y^2 of q
+  Vec3 far_qq_sum = Vec3::Zero();
+  std::array<Vec2, 2> dq_sum{Vec2::Zero(), Vec2::Zero()};
+  std::array<Vec3, 2> dqq_sum{Vec3::Zero(), Vec3::Zero()};
   for (const MarkerDot& dot : dots) {
     const Vec2 q = in_pitches(dot.cell);
-    const Vec3 place(1.0, q.x(), q.y());
-    const Vec2 d = (dot.center_px - start.middle_px_) / pitch_px;
-    places += place * place.transpose();
-    mixed[0] -= place * (d.x() * q).transpose();
-    mixed[1] -= place * (d.y() * q).transpose();
-    perspective += d.squaredNorm() * q * q.transpose();
-    right += place * d.transpose();
-    perspective_right -= d.squaredNorm() * q;
+    const Vec3 qq(q.x() * q.x(), q.x() * q.y(), q.y() * q.y());
+    const Vec2 d = (dot.center_px - start.middle_px_) * per_pitch;
+    const double far = d.squaredNorm();
+    q_sum += q;
+    d_sum += d;
+    far_q_sum += far * q;
+    qq_sum += qq;
+    far_qq_sum += far * qq;
+    dq_sum[0] += d.x() * q;
+    dq_sum[1] += d.y() * q;
+    dqq_sum[0] += d.x() * qq;
+    dqq_sum[1] += d.y() * qq;
   }
+  Eigen::Matrix3d places;
+  places << static_cast<double>(dots.size()), q_sum.x(), q_sum.y(), q_sum.x(), qq_sum[0], qq_sum[1],
+      q_sum.y(), qq_sum[1], qq_sum[2];
+  Rows right;
+  right << d_sum.transpose(), dq_sum[0].x(), dq_sum[1].x(), dq_sum[0].y(), dq_sum[1].y();
+  std::array<Rows, 2> mixed;
+  for (const std::size_t axis : {0U, 1U}) {
+    const Vec3& dqq = dqq_sum[axis];
+    mixed[axis] << -dq_sum[axis].transpose(), -dqq[0], -dqq[1], -dqq[1], -dqq[2];
+  }
+  Eigen::Matrix2d perspective;
+  perspective << 1.0 + far_qq_sum[0], far_qq_sum[1], far_qq_sum[1], 1.0 + far_qq_sum[2];
+  Vec2 perspective_right = -far_q_sum;
   const Eigen::Matrix3d from_places = places.inverse();
   for (Eigen::Index axis : {0, 1}) {
     const Rows& m = mixed[static_cast<std::size_t>(axis)];

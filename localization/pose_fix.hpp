@@ -29,8 +29,10 @@ struct PosePrior {
 struct PoseFixOptions {
   PosePrior prior;
   double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, where the dot does not tell
-  double model_sigma_px =
-      0.0015;  ///< added to what it tells: pixels sample an edge, and one step leaves a little
+  /// Added to what a dot tells of noise: how far its measured centre is off without any, in each coordinate.
+  /// This is what pixels that sample an edge, gray values that are whole and a last step leave of an ideal
+  /// disc (the dots' tests measure it). Film cut, glued and lit as it is adds more, which no dot tells of.
+  double model_sigma_px = 0.0015;
   double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
   /// And one that explains the dots only by a tilt and height that the prior all but excludes (chi-square): a
   /// marker that hangs a few centimetres elsewhere than surveyed leaves small residuals on a tilted robot.

@@ -116,7 +116,7 @@ void print_row(const std::string& format, const Row& row) {
 
 /// Why a marker that was read says nothing of the pose; empty when it does.
 std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry, const PoseFix* fix) {
-  if (registry.find(marker.id) == nullptr) return "not registered";
+  if (registry.find(marker.id) == nullptr) return "registered twice";
   if (fix != nullptr && !std::ranges::count(fix->ids, marker.id)) return "contradicts the others";
   return {};
 }
@@ -124,7 +124,7 @@ std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& reg
 std::string words_of_refusal(const std::vector<OverlayMarker>& markers) {
   if (markers.empty()) return "REFUSED: no marker read";
   const bool registered = std::ranges::any_of(markers, &std::string::empty, &OverlayMarker::objection);
-  return registered ? "REFUSED: the dots agree with no pose" : "REFUSED: no marker of the registry";
+  return registered ? "REFUSED: the dots agree with no pose" : "REFUSED: no marker that is registered once";
 }
 
 /// To hundredths of a degree, and never minus zero.

@@ -11,7 +11,7 @@
 
 namespace lodestar {
 
-/// A marker of the drawing, and why it counts for nothing ("not registered"), if it does.
+/// A marker of the drawing, and why it counts for nothing ("registered twice"), if it does.
 struct OverlayMarker {
   DetectedMarker marker;
   std::string objection;

@@ -178,7 +178,7 @@ TEST(MarkerDetector, keeps_markers_30_cm_apart_apart) {
 }
 
 // The marker slides out of the frame; while any of its coded cells, even an empty one, may be cut, it is
-// refused. A direction dot may be missing.
+// refused.
 TEST(MarkerDetector, refuses_a_marker_that_the_border_cuts) {
   Random random(7);
   const CameraModel camera = cropped(wide_camera(), 80);
@@ -201,7 +201,7 @@ TEST(MarkerDetector, refuses_a_marker_that_the_border_cuts) {
     EXPECT_FALSE(least_u < 1.0 && !found.empty()) << "u " << u;
     read += found.empty() ? 0 : 1;
   }
-  EXPECT_GT(read, 40);
+  EXPECT_GT(read, 35);
 }
 
 TEST(MarkerDetector, refuses_a_marker_that_lacks_a_direction_dot) {
@@ -217,6 +217,39 @@ TEST(MarkerDetector, refuses_a_marker_that_lacks_a_direction_dot) {
     }
     EXPECT_THAT(ids_in(frame.finished(random)), IsEmpty());
   }
+}
+
+// 90 degrees of view and a ceiling 2.6 m above: a radius of 1.23 px, dimmed by blur, five pixels to the next.
+TEST(MarkerDetector, reads_dots_of_little_more_than_a_pixel_through_blur) {
+  Random random(15);
+  const CameraModel camera = cropped(wide_camera(), 80);
+  constexpr int frames = 100;
+  int read = 0;
+  for (int i = 0; i < frames; ++i) {
+    const int id = random_id(random) | 0x090;
+    const MarkerView view{.middle_px = {random.uniform(35.0, 45.0), random.uniform(35.0, 45.0)},
+                          .depth_m = 2.6,
+                          .turn_rad = radians(random.uniform(0.0, 360.0))};
+    PaintedFrame frame(size_of(camera));
+    frame.marker(camera, view, id);
+    const std::vector<DetectedMarker> markers =
+        detect_markers(frame.finished(random, 4.0, 0.8), {.registered_ids = {id, id ^ 0x907}});
+    for (const DetectedMarker& marker : markers) EXPECT_EQ(marker.id, id);
+    read += static_cast<int>(markers.size());
+  }
+  EXPECT_GE(read, 85);
+}
+
+// Something as gray as the ceiling hides dots: what is left is another ID's pattern, but nobody's who is
+// here.
+TEST(MarkerDetector, refuses_ids_that_are_not_registered) {
+  Random random(16);
+  const CameraModel camera = cropped(paper_camera(), 120);
+  PaintedFrame frame(size_of(camera));
+  frame.marker(camera, {.middle_px = {60.0, 60.0}, .depth_m = 2.6, .turn_rad = 0.3}, 1542);
+  const cv::Mat gray = frame.finished(random);
+  EXPECT_THAT(ids_in(gray), ElementsAre(1542));
+  EXPECT_THAT(detect_markers(gray, {.registered_ids = {447, 1782}}), IsEmpty());
 }
 
 // A dirty dot that is taken for an empty cell would change the ID: it counts, or the marker is refused.
