@@ -1,7 +1,9 @@
 #include "localization/camera_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace lodestar {
 namespace {
@@ -59,6 +61,7 @@ std::optional<CameraFault> CameraWatch::take_in(const Frame& frame, Stamp now) {
   const bool is_same = last_picture_ == sample.hash && !is_white;
   last_picture_ = sample.hash;
   last_arrival_ = now;
+  learn_pace(frame.stamp);
 
   const Duration age = now - frame.stamp;
   fault_.reset();
@@ -76,8 +79,28 @@ std::optional<CameraFault> CameraWatch::take_in(const Frame& frame, Stamp now) {
 }
 
 std::optional<CameraFault> CameraWatch::fault(Stamp now) const {
-  if (last_arrival_ && now - *last_arrival_ > options_.max_silence) return CameraFault::silent;
+  if (last_arrival_ && now - *last_arrival_ > silence_to_miss()) return CameraFault::silent;
   return fault_;
+}
+
+/// Over the last fifty frames or so. One long silence says little of the usual ones, and stamps of another
+/// clock nothing.
+void CameraWatch::learn_pace(Stamp captured) {
+  constexpr double share_of_newest = 0.02;
+  const std::optional<Stamp> before = std::exchange(last_capture_, captured);
+  if (!before || captured <= *before) return;
+  const double apart_s = seconds(std::min<Duration>(captured - *before, options_.longest_silence));
+  period_s_ = period_s_ > 0.0 ? std::min(period_s_, apart_s) : apart_s;
+  pace_s_ = pace_s_ > 0.0 ? std::lerp(pace_s_, apart_s, share_of_newest) : apart_s;
+}
+
+/// Of a camera that loses the share p of its frames, k in a row are lost once in p^-k frames.
+Duration CameraWatch::silence_to_miss() const {
+  if (!(pace_s_ > period_s_)) return options_.max_silence;
+  const double lost = 1.0 - period_s_ / pace_s_;
+  const double in_a_row = std::ceil(-std::log(options_.frames_to_a_false_alarm) / std::log(lost));
+  return std::clamp(from_seconds(std::min(in_a_row * period_s_, seconds(options_.longest_silence))),
+                    options_.max_silence, options_.longest_silence);
 }
 
 }  // namespace lodestar

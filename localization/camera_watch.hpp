@@ -22,10 +22,14 @@ enum class CameraFault {
 std::string_view to_string(CameraFault fault);
 
 struct CameraWatchOptions {
-  Duration max_silence = std::chrono::milliseconds(150);  ///< without any frame, usable or not
-  Duration max_age = std::chrono::milliseconds(250);      ///< of a frame on arrival, since mid-exposure
-  Duration max_ahead = std::chrono::milliseconds(20);     ///< of the stamp before the arrival
-  Duration another_age = std::chrono::seconds(5);         ///< no camera is so late; its clock is another one
+  /// Without any frame, usable or not: so long at least, and longer where frames are lost now and then, that
+  /// a silence is due to chance once in so many frames; but never longer than the last.
+  Duration max_silence = std::chrono::milliseconds(150);
+  double frames_to_a_false_alarm = 1e5;
+  Duration longest_silence = std::chrono::milliseconds(500);
+  Duration max_age = std::chrono::milliseconds(250);   ///< of a frame on arrival, since mid-exposure
+  Duration max_ahead = std::chrono::milliseconds(20);  ///< of the stamp before the arrival
+  Duration another_age = std::chrono::seconds(5);      ///< no camera is so late; its clock is another one
   int dark_gray = 20;     ///< a picture whose brightest sampled pixel is darker shows nothing
   int bright_gray = 240;  ///< and one whose darkest is brighter
 };
@@ -43,7 +47,13 @@ class CameraWatch {
   [[nodiscard]] std::optional<CameraFault> fault(Stamp now) const;
 
  private:
+  void learn_pace(Stamp captured);
+  [[nodiscard]] Duration silence_to_miss() const;
+
   CameraWatchOptions options_;
+  std::optional<Stamp> last_capture_;
+  double period_s_ = 0.0;  ///< the shortest time between two captures
+  double pace_s_ = 0.0;    ///< the mean time between two that arrive
   std::optional<Stamp> last_arrival_;
   std::optional<std::uint64_t> last_picture_;
   std::optional<CameraFault> fault_;  ///< of the newest frame
