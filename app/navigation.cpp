@@ -1,6 +1,7 @@
 #include "app/navigation.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace lodestar {
 namespace {
@@ -11,6 +12,24 @@ std::optional<double> turned_by(const std::vector<WheelTravel>& travel, double t
   return (travel.back().right_m - travel.back().left_m) / track_width_m;
 }
 
+/// Where there is room, a path keeps away from everything, so that a robot which must go some way without a
+/// marker may be unsure of its place.
+constexpr std::array margins_m{0.10, 0.06, 0.03, 0.02, 0.01};
+/// A lost one keeps a little more to the middle.
+constexpr std::array margins_on_retreat_m{0.12, 0.10, 0.06, 0.03, 0.02, 0.01};
+
+/// The room that an unsure robot keeps on all sides. A centimetre is usual, and paths have room for it.
+double room_for_doubt_m(const PoseEstimate& estimate) {
+  constexpr double usual_sigma_m = 0.01;
+  constexpr double sigmas = 3.0;
+  return sigmas * std::max(larger_sigma_m(estimate.covariance) - usual_sigma_m, 0.0);
+}
+
+/// Tried on a copy.
+bool can_go_back(Retreat places) {
+  return places.begin().has_value();
+}
+
 /// Without stopping to think, as the planners of OMPL do.
 bool plans_at_once(PlannerKind kind) {
   return kind == PlannerKind::astar || kind == PlannerKind::anyangle || kind == PlannerKind::fastest;
@@ -18,8 +37,8 @@ bool plans_at_once(PlannerKind kind) {
 
 }  // namespace
 
-Navigation::Ground::Ground(const OccupancyMap& map, const NavigationOptions& options)
-    : planner(map, options.planner), free_way(map, options.planner.radius_m) {}
+Navigation::Ground::Ground(const OccupancyMap& known, const NavigationOptions& options)
+    : map(known), planner(map, options.planner, margins_m), free_way(map, options.planner.radius_m) {}
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
@@ -29,7 +48,8 @@ Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options
       known_{PoseFilter(options.filter), MarkerTrust(options.trust), CameraWatch(options.camera),
              Doubt(options.doubt)},
       motion_{.look_around = LookAround(options.look_around),
-              .on_the_spot = RotateThenDrive({}, std::nullopt, options.drive)} {}
+              .on_the_spot = RotateThenDrive({}, std::nullopt, options.drive),
+              .places = Retreat(options.retreat)} {}
 
 NavigationStep Navigation::step(const SensorInput& input) {
   // Travel comes first: a frame was exposed before the newest wheel reading, and the filter corrects the
@@ -42,7 +62,10 @@ NavigationStep Navigation::step(const SensorInput& input) {
       step.fixes.push_back(std::move(*used));
 
   step.estimate = known.filter.estimate();
-  step.stop = with_doubts(reason_to_stop(input.now, step.estimate, options_.safety), known, input.now);
+  const auto reason_within = [&](const SafetyStopOptions& limits) {
+    return with_doubts(reason_to_stop(input.now, step.estimate, limits), known, input.now);
+  };
+  step.stop = reason_within(options_.safety);
   step.camera = known.camera.fault(input.now);
   step.rolled_unseen_m = known.doubt.rolled_since_agreement_m();
   step.distrusted = known.trust.distrusted();
@@ -51,8 +74,15 @@ NavigationStep Navigation::step(const SensorInput& input) {
       .now = input.now,
       .elapsed = last_step_ ? input.now - *last_step_ : Duration::zero(),
       .turned_rad = turned_by(input.base.travel, options_.drive.track_width_m).value_or(turned_rad_),
-      .estimate = step.estimate};
+      .estimate = step.estimate,
+      .stop_on_retreat = reason_within(options_.retreat.limits)};
   Motion motion = motion_;
+  const bool has_agreed =
+      std::ranges::find(step.fixes, FixOutcome::accepted, &UsedFix::outcome) != step.fixes.end();
+  if (has_agreed && step.estimate) {
+    motion.places.saw_marker_at(step.estimate->map_from_base.position_m);
+    motion.is_lost = false;
+  }
   step.command = move(motion, at, step);
 
   known_ = std::move(known);
@@ -65,6 +95,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
 
 BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationStep& step) const {
   if (step.stop && is_for_good(*step.stop)) motion.drive.reset();
+  if (!motion.drive) motion.retreat.reset();
   if (!motion.drive) {
     if (!looks_for_markers_) return {};
     const std::optional<double> look = motion.look_around.update(at.now, step.stop, at.turned_rad);
@@ -72,6 +103,14 @@ BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationSte
   }
   RotateThenDrive& drive = *motion.drive;
   const bool may_look = !drive.paused() && !drive.arrived();
+  motion.is_lost = motion.is_lost || (may_look && step.stop && would_a_marker_mend(*step.stop));
+  if (!motion.retreat && motion.is_lost && !at.stop_on_retreat && may_look && can_go_back(motion.places)) {
+    if (!step.stop) step.stop = StopReason::pose_uncertain;
+    if (!drive.at_rest()) return drive.slow_down(at.elapsed);
+    motion.retreat = way_back(motion, at.estimate->map_from_base);
+    motion.is_lost = false;
+  }
+  if (motion.retreat) return go_back(motion, at, step);
   const std::optional<double> look =
       motion.look_around.update(at.now, may_look ? step.stop : std::nullopt, at.turned_rad);
   BodyVelocity command;
@@ -89,18 +128,66 @@ BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationSte
 /// Along the path, or to rest when it must be planned anew.
 BodyVelocity Navigation::follow(Motion& motion, const Situation& at, NavigationStep& step) const {
   const Pose2& pose = at.estimate->map_from_base;
+  motion.is_lost = false;
   if (!motion.drive->paused() && !motion.drive->arrived()) reroute(motion, pose, step);
   if (!motion.drive) return {};
   if (motion.reroutes) return motion.drive->slow_down(at.elapsed);
 
-  const SpeedLimit limit = speed_limit(*at.estimate);
+  const double spare_room_m = room_for_doubt_m(*at.estimate);
+  SpeedLimit limit = speed_limit(*at.estimate, spare_room_m, options_.safety);
+  if (spare_room_m > 0.0 && ground_->free_way.room_m(pose.position_m) < spare_room_m) limit.forward_mps = 0.0;
   const BodyVelocity command = motion.drive->update(*at.estimate, at.elapsed, limit);
   const bool is_blocked =
       limit.forward_mps < options_.drive.min_forward_mps && motion.drive->phase() == DrivePhase::driving;
+  if (is_blocked &&
+      speed_limit(*at.estimate, 0.0, options_.safety).forward_mps >= options_.drive.min_forward_mps) {
+    step.stop = StopReason::pose_uncertain;
+    motion.is_lost = true;
+    return command;
+  }
   if (is_blocked) step.stop = StopReason::way_blocked;
   if (is_blocked && !motion.is_blocked) motion.looks_again = true;
   motion.is_blocked = is_blocked;
   return command;
+}
+
+/// Back to where a marker was seen last, on a way that the robot knows to be free.
+BodyVelocity Navigation::go_back(Motion& motion, const Situation& at, NavigationStep& step) const {
+  RotateThenDrive& retreat = *motion.retreat;
+  if (at.stop_on_retreat) {
+    step.stop = at.stop_on_retreat;
+    const BodyVelocity command = retreat.slow_down(at.elapsed);
+    if (retreat.at_rest()) motion.retreat.reset();
+    return command;
+  }
+  step.stop.reset();
+  step.retreats = true;
+  motion.is_lost = false;
+  const SpeedLimit limit = speed_limit(*at.estimate, room_for_doubt_m(*at.estimate), options_.retreat.limits);
+  const bool is_blocked =
+      limit.forward_mps < options_.drive.min_forward_mps && retreat.phase() == DrivePhase::driving;
+  const BodyVelocity command =
+      is_blocked ? retreat.slow_down(at.elapsed) : retreat.update(*at.estimate, at.elapsed, limit);
+  const bool has_ended = retreat.arrived() || retreat.phase() == DrivePhase::cancelled;
+  if (has_ended || (is_blocked && retreat.at_rest())) motion.retreat.reset();
+  return command;
+}
+
+/// First along the leg by which it has come: every other way may be narrower.
+std::optional<RotateThenDrive> Navigation::way_back(Motion& motion, const Pose2& pose) const {
+  constexpr double beside_leg_m = 0.3;
+  const std::optional<Vec2> place_m = motion.places.begin();
+  if (!place_m) return std::nullopt;
+  const Vec2 leg_start_m = motion.drive->path_ahead().waypoints_m.front();
+  if (distance_to_path_m({{leg_start_m, pose.position_m}}, *place_m) <= beside_leg_m)
+    return RotateThenDrive({{pose.position_m, *place_m}}, std::nullopt, options_.drive);
+  const MarginPlanner planner(ground_->map, options_.planner, margins_on_retreat_m);
+  const PlanResult result = planner.plan(leg_start_m, *place_m);
+  const auto* plan = std::get_if<Plan>(&result);
+  if (plan == nullptr) return std::nullopt;
+  Path path = plan->path;
+  path.waypoints_m.insert(path.waypoints_m.begin(), pose.position_m);
+  return RotateThenDrive(path, std::nullopt, options_.drive);
 }
 
 /// A path that no longer holds is given up in two steps: the robot comes to rest, and plans from where it
@@ -134,7 +221,9 @@ RouteUpdate Navigation::route_from(const Motion& motion, const Pose2& pose) cons
 
 std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
   motion_.drive.reset();
-  motion_.looks_again = motion_.reroutes = motion_.is_blocked = false;
+  motion_.retreat.reset();
+  motion_.places.new_goal();
+  motion_.looks_again = motion_.reroutes = motion_.is_blocked = motion_.is_lost = false;
   if (!estimate_) return std::nullopt;
   const Pose2& pose = estimate_->map_from_base;
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad};
@@ -153,13 +242,14 @@ void Navigation::map_changed(const OccupancyMap& map) {
 
 /// The less sure of its pose the slower, and never so fast that the robot could not stop before it meets what
 /// lies straight ahead.
-SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate) const {
+SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate, double spare_room_m,
+                                   const SafetyStopOptions& limits) const {
   const DriveOptions& drive = options_.drive;
   const double deceleration = drive.braking_share * drive.max_acceleration_mps2;
   const double reach_m =
       drive.max_forward_mps * (drive.response_s + 0.5 * drive.max_forward_mps / deceleration);
-  const double free_m = ground_->free_way.ahead_m(estimate.map_from_base, reach_m);
-  const double share = share_of_speed(estimate.covariance, options_.safety, options_.caution);
+  const double free_m = ground_->free_way.ahead_m(estimate.map_from_base, reach_m, spare_room_m);
+  const double share = share_of_speed(estimate.covariance, limits, options_.caution);
   return {.forward_mps = std::min(share * drive.max_forward_mps,
                                   speed_to_stop_within(free_m, deceleration, drive.response_s)),
           .turn_radps = share * drive.max_turn_radps};
@@ -191,19 +281,23 @@ bool Navigation::place_robot(const Pose2& map_from_base) {
 
 void Navigation::halt() {
   motion_.drive.reset();
+  motion_.retreat.reset();
   looks_for_markers_ = false;
 }
 
 void Navigation::pause() {
   if (motion_.drive) motion_.drive->pause();
+  if (motion_.retreat) motion_.retreat->pause();
 }
 
 void Navigation::resume() {
   if (motion_.drive) motion_.drive->resume();
+  if (motion_.retreat) motion_.retreat->resume();
 }
 
 void Navigation::cancel() {
   if (motion_.drive) motion_.drive->cancel();
+  if (motion_.retreat) motion_.retreat->cancel();
 }
 
 }  // namespace lodestar

@@ -9,6 +9,7 @@
 #include "app/sight.hpp"
 #include "control/free_way.hpp"
 #include "control/look_around.hpp"
+#include "control/retreat.hpp"
 #include "control/rotate_then_drive.hpp"
 #include "control/safety_stop.hpp"
 #include "control/speed_limit.hpp"
@@ -40,6 +41,7 @@ struct NavigationOptions {
   SafetyStopOptions safety;
   CautionOptions caution;
   LookAroundOptions look_around;
+  RetreatOptions retreat;
 };
 
 /// All that has arrived since the last step. Time arrives with the data.
@@ -54,6 +56,7 @@ struct NavigationStep {
   std::vector<UsedFix> fixes;
   std::optional<PoseEstimate> estimate;
   std::optional<StopReason> stop;  ///< why the robot may not move, if so
+  bool retreats = false;           ///< lost, it goes back to where it saw a marker
   BodyVelocity command;
   std::optional<RouteUpdate> reroute;        ///< the path followed from now on is another one, or lost
   std::optional<CameraFault> camera;         ///< what is wrong with it, if anything
@@ -102,7 +105,8 @@ class Navigation {
  private:
   /// What is planned on, made anew for every map.
   struct Ground {
-    Ground(const OccupancyMap& map, const NavigationOptions& options);
+    Ground(const OccupancyMap& known, const NavigationOptions& options);
+    OccupancyMap map;
     MarginPlanner planner;
     FreeWay free_way;
   };
@@ -113,6 +117,9 @@ class Navigation {
     RotateThenDrive on_the_spot;  ///< what moves the robot while it follows nothing
     std::optional<RotateThenDrive> drive;
     std::optional<double> goal_heading_rad;
+    Retreat places;                          ///< to go back to
+    std::optional<RotateThenDrive> retreat;  ///< moves the robot instead of `drive` while it goes back
+    bool is_lost = false;      ///< too unsure of its pose to go on: it comes to rest, to go back
     bool looks_again = false;  ///< at its path: something has changed
     bool reroutes = false;     ///< it comes to rest, to plan anew from there
     bool is_blocked = false;   ///< something stands in front of the robot
@@ -124,13 +131,17 @@ class Navigation {
     Duration elapsed;
     double turned_rad = 0.0;
     std::optional<PoseEstimate> estimate;
+    std::optional<StopReason> stop_on_retreat;  ///< why it may not even go back
   };
 
   BodyVelocity move(Motion& motion, const Situation& at, NavigationStep& step) const;
   BodyVelocity follow(Motion& motion, const Situation& at, NavigationStep& step) const;
   void reroute(Motion& motion, const Pose2& pose, NavigationStep& step) const;
+  BodyVelocity go_back(Motion& motion, const Situation& at, NavigationStep& step) const;
+  [[nodiscard]] std::optional<RotateThenDrive> way_back(Motion& motion, const Pose2& pose) const;
   [[nodiscard]] RouteUpdate route_from(const Motion& motion, const Pose2& pose) const;
-  [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate) const;
+  [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate, double spare_room_m,
+                                       const SafetyStopOptions& limits) const;
   [[nodiscard]] DriveOptions drive_options(const Path& path) const;
 
   NavigationOptions options_;

@@ -11,13 +11,14 @@ FreeWay::FreeWay(const OccupancyMap& map, double radius_m, double tolerance_m)
 
 /// Sphere tracing (Hart 1996): where the nearest obstacle is far, the step may be as far. A disc that
 /// overlaps something already may still move, but not deeper into it.
-double FreeWay::ahead_m(const Pose2& map_from_base, double up_to_m) const {
+double FreeWay::ahead_m(const Pose2& map_from_base, double up_to_m, double spare_room_m) const {
   const Vec2 ahead(std::cos(map_from_base.yaw_rad), std::sin(map_from_base.yaw_rad));
   const double step_m = 0.2 * map_.resolution_m;
-  const double least_room_m = std::min(room_m(map_from_base.position_m), 0.0);
+  const double radius_m = radius_m_ + spare_room_m;
+  const double least_room_m = std::min(room_m(map_from_base.position_m, radius_m), 0.0);
   double way_m = 0.0;
   while (way_m < up_to_m) {
-    const double room = room_m(map_from_base.position_m + way_m * ahead);
+    const double room = room_m(map_from_base.position_m + way_m * ahead, radius_m);
     if (room < least_room_m) return std::max(way_m - step_m, 0.0);
     way_m += std::max(room, step_m);
   }
@@ -26,19 +27,19 @@ double FreeWay::ahead_m(const Pose2& map_from_base, double up_to_m) const {
 
 /// From the disc's rim to the nearest obstacle's; less than zero where they overlap. The field measures from
 /// centre to centre of cells: far from everything that says enough.
-double FreeWay::room_m(const Vec2& point_in_map) const {
+double FreeWay::room_m(const Vec2& point_in_map, double radius_m) const {
   const Cell cell = map_.cell_at(point_in_map);
-  if (!map_.contains(cell)) return -radius_m_;
+  if (!map_.contains(cell)) return -radius_m;
   const double half_diagonal_m = map_.resolution_m * std::numbers::sqrt2 / 2.0;
   const double at_least_m = distances_.distance_m(cell) - 2.0 * half_diagonal_m;
-  return (at_least_m > radius_m_ ? at_least_m : exact_distance_m(point_in_map)) - radius_m_;
+  return (at_least_m > radius_m ? at_least_m : exact_distance_m(point_in_map, radius_m)) - radius_m;
 }
 
 /// To the nearest cell that is not drivable, a square, as far as the body and a cell reach.
-double FreeWay::exact_distance_m(const Vec2& point_in_map) const {
+double FreeWay::exact_distance_m(const Vec2& point_in_map, double radius_m) const {
   const Vec2 point_in_grid = inverse(map_.map_from_grid) * point_in_map;
   const Cell middle = map_.cell_at(point_in_map);
-  const int reach = static_cast<int>(std::ceil(radius_m_ / map_.resolution_m)) + 2;
+  const int reach = static_cast<int>(std::ceil(radius_m / map_.resolution_m)) + 2;
   double nearest_m = reach * map_.resolution_m;
   for (int row = middle.row - reach; row <= middle.row + reach; ++row) {
     for (int column = middle.column - reach; column <= middle.column + reach; ++column) {

@@ -12,13 +12,17 @@ class FreeWay {
   /// `tolerance_m`: the disc is taken to be smaller by so much, for paths that pass at exactly its radius.
   FreeWay(const OccupancyMap& map, double radius_m, double tolerance_m = 0.03);
 
-  /// At most `up_to_m`. A disc that overlaps something already, as after a pose that was a little off, has a
-  /// way out of it but none deeper into it.
-  [[nodiscard]] double ahead_m(const Pose2& map_from_base, double up_to_m) const;
+  /// At most `up_to_m`, with `spare_room_m` kept on all sides. A disc that overlaps something already, as
+  /// after a pose that was a little off, has a way out of it but none deeper into it; so has one that has
+  /// less room than is to be kept.
+  [[nodiscard]] double ahead_m(const Pose2& map_from_base, double up_to_m, double spare_room_m = 0.0) const;
+
+  /// From the rim of a disc at this place to the nearest obstacle; less than zero where they overlap.
+  [[nodiscard]] double room_m(const Vec2& point_in_map) const { return room_m(point_in_map, radius_m_); }
 
  private:
-  [[nodiscard]] double room_m(const Vec2& point_in_map) const;
-  [[nodiscard]] double exact_distance_m(const Vec2& point_in_map) const;
+  [[nodiscard]] double room_m(const Vec2& point_in_map, double radius_m) const;
+  [[nodiscard]] double exact_distance_m(const Vec2& point_in_map, double radius_m) const;
 
   OccupancyMap map_;
   DistanceField distances_;

@@ -100,14 +100,19 @@ void RotateThenDrive::next_phase(const Pose2& pose) {
 }
 
 /// The heading is taken once, at rest: close to the target its direction changes with every millimetre of
-/// noise, and the robot would chase it.
+/// noise, and the robot would chase it. Where the leg's own direction is quite another one, the leg begins
+/// anew here: else the robot would turn to and fro between the two.
 void RotateThenDrive::next_phase_rotating(const Pose2& pose) {
   if (!at_rest()) return;
   if ((target_m() - pose.position_m).norm() <= epsilon_m()) {
     end_leg(pose);
     return;
   }
-  if (!turn_heading_rad_) turn_heading_rad_ = direction_of(pose.position_m, target_m());
+  if (!turn_heading_rad_) {
+    turn_heading_rad_ = direction_of(pose.position_m, target_m());
+    const double beside_rad = std::abs(wrap_angle(*turn_heading_rad_ - leg_heading_rad()));
+    if (beside_rad > 0.5 * options_.turn_again_rad) leg_start_m_ = pose.position_m;
+  }
   const double error = wrap_angle(*turn_heading_rad_ - pose.yaw_rad);
   if (std::abs(error) > options_.turn_done_rad) return;
   phase_ = DrivePhase::driving;

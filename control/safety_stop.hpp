@@ -9,10 +9,10 @@ namespace lodestar {
 
 struct SafetyStopOptions {
   /// How lost the robot is its covariance tells; this is for one that believes itself sure for ever.
-  Duration max_time_without_fix = std::chrono::seconds(8);
+  Duration max_time_without_fix = std::chrono::seconds(20);
   Duration max_travel_age =
       std::chrono::milliseconds(100);  ///< wheel travel older than this: the base is silent
-  double max_position_sigma_m = 0.08;  ///< largest principal deviation
+  double max_position_sigma_m = 0.10;  ///< largest principal deviation
   double max_heading_sigma_rad = radians(5.0);
 };
 

@@ -1,7 +1,9 @@
 #include "localization/camera_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace lodestar {
 namespace {
@@ -58,7 +60,8 @@ std::optional<CameraFault> CameraWatch::take_in(const Frame& frame, Stamp now) {
   const bool is_white = sample.darkest > options_.bright_gray;
   const bool is_same = last_picture_ == sample.hash && !is_white;
   last_picture_ = sample.hash;
-  learn_period(now);
+  last_arrival_ = now;
+  learn_pace(frame.stamp);
 
   const Duration age = now - frame.stamp;
   fault_.reset();
@@ -75,16 +78,30 @@ std::optional<CameraFault> CameraWatch::take_in(const Frame& frame, Stamp now) {
   return std::nullopt;
 }
 
-void CameraWatch::learn_period(Stamp arrival) {
-  const Duration gap = last_arrival_ ? arrival - *last_arrival_ : Duration::max();
-  last_arrival_ = arrival;
-  if (gap <= options_.longest_period) period_ = period_ ? *period_ + (gap - *period_) / 8 : gap;
+std::optional<CameraFault> CameraWatch::fault(Stamp now) const {
+  if (last_arrival_ && now - *last_arrival_ > silence_to_miss()) return CameraFault::silent;
+  return fault_;
 }
 
-std::optional<CameraFault> CameraWatch::fault(Stamp now) const {
-  const Duration patience = std::max(options_.max_silence, 3 * period_.value_or(Duration::zero()));
-  if (last_arrival_ && now - *last_arrival_ > patience) return CameraFault::silent;
-  return fault_;
+/// Over the last fifty frames or so. One long silence says little of the usual ones, and stamps of another
+/// clock nothing.
+void CameraWatch::learn_pace(Stamp captured) {
+  constexpr double share_of_newest = 0.02;
+  const std::optional<Stamp> before = std::exchange(last_capture_, captured);
+  if (!before || captured <= *before) return;
+  const double apart_s = seconds(std::min<Duration>(captured - *before, options_.longest_silence));
+  period_s_ = period_s_ > 0.0 ? std::min(period_s_, apart_s) : apart_s;
+  pace_s_ = pace_s_ > 0.0 ? std::lerp(pace_s_, apart_s, share_of_newest) : apart_s;
+}
+
+/// Of a camera that loses the share p of its frames, k in a row are lost once in p^-k frames.
+Duration CameraWatch::silence_to_miss() const {
+  const Duration least = std::max<Duration>(options_.max_silence, from_seconds(3.0 * period_s_));
+  if (!(pace_s_ > period_s_)) return least;
+  const double lost = 1.0 - period_s_ / pace_s_;
+  const double in_a_row = std::ceil(-std::log(options_.frames_to_a_false_alarm) / std::log(lost));
+  const double wanted_s = std::min(in_a_row * period_s_, seconds(options_.longest_silence));
+  return std::max<Duration>(from_seconds(wanted_s), least);
 }
 
 }  // namespace lodestar

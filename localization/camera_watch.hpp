@@ -22,9 +22,11 @@ enum class CameraFault {
 std::string_view to_string(CameraFault fault);
 
 struct CameraWatchOptions {
-  /// Without any frame, usable or not; at least three of the camera's usual periods.
+  /// Without any frame, usable or not: so long at least, and three of the camera's periods; and longer where
+  /// frames are lost now and then, that a silence is due to chance once in so many frames, up to the last.
   Duration max_silence = std::chrono::milliseconds(150);
-  Duration longest_period = std::chrono::seconds(1);   ///< a longer pause is none
+  double frames_to_a_false_alarm = 1e5;
+  Duration longest_silence = std::chrono::milliseconds(500);
   Duration max_age = std::chrono::milliseconds(250);   ///< of a frame on arrival, since mid-exposure
   Duration max_ahead = std::chrono::milliseconds(20);  ///< of the stamp before the arrival
   Duration another_age = std::chrono::seconds(5);      ///< no camera is so late; its clock is another one
@@ -45,11 +47,14 @@ class CameraWatch {
   [[nodiscard]] std::optional<CameraFault> fault(Stamp now) const;
 
  private:
-  void learn_period(Stamp arrival);
+  void learn_pace(Stamp captured);
+  [[nodiscard]] Duration silence_to_miss() const;
 
   CameraWatchOptions options_;
+  std::optional<Stamp> last_capture_;
+  double period_s_ = 0.0;  ///< the shortest time between two captures
+  double pace_s_ = 0.0;    ///< the mean time between two that arrive
   std::optional<Stamp> last_arrival_;
-  std::optional<Duration> period_;  ///< of arrivals, smoothed
   std::optional<std::uint64_t> last_picture_;
   std::optional<CameraFault> fault_;  ///< of the newest frame
 };

@@ -77,5 +77,22 @@ TEST(CameraWatch, says_when_there_is_nothing_to_see) {
   EXPECT_EQ(watch.fault(noon + milliseconds(151)), CameraFault::silent);
 }
 
+TEST(CameraWatch, takes_frames_lost_now_and_then_for_no_silence) {
+  CameraWatch watch;
+  Random random(5);
+  Stamp now = noon;
+  Stamp arrived = noon;
+  for (int i = 0; i < 20000; ++i, now += milliseconds(50)) {
+    const bool is_learning = i < 200;
+    if (!is_learning) {
+      EXPECT_FALSE(watch.fault(now)) << i;
+    }
+    if (random.uniform() < 0.3) continue;
+    watch.take_in(frame_at(now - milliseconds(45), static_cast<std::uint64_t>(i)), now);
+    arrived = now;
+  }
+  EXPECT_EQ(watch.fault(arrived + milliseconds(501)), CameraFault::silent) << "half a second is too long";
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "control/safety_stop.hpp"
+#include "maps/geometry.hpp"
+
+namespace lodestar {
+
+struct RetreatOptions {
+  double before_last_m = 0.8;  ///< so far before the last place with a marker in view the robot goes back
+  int most_to_a_goal = 2;      ///< then it stays where it is
+  /// How lost it may be on its way back, which it knows to be free because it has just come that way.
+  SafetyStopOptions limits{.max_time_without_fix = std::chrono::seconds(60),
+                           .max_position_sigma_m = 0.20,
+                           .max_heading_sigma_rad = radians(12.0)};
+};
+
+/// Where a robot that has driven too far without a marker goes back to. Under a marker again it knows where
+/// it is, and by the way there and back it has learned its wheels, so that it comes farther the next time. A
+/// value type.
+class Retreat {
+ public:
+  explicit Retreat(const RetreatOptions& options = {}) : options_(options) {}
+
+  /// Here the robot has seen a marker that agrees with its estimate.
+  void saw_marker_at(const Vec2& position_in_map);
+
+  /// Counts a retreat: where to. Nothing when no marker was ever seen, or too many retreats were made.
+  std::optional<Vec2> begin();
+
+  /// To another goal.
+  void new_goal() { made_ = 0; }
+
+ private:
+  RetreatOptions options_;
+  std::deque<Vec2> seen_at_m_;  ///< the last places, a step apart
+  int made_ = 0;
+};
+
+}  // namespace lodestar

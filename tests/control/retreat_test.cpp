@@ -1,0 +1,29 @@
+#include "control/retreat.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lodestar {
+namespace {
+
+TEST(Retreat, leads_to_a_place_well_before_the_last_with_a_marker_in_view) {
+  Retreat retreat({.before_last_m = 0.8});
+  for (int centimetre = 0; centimetre <= 300; ++centimetre) retreat.saw_marker_at({0.01 * centimetre, 1.0});
+  const std::optional<Vec2> place_m = retreat.begin();
+  ASSERT_TRUE(place_m);
+  EXPECT_NEAR(place_m->x(), 3.0 - 0.8, 0.15);
+  EXPECT_EQ(place_m->y(), 1.0);
+}
+
+TEST(Retreat, is_not_made_for_ever_nor_to_nowhere) {
+  Retreat retreat({.most_to_a_goal = 2});
+  EXPECT_FALSE(retreat.begin()) << "no marker was ever seen";
+  retreat.saw_marker_at(Vec2::Zero());
+  EXPECT_TRUE(retreat.begin());
+  EXPECT_TRUE(retreat.begin());
+  EXPECT_FALSE(retreat.begin());
+  retreat.new_goal();
+  EXPECT_TRUE(retreat.begin());
+}
+
+}  // namespace
+}  // namespace lodestar
