@@ -88,6 +88,24 @@ TEST_F(ProcessFaults, with_both_killed_the_base_comes_to_rest_by_itself) {
   measure("navigator and guard killed", killed);
 }
 
+/// It goes before others in the kernel's queue.
+TEST_F(ProcessFaults, the_guard_of_a_hung_navigator_is_not_starved_by_eight_busy_programs) {
+  drive();
+  std::vector<std::unique_ptr<Process>> hogs;
+  const Stamp busy = monotonic_now();
+  for (int i = 0; i < 8; ++i) {
+    hogs.push_back(std::make_unique<Process>(std::vector<std::string>{"sh", "-c", "while :; do :; done"}));
+  }
+  run->signal(SIGSTOP);
+  const auto zero = witness->wait_for(is_zero_command, busy, 5s);
+  hogs.clear();
+  ASSERT_TRUE(zero);
+  const auto moved = witness->heard(is_moving_command, Stamp{}, zero->stamp);
+  ASSERT_FALSE(moved.empty());
+  expect_within(150ms, moved.back().stamp, zero->stamp, "the zero command");
+  expect_rest(zero->stamp);
+}
+
 TEST_F(ProcessFaults, an_hour_on_the_wall_clock_is_no_fault) {
   start_base();
   start_run("--goal 2.4,5.5");
