@@ -15,13 +15,16 @@ namespace lodestar {
 /// off by it.
 inline constexpr std::array default_margins_m{0.03, 0.02, 0.01};
 
-/// Plans with the widest margin that there is room for. Where start or goal lie nearer to an obstacle than
-/// that, only the way between them and the nearest roomy place does too. A goal that has not even the
-/// narrowest margin, as one that touches a wall, is replaced by the nearest place that has, when that is
-/// within `goal_slack_m`: the path ends there. One query at a time.
+/// Plans with the widest margin that there is room for, without going a long way round for it. Where start or
+/// goal lie nearer to an obstacle than that, only the way between them and the nearest roomy place does too.
+/// A goal that has not even the narrowest margin, as one that touches a wall, is replaced by the nearest
+/// place that has, when that is within `goal_slack_m`: the path ends there. One query at a time.
 class MarginPlanner {
  public:
   static constexpr double goal_slack_m = 0.015;
+  /// A path with more margin may be longer by this share of the shortest, and by so much.
+  static constexpr double detour_share = 0.1;
+  static constexpr double detour_m = 0.5;
 
   /// Outlines are planned without a margin.
   explicit MarginPlanner(const OccupancyMap& map, const GridPlannerOptions& options = {},

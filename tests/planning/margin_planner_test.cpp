@@ -43,6 +43,18 @@ TEST(MarginPlanner, keeps_the_widest_margin_that_a_door_leaves) {
   }
 }
 
+TEST(MarginPlanner, goes_no_long_way_round_for_a_wider_door) {
+  OccupancyMap map = rooms(53);
+  for (int row = 0; row < 62; ++row)
+    for (int column = 0; column < map.columns; ++column)
+      if (column >= 200 && column < 205) map.cells[map.index({column, row})] = OccupancyMap::free;
+  const Vec2 beside_door(1.6, 1.0);
+  const Vec2 behind_door(2.4, 1.0);
+  const std::vector<Vec2> points = points_of(MarginPlanner(map, options).plan(beside_door, behind_door));
+  EXPECT_TRUE(keeps(0.01, map, points));
+  EXPECT_LT(length_m({points}), 1.0) << "through the wide door at the side it would be 1.7 m";
+}
+
 TEST(MarginPlanner, takes_no_door_without_any) {
   const OccupancyMap map = rooms(51);
   EXPECT_EQ(std::get<PlanFailure>(MarginPlanner(map, options).plan(start, goal)), PlanFailure::no_path);
