@@ -109,5 +109,37 @@ TEST_F(Cable, that_takes_no_more_frames_is_noticed_and_brings_no_old_ones_later)
   EXPECT_EQ(resume_until_the_end(40s), 0);
 }
 
+/// Two buses and a gateway between them, which neither end sees: its cut leaves both interfaces as they were.
+class Gateway : public CanLab {
+ protected:
+  void lay_cable() override {
+    navigator_end = "vcan0";
+    base_end = "vcan1";
+    ASSERT_TRUE(
+        shell("for i in vcan0 vcan1; do ip link add dev $i type vcan && ip link set $i up || exit 1; done; "
+              "cangw -A -s vcan0 -d vcan1 -e && cangw -A -s vcan1 -d vcan0 -e"));
+  }
+  void take_cable_away() override {
+    (void)shell("cangw -F; ip link del vcan0; ip link del vcan1 2>/dev/null");
+  }
+};
+
+TEST_F(Gateway, that_forwards_no_more_is_noticed_within_100_ms) {
+  start_base();
+  start_run("--goal 2.4,5.5");
+  wait_until_driving();
+  Witness navigator_side(navigator_end);
+  const Stamp cut = monotonic_now();
+  ASSERT_TRUE(shell("cangw -F"));
+  const auto zero = navigator_side.wait_for(is_zero_command, cut, 2s);
+  ASSERT_TRUE(zero) << "send zero anyway";
+  const auto heard = navigator_side.heard(
+      [](const CanFrame& frame) { return frame.id == agilex::odometer_id; }, Stamp{}, zero->stamp);
+  ASSERT_FALSE(heard.empty());
+  expect_within(120ms, heard.back().stamp, zero->stamp, "the zero command");
+  EXPECT_TRUE(navigator_side.heard(is_moving_command, zero->stamp).empty());
+  EXPECT_TRUE(wait_for_words("base: stopped by a fault", 1s));
+}
+
 }  // namespace
 }  // namespace lodestar
