@@ -23,14 +23,13 @@ const GridPlanner& MarginPlanner::at(std::size_t level) const {
   return *wanted.planner;
 }
 
-PlanResult MarginPlanner::plan(const Vec2& start_m, const Vec2& wanted_m,
-                               const PlanHeadings& headings) const {
-  const Vec2 goal_m = goal_with_margin(wanted_m);
-  PlanResult shortest = narrowest().plan(start_m, goal_m, headings);
+PlanResult MarginPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const PlanHeadings& headings) const {
+  const Vec2 end_m = goal_with_margin(goal_m);
+  PlanResult shortest = narrowest().plan(start_m, end_m, headings);
   if (levels_.size() == 1 || std::holds_alternative<PlanFailure>(shortest)) return shortest;
   const double longest_m = (1.0 + detour_share) * length_m(std::get<Plan>(shortest).path) + detour_m;
   for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
-    PlanResult result = plan_at(level, start_m, goal_m, headings);
+    PlanResult result = plan_at(level, start_m, end_m, headings);
     const auto* plan = std::get_if<Plan>(&result);
     if (plan != nullptr && length_m(plan->path) <= longest_m) return result;
   }
