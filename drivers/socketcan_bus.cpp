@@ -203,7 +203,10 @@ void SocketCanBus::read_all() {
       confirm(frame.can_id & CAN_SFF_MASK);
     } else if ((frame.can_id & unwanted) == 0) {
       ++counts_.received;
-      if (state_ == BusState::bus_off) state_ = BusState::up;  // else nothing would arrive
+      // A controller that is off hears nothing: where frames go on arriving, the word of it was spoilt.
+      const bool is_long_ago =
+          disturbed_ && monotonic_now() - *disturbed_ > options_.disbelieve_bus_off_after;
+      if (state_ == BusState::bus_off && is_long_ago) state_ = BusState::up;
       const Stamp stamp = stamp_from(message->wall_stamp, over_wall);
       newest_ = std::max(newest_, stamp);  // in the order of the bus, whatever the clocks do
       arrived_.push_back({newest_, frame_from(frame)});
@@ -272,6 +275,7 @@ void SocketCanBus::take_in_error_frame(const can_frame& frame) {
   ++counts_.error_frames;
   if ((frame.can_id & CAN_ERR_BUSOFF) != 0) {
     state_ = BusState::bus_off;
+    disturbed_ = monotonic_now();
     return;
   }
   const bool has_restarted = (frame.can_id & CAN_ERR_RESTARTED) != 0;

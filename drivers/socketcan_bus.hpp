@@ -18,6 +18,8 @@ struct SocketCanOptions {
   Duration check_period = std::chrono::milliseconds(200);  ///< of the interface: there, up, still the same?
   Duration stalled_after = std::chrono::milliseconds(100);  ///< without the confirmation of a frame
   int stalled_after_refusals = 3;                           ///< in a row
+  /// A bus-off is not believed any more when frames still arrive so long after it was told.
+  Duration disbelieve_bus_off_after = std::chrono::seconds(5);
   Duration forget_after =
       std::chrono::seconds(1);  ///< a frame never confirmed no longer holds its successors up
 };
@@ -62,7 +64,7 @@ class SocketCanBus final : public CanBus {
   std::optional<Stamp> checked_;
   Stamp newest_;                         ///< of the frames received
   std::deque<StampedCanFrame> arrived_;  ///< not yet polled
-  std::optional<Stamp> disturbed_;       ///< last word of the controller about being passive
+  std::optional<Stamp> disturbed_;       ///< last word of the controller about being passive or off
   int refused_in_a_row_ = 0;
   Stamp refused_;                ///< the newest of them
   std::deque<Waiting> waiting_;  ///< handed over, not yet confirmed
