@@ -77,7 +77,6 @@ class Mission {
   MissionEvent start_goal(const SensorInput& input, const NavigationStep& step);
   void follow_path(const SensorInput& input, const NavigationStep& step, Path path);
   MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
-  MissionEvent settle(const SensorInput& input);
   MissionEvent come_to_rest(const SensorInput& input);
   MissionEvent settle(const SensorInput& input, const NavigationStep& step);
   MissionEvent end_goal(Stamp now, MissionEvent event);

@@ -129,16 +129,11 @@ class DiskWarning {
   std::atomic<bool> said_ = false;
 };
 
-/// The folder that this drive leaves, made already: what it cannot hold shall be known before the drive.
-fs::path make_run_folder(const RunArguments& arguments, const Site& site, DiskWarning& warn) {
+/// The folder that this drive leaves.
+fs::path run_folder(const RunArguments& arguments, const Site& site) {
+  if (!arguments.output.empty()) return arguments.output;
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  const fs::path folder = arguments.output.empty()
-                              ? fs::path("runs") / fmt::format("{}-{:%Y%m%dT%H%M%SZ}", site.name, now)
-                              : fs::path(arguments.output);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) warn(fmt::format("{}: cannot be made ({})", folder.string(), error.message()));
-  return folder;
+  return fs::path("runs") / fmt::format("{}-{:%Y%m%dT%H%M%SZ}", site.name, now);
 }
 
 /// What a drive needs besides its options.
@@ -149,7 +144,8 @@ struct DriveParts {
   Camera& camera;
 };
 
-/// run.mcap of a drive that goes on without, where the disk does not take it.
+/// run.mcap of a drive, in a folder made for it: what the disk does not take is known before the drive, which
+/// goes on without.
 class RunViewersFile {
  public:
   RunViewersFile(const fs::path& folder, const Site& site, RunOptions& options, DiskWarning& warn)
@@ -175,7 +171,7 @@ class RunViewersFile {
 ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
                     const RunArguments& arguments) {
   DiskWarning warn;
-  const fs::path folder = make_run_folder(arguments, parts.site, warn);
+  const fs::path folder = run_folder(arguments, parts.site);
   const RunRecord record = [&] {
     const RunViewersFile mcap(folder, parts.site, options, warn);
     CanLog log(folder / "can.log", parts.interface, std::ref(warn));

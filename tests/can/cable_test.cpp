@@ -6,7 +6,33 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class Cable : public CanLab {
+class CutLab : public CanLab {
+ protected:
+  /// The navigator hears nothing any more, stops within 100 ms and a command, and says so. When it heard the
+  /// base last; nothing when it did not stop.
+  std::optional<Stamp> expect_cut_noticed(const std::string& cut_by) {
+    Witness navigator_side(navigator_end);
+    const Stamp cut = monotonic_now();
+    EXPECT_TRUE(shell(cut_by));
+    const auto zero = navigator_side.wait_for(is_zero_command, cut, 2s);
+    EXPECT_TRUE(zero) << "send zero anyway";
+    if (!zero) return std::nullopt;
+    const auto heard = navigator_side.heard(
+        [](const CanFrame& frame) {
+          return frame.id == agilex::system_state_id || frame.id == agilex::odometer_id;
+        },
+        Stamp{}, zero->stamp);
+    EXPECT_FALSE(heard.empty());
+    if (heard.empty()) return std::nullopt;
+    const Stamp last = heard.back().stamp;
+    expect_within(120ms, last, zero->stamp, "the zero command");
+    EXPECT_TRUE(navigator_side.heard(is_moving_command, zero->stamp).empty());
+    expect_said_within(120ms, "base: stopped by a fault", last);
+    return last;
+  }
+};
+
+class Cable : public CutLab {
  protected:
   void lay_cable() override {
     navigator_end = "vxcan0";
@@ -71,21 +97,9 @@ TEST_F(Cable, that_is_cut_is_noticed_within_100_ms) {
   start_base();
   start_run("--goal 2.4,5.5");
   wait_until_driving();
-  Witness navigator_side(navigator_end);
-  const Stamp cut = monotonic_now();
-  ASSERT_TRUE(shell("ip link set vxcan1 down"));
-  const auto zero = navigator_side.wait_for(is_zero_command, cut, 2s);
-  ASSERT_TRUE(zero) << "send zero anyway";
-  const auto heard = navigator_side.heard(
-      [](const CanFrame& frame) {
-        return frame.id == agilex::system_state_id || frame.id == agilex::odometer_id;
-      },
-      Stamp{}, zero->stamp);
-  ASSERT_FALSE(heard.empty());
-  expect_within(120ms, heard.back().stamp, zero->stamp, "the zero command");
-  EXPECT_TRUE(navigator_side.heard(is_moving_command, zero->stamp).empty());
-  expect_said_within(120ms, "base: stopped by a fault", heard.back().stamp);
-  measure("cable cut", heard.back().stamp);
+  const std::optional<Stamp> last_heard = expect_cut_noticed("ip link set vxcan1 down");
+  ASSERT_TRUE(last_heard);
+  measure("cable cut", *last_heard);
 
   const Stamp back = monotonic_now();
   ASSERT_TRUE(shell("ip link set vxcan1 up"));
@@ -110,7 +124,7 @@ TEST_F(Cable, that_takes_no_more_frames_is_noticed_and_brings_no_old_ones_later)
 }
 
 /// Two buses and a gateway between them, which neither end sees: its cut leaves both interfaces as they were.
-class Gateway : public CanLab {
+class Gateway : public CutLab {
  protected:
   void lay_cable() override {
     navigator_end = "vcan0";
@@ -128,17 +142,7 @@ TEST_F(Gateway, that_forwards_no_more_is_noticed_within_100_ms) {
   start_base();
   start_run("--goal 2.4,5.5");
   wait_until_driving();
-  Witness navigator_side(navigator_end);
-  const Stamp cut = monotonic_now();
-  ASSERT_TRUE(shell("cangw -F"));
-  const auto zero = navigator_side.wait_for(is_zero_command, cut, 2s);
-  ASSERT_TRUE(zero) << "send zero anyway";
-  const auto heard = navigator_side.heard(
-      [](const CanFrame& frame) { return frame.id == agilex::odometer_id; }, Stamp{}, zero->stamp);
-  ASSERT_FALSE(heard.empty());
-  expect_within(120ms, heard.back().stamp, zero->stamp, "the zero command");
-  EXPECT_TRUE(navigator_side.heard(is_moving_command, zero->stamp).empty());
-  EXPECT_TRUE(wait_for_words("base: stopped by a fault", 1s));
+  EXPECT_TRUE(expect_cut_noticed("cangw -F"));
 }
 
 }  // namespace
