@@ -23,6 +23,14 @@ bool can_go_back(Retreat places) {
   return places.begin().has_value();
 }
 
+/// A marker that it finds on its way back, and was not driving to, saves the rest of the way.
+bool is_elsewhere(const RotateThenDrive& retreat, const Pose2& pose) {
+  constexpr double as_far_as_a_marker_is_seen_m = 1.5;
+  const Path ahead = retreat.path_ahead();
+  return !ahead.waypoints_m.empty() &&
+         (ahead.waypoints_m.back() - pose.position_m).norm() > as_far_as_a_marker_is_seen_m;
+}
+
 /// Without stopping to think, as the planners of OMPL do.
 bool plans_at_once(PlannerKind kind) {
   return kind == PlannerKind::astar || kind == PlannerKind::anyangle || kind == PlannerKind::fastest;
@@ -75,7 +83,8 @@ NavigationStep Navigation::step(const SensorInput& input) {
   if (has_agreed && step.estimate) {
     motion.places.saw_marker_at(step.estimate->map_from_base.position_m);
     motion.is_lost = false;
-    if (motion.retreat) motion.retreat->cancel();
+    if (motion.retreat && is_elsewhere(*motion.retreat, step.estimate->map_from_base))
+      motion.retreat->cancel();
   }
   step.command = move(motion, at, step);
 
@@ -156,8 +165,8 @@ BodyVelocity Navigation::go_back(Motion& motion, const Situation& at, Navigation
   step.stop.reset();
   step.retreats = true;
   motion.is_lost = false;
-  // It has come this way, and is the less likely to hit anything the farther it is back.
-  const SpareRoom spare{.here_m = room_for_doubt(at.estimate->covariance).here_m};
+  // It has come this way, so much of its error is the same as it was then: two deviations instead of three.
+  const SpareRoom spare{.here_m = 2.0 / 3.0 * room_for_doubt(at.estimate->covariance).here_m};
   const SpeedLimit limit = speed_limit(*at.estimate, spare, options_.retreat.limits);
   const bool is_blocked = is_stuck(limit) && retreat.phase() == DrivePhase::driving;
   const BodyVelocity command =

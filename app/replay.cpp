@@ -24,6 +24,7 @@ SimulationOptions simulation_options(const Site& site, const ReplayOptions& repl
   options.base.track_width_m = site.robot.track_width_m;
   options.seed = replay.seed;
   options.faults = replay.faults;
+  options.disk = replay.disk;
   return options;
 }
 

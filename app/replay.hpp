@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "app/drive_moment.hpp"
 #include "app/hardships.hpp"
@@ -8,6 +9,7 @@
 #include "app/report/run_record.hpp"
 #include "app/site.hpp"
 #include "drivers/fault.hpp"
+#include "drivers/simulated_disk.hpp"
 #include "planning/grid_planner.hpp"
 
 namespace lodestar {
@@ -22,8 +24,9 @@ struct ReplayOptions {
   std::optional<PoseKeeping> pose_keeping;  ///< that paths must keep to
   Hardships hardships;
   std::vector<Fault> faults;
-  double pictures_hz = 0.0;  ///< camera frames to keep in the record
-  bool realtime = false;     ///< no faster than the world's own time
+  std::shared_ptr<SimulatedDisk> disk;  ///< suffers with the rest of the simulated world, if there
+  double pictures_hz = 0.0;             ///< camera frames to keep in the record
+  bool realtime = false;                ///< no faster than the world's own time
   /// Called after each step of the navigator with the wall time that it took.
   std::function<void(std::chrono::nanoseconds)> on_step;
   std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1

@@ -31,6 +31,8 @@ enum class FaultKind {
   wheel_slip,      ///< the wheels turn farther than the floor goes by
   encoder_stuck,   ///< the left one
   kidnapping,      ///< somebody puts the robot elsewhere
+  disk_full,       ///< of what the drive leaves, nothing more is taken
+  disk_slow,       ///< each write takes so long
 };
 
 /// One thing that goes wrong for a while. Which of the values count depends on its kind.

@@ -45,6 +45,8 @@ constexpr std::array table{
     FaultRow{wheel_slip, "wheel_slip", of_travel},
     FaultRow{encoder_stuck, "encoder_stuck", {}},
     FaultRow{kidnapping, "kidnapping", carried, false, true},
+    FaultRow{disk_full, "disk_full", {}},
+    FaultRow{disk_slow, "disk_slow", delay},
 };
 
 }  // namespace

@@ -77,6 +77,7 @@ struct Simulation::World {
                   decoy_lamps(registry, active, seed_for(options.seed, lamps_stream)));
     faulty_camera.suffer(active);
     faulty_bus.suffer(active);
+    if (options.disk) options.disk->suffer(active);
     const auto slip = std::ranges::find(active, FaultKind::wheel_slip, &Fault::kind);
     motion.slip(slip != active.end() ? slip->left_share : 0.0,
                 slip != active.end() ? slip->right_share : 0.0);

@@ -11,6 +11,7 @@
 #include "drivers/scoring.hpp"
 #include "drivers/simulated_base.hpp"
 #include "drivers/simulated_camera_options.hpp"
+#include "drivers/simulated_disk.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
@@ -28,6 +29,7 @@ struct SimulationOptions {
   Duration scoring_period = std::chrono::milliseconds(20);  ///< between records of the true pose
   std::uint64_t seed = 1;
   std::vector<Fault> faults;
+  std::shared_ptr<SimulatedDisk> disk;  ///< of those who keep a record of the drive, if anybody does
 };
 
 /// The simulated world as a set of drivers: a camera and a CAN bus, moved along in simulated time. Nothing

@@ -47,6 +47,14 @@ bool blinds(const Fault& fault) {
   }
 }
 
+/// A mission leaves nothing on a disk.
+std::vector<FaultKind> kinds_of_faults() {
+  std::vector<FaultKind> kinds = all_fault_kinds();
+  std::erase_if(kinds,
+                [](FaultKind kind) { return kind == FaultKind::disk_full || kind == FaultKind::disk_slow; });
+  return kinds;
+}
+
 /// When a robot sees for the first time; nothing when it never does.
 std::optional<Duration> first_sight(std::vector<Fault> faults) {
   std::ranges::sort(faults, {}, &Fault::begin);
@@ -132,6 +140,8 @@ Fault random_fault(FaultKind kind, Random random) {
     case FaultKind::marker_wrong_id:
     case FaultKind::markers_swapped:
     case FaultKind::encoder_stuck:
+    case FaultKind::disk_full:
+    case FaultKind::disk_slow:
       break;
   }
   return fault;
@@ -141,7 +151,7 @@ Fault random_fault(FaultKind kind, Random random) {
 
 std::vector<Fault> random_faults(std::uint64_t seed) {
   Random random(seed);
-  const std::vector<FaultKind> kinds = all_fault_kinds();
+  const std::vector<FaultKind> kinds = kinds_of_faults();
   std::vector<Fault> faults(static_cast<std::size_t>(how_many(random)));
   std::uint64_t number = 1;
   for (Fault& fault : faults)

@@ -9,11 +9,12 @@
 namespace lodestar {
 
 KeptRuns::KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site,
-                   const std::string& camera)
+                   const std::string& camera, const RunMcapOptions& mcap)
     : first_(std::move(first)),
       replaces_first_(replaces_first),
       site_(site),
-      world_(known_world(site, camera)) {}
+      world_(known_world(site, camera)),
+      mcap_options_(mcap) {}
 
 KeptRuns::~KeptRuns() {
   if (writing_.valid()) writing_.wait();
@@ -36,7 +37,8 @@ const std::filesystem::path& KeptRuns::present_folder() {
 void KeptRuns::watch(const DriveMoment& moment) {
   if (mcap_refused_) return;
   try {
-    if (!mcap_) mcap_ = std::make_unique<RunMcap>(present_folder(), world_, site_.robot.radius_m);
+    if (!mcap_)
+      mcap_ = std::make_unique<RunMcap>(present_folder(), world_, site_.robot.radius_m, mcap_options_);
     mcap_->watch(moment);
   } catch (const InputError& error) {
     mcap_refused_ = true;
@@ -56,6 +58,7 @@ void KeptRuns::keep(RunRecord record) {
         if (mcap) mcap->add_truth(kept);
         if (mcap && !mcap->finish()) lost = "the disk did not take all of run.mcap";
         try {
+          if (mcap_options_.is_full && mcap_options_.is_full()) throw InputError("the disk is full");
           write_run_folder(folder, kept, site_.map.map, site_.registry);
         } catch (const InputError& error) {
           lost = error.what();

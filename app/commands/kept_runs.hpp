@@ -14,7 +14,8 @@ namespace lodestar {
 class KeptRuns {
  public:
   /// `replaces_first`: the first folder is written over when it is there; else it too gets a free name.
-  KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site, const std::string& camera);
+  KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site, const std::string& camera,
+           const RunMcapOptions& mcap = {});
   ~KeptRuns();
   KeptRuns(const KeptRuns&) = delete;
   KeptRuns& operator=(const KeptRuns&) = delete;
@@ -37,6 +38,7 @@ class KeptRuns {
   bool replaces_first_;
   const Site& site_;
   KnownWorld world_;
+  RunMcapOptions mcap_options_;
   std::unique_ptr<RunMcap> mcap_;                ///< of the present drive
   std::optional<std::filesystem::path> folder_;  ///< of the present drive, once it has one
   bool mcap_refused_ = false;

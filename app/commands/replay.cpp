@@ -61,6 +61,7 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
                         .planner = planner_kind(arguments.planner).value(),
                         .pose_keeping = std::nullopt,
                         .hardships = arguments.hardships,
+                        .disk = std::make_shared<SimulatedDisk>(),
                         .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                         .realtime = arguments.realtime};
   if (!arguments.faults.empty()) options.faults = faults_named(arguments.faults);
@@ -168,6 +169,10 @@ fs::path output_folder(const Site& site, const ReplayArguments& arguments) {
   return fs::path("runs") / fmt::format("{}-{}", site.name, arguments.seed);
 }
 
+RunMcapOptions run_mcap_options(const SimulatedDisk& disk) {
+  return {.is_full = [&disk] { return disk.full(); }, .delay = [&disk] { return disk.delay(); }};
+}
+
 ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArguments& arguments) {
   const fs::path folder = output_folder(site, arguments);
   RunRecord record;
@@ -175,14 +180,18 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
   {
     Progress progress("replay", arguments.quiet);
     options.progress = [&progress](double share) { progress.show(share); };
-    RunMcap mcap(folder, known_world(site, options.camera), site.robot.radius_m, {.can_wait = true});
+    RunMcapOptions mcap_options = run_mcap_options(*options.disk);
+    mcap_options.can_wait = true;
+    RunMcap mcap(folder, known_world(site, options.camera), site.robot.radius_m, mcap_options);
     options.watch = [&mcap](const DriveMoment& moment) { mcap.watch(moment); };
     record = replay(site, options);
     mcap.add_truth(record);
     streamed = mcap.finish();
   }
   record.repeat = repeat_command(arguments, options);
-  const bool written = leave_run_folder(folder, record, site.map.map, site.registry);
+  const bool written = !options.disk->full() && leave_run_folder(folder, record, site.map.map, site.registry);
+  if (options.disk->full())
+    fmt::print(stderr, "lodestar: warning: the run is not recorded: the disk is full\n");
   if (written && !streamed) fmt::print(stderr, "lodestar: warning: the disk did not take all of run.mcap\n");
   const RunSummary summary = summarize(record);
   if (arguments.json) {
@@ -207,7 +216,7 @@ ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArgu
   LiveLink link;
   ConsoleService service(console, &link);
   Attendant attendant(link, [](const std::string& words) { fmt::print(stderr, "{}\n", words); });
-  KeptRuns runs(folder, true, site, options.camera);
+  KeptRuns runs(folder, true, site, options.camera, run_mcap_options(*options.disk));
   options.watch = [&runs](const DriveMoment& moment) { runs.watch(moment); };
   bool all_arrived = true;
 

@@ -27,6 +27,10 @@ void RunMcap::add_truth(const RunRecord& record) {
 }
 
 void RunMcap::take(std::vector<Message> messages) {
+  if (options_.is_full && options_.is_full()) {
+    has_skipped_ = true;
+    return;
+  }
   std::size_t bytes = 0;
   for (const Message& message : messages) bytes += message.json.size();
   {
@@ -54,6 +58,7 @@ void RunMcap::work() {
       waiting_bytes_ = 0;
     }
     changed_.notify_all();
+    if (options_.delay) std::this_thread::sleep_for(options_.delay());
     for (const Message& message : messages) file_->write(message);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -18,6 +19,10 @@ struct RunMcapOptions {
   /// one; a drive that can wait does.
   std::size_t most_waiting_bytes = std::size_t{64} << 20U;
   bool can_wait = false;
+  /// How a disk fares that is known to be full or slow, as that of a simulated world; else the real one
+  /// tells.
+  std::function<bool()> is_full;
+  std::function<Duration()> delay;
 };
 
 /// Writes run.mcap into a run folder while the robot drives: open it in Foxglove, Lichtblick or any other

@@ -17,7 +17,7 @@ const std::set<std::string> face_of_the_hardware{
 const std::set<std::string> simulated_world{"drivers/fault.hpp",          "drivers/fault_file.hpp",
                                             "drivers/hosted_base.hpp",    "drivers/image_former.hpp",
                                             "drivers/printed_square.hpp", "drivers/scoring.hpp",
-                                            "drivers/simulation.hpp"};
+                                            "drivers/simulated_disk.hpp", "drivers/simulation.hpp"};
 const std::regex friends_of_the_judge{
     "app/(replay|hardships|campaign|run_|report|figure|bench|commands/base).*"};
 

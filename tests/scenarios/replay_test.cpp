@@ -14,6 +14,7 @@ namespace lodestar {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 
 Site lab() {
   return load_site(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab");
@@ -39,6 +40,35 @@ TEST(Replay, drives_from_s_to_e_and_back) {
     EXPECT_LT(run.worst_heading_rad, radians(3.0)) << "seed " << seed;
     EXPECT_LT(run.path_p95_m, 0.05) << "seed " << seed;
   }
+}
+
+/// Faults of the robot's disk from the first second on, for a second.
+std::string disk_fault(const std::string& kind) {
+  return "format: lodestar-faults\nversion: 1\nfaults:\n  - {fault: " + kind + ", at_s: 1, for_s: 1}\n";
+}
+
+TEST(Replay, drives_the_same_way_whatever_the_disk_does_and_says_what_it_lost) {
+  const ScratchFolder scratch;
+  write_text(scratch.path() / "full.yaml", disk_fault("disk_full"));
+  write_text(scratch.path() / "slow.yaml", disk_fault("disk_slow, delay_s: 0.3"));
+  const Vec2 ahead = lab().start * Vec2(0.6, 0.0);
+  const std::string command = "replay " LODESTAR_SOURCE_DIR "/sites/lab --goal " + std::to_string(ahead.x()) +
+                              "," + std::to_string(ahead.y());
+  EXPECT_EQ(run_lodestar(command + " -o usual", scratch.path()).exit_code, 0);
+  const Ran full = run_lodestar(command + " --faults full.yaml -o full", scratch.path());
+  const Ran slow = run_lodestar(command + " --faults slow.yaml -o slow", scratch.path());
+
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.err, HasSubstr("the disk did not take all of run.mcap"));
+  EXPECT_EQ(slow.exit_code, 0) << slow.err;
+  for (const char* name : {"estimate.tum", "truth.tum", "can.log"}) {
+    EXPECT_EQ(read_text(scratch.path() / "full" / name), read_text(scratch.path() / "usual" / name));
+    EXPECT_EQ(read_text(scratch.path() / "slow" / name), read_text(scratch.path() / "usual" / name));
+  }
+  EXPECT_EQ(read_text(scratch.path() / "slow/run.mcap").size(),
+            read_text(scratch.path() / "usual/run.mcap").size());
+  EXPECT_LT(read_text(scratch.path() / "full/run.mcap").size(),
+            read_text(scratch.path() / "usual/run.mcap").size());
 }
 
 TEST(Replay, writes_the_same_bytes_for_the_same_seed_and_others_for_another) {
