@@ -31,8 +31,10 @@ KnownWorld known_world(const Site& site, const std::string& camera) {
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
   options.fix.prior = pose_prior(robot);
-  // Dots as they are, not as computed: how well film is cut and glued and how evenly it shines, 0.055 mm, is
-  // 0.016 px of the paper's camera (755 px) 2.6 m below it.
+  // Assumed, not measured: film is cut and glued to some 0.05 mm, which 2.6 m below is 0.016 px of the
+  // paper's camera (755 px). Simulated ceilings have no such error, there fixes are trusted less than they
+  // deserve. On a real one the fixes' residual_px (run.mcap and the live viewers) show it: half their square
+  // is about this one's and that of the frame's noise, some 0.01 px, together.
   options.fix.model_sigma_px = 0.016;
   options.filter.track_width_m = robot.track_width_m;
   options.filter.fix_sigma_floor_m = robot.shared_fix_sigma_m.value_or(options.filter.fix_sigma_floor_m);

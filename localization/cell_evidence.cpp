@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <numbers>
 #include <optional>
+
+#include "localization/disc_light.hpp"
 
 namespace lodestar {
 namespace {
@@ -14,20 +16,6 @@ double mean_of(std::span<const Dot> dots, double Dot::* value) {
   return sum / static_cast<double>(dots.size());
 }
 
-/// Mean of the 3 x 3 pixels about a place; nothing when a dot there would not lie wholly in the frame.
-std::optional<double> gray_about(const cv::Mat& gray, const Vec2& center_px, double radius_px) {
-  const auto u = static_cast<int>(std::lround(center_px.x()));
-  const auto v = static_cast<int>(std::lround(center_px.y()));
-  const int reach = std::max(static_cast<int>(std::ceil(radius_px)), 1);
-  if (u < reach || v < reach || u + reach >= gray.cols || v + reach >= gray.rows) return std::nullopt;
-  int sum = 0;
-  for (int j = v - 1; j <= v + 1; ++j) {
-    const auto* row = gray.ptr<std::uint8_t>(j);
-    sum += row[u - 1] + row[u] + row[u + 1];
-  }
-  return sum / 9.0;
-}
-
 }  // namespace
 
 CellEvidence look_at_cells(const cv::Mat& gray, const MarkerGrid& grid, std::span<const MarkerDot> in_cells,
@@ -35,19 +23,40 @@ CellEvidence look_at_cells(const cv::Mat& gray, const MarkerGrid& grid, std::spa
   const double radius_px = mean_of(dots, &Dot::radius_px);
   const double background = mean_of(dots, &Dot::background_gray);
   const double contrast = mean_of(dots, &Dot::contrast_gray);
+  const double light_of_a_dot = std::numbers::pi * radius_px * radius_px * contrast;
   const double slope = options.sure / (options.unsure_contrast - options.dark_contrast);
+  const double unsure = options.unsure_contrast + options.small_dot_contrast_px2 / (radius_px * radius_px);
   CellEvidence cells;
   for (int row = 0; row < marker_grid_size; ++row) {
     for (int column = 0; column < marker_grid_size; ++column) {
-      const std::optional<double> seen = gray_about(gray, grid.center_px({row, column}), radius_px);
+      const std::optional<DiscLight> seen =
+          light_in_disc(gray, grid.center_px({row, column}), radius_px, background);
       if (!seen) continue;
       // Darker than the film is as strange as brighter: something hangs before it.
-      const double share = std::abs(*seen - background) / contrast;
-      cells.at({row, column}) = std::clamp((share - options.unsure_contrast) * slope, -options.sure, 0.0);
+      const double share = std::abs(seen->mass) / light_of_a_dot;
+      cells.at({row, column}) = std::clamp((share - unsure) * slope, -options.sure, 0.0);
     }
   }
   for (const MarkerDot& dot : in_cells) cells.at(dot.cell) = options.sure;
   return cells;
+}
+
+std::size_t dots_within(const MarkerGrid& grid, std::span<const Dot> dots) {
+  constexpr double reach_pitches = 2.3;  // its corners are 2.12 away
+  const Vec2 middle = 0.5 * (grid.center_px(cell_of_x) + grid.center_px(cell_of_y));
+  const double reach_px = reach_pitches * grid.pitch_px();
+  return static_cast<std::size_t>(std::ranges::count_if(
+      dots, [&](const Dot& dot) { return (dot.center_px - middle).squaredNorm() < reach_px * reach_px; }));
+}
+
+bool shows_a_cover(const MarkerGrid& grid, std::span<const Dot> dots, std::span<const Dot> of_frame,
+                   const CellEvidenceOptions& options) {
+  InlineVector<double, MarkerDots::capacity> radii;
+  for (const Dot& dot : dots) radii.push_back(dot.radius_px);
+  std::ranges::sort(radii);
+  const double usual_px = *(radii.begin() + radii.size() / 2);
+  return *radii.begin() < options.whole_dot * usual_px - options.whole_dot_tolerance_px2 / usual_px ||
+         dots_within(grid, of_frame) > dots.size();
 }
 
 }  // namespace lodestar

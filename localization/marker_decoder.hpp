@@ -32,7 +32,7 @@ struct MarkerDecoderOptions {
   /// by half, and by more than few are allowed; five such dots fit no grid.
   double growth_px = 0.8;
   double growth_of_few_px = 0.35;
-  double guard_pitches = 1.0;  ///< about a marker that shares its area with others, so much must be clear
+  double guard_pitches = 2.0;  ///< about a marker that shares its area with others, so much must be clear
   std::size_t least_dots_in_a_crowd = 5;  ///< and so many dots agree: three always fit some grid
   std::size_t most_dots = 48;             ///< an area with more holds no markers
 };

@@ -52,16 +52,17 @@ void sort_by_distance_to_center(std::vector<DetectedMarker>& markers, const cv::
                     [&](const DetectedMarker& marker) { return (marker.center_px - center).squaredNorm(); });
 }
 
-/// A dot of another size is a glint or a lamp.
-DotsOfArea dots_of_usual_size(std::span<const Dot> dots) {
-  constexpr double most_ratio = 1.3;
+/// A dot of another size is a glint, a lamp, or covered in part.
+DotsOfArea dots_of_usual_size(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
   InlineVector<double, DotsOfArea::capacity> radii;
   for (const Dot& dot : dots) radii.push_back(dot.radius_px);
   auto* const middle = radii.begin() + radii.size() / 2;
   std::nth_element(radii.begin(), middle, radii.end());
+  const double usual_px = *middle;
+  const double tolerance_px = options.alike_tolerance * usual_px + options.alike_tolerance_px2 / usual_px;
   DotsOfArea result;
   for (const Dot& dot : dots) {
-    if (dot.radius_px < most_ratio * *middle && *middle < most_ratio * dot.radius_px) result.push_back(dot);
+    if (std::abs(dot.radius_px - usual_px) <= tolerance_px) result.push_back(dot);
   }
   return result;
 }
@@ -126,11 +127,8 @@ void for_each_square(const DotLattice& lattice, std::span<const Dot> dots, const
 
 /// Of the dots beside the lattice, those that lie within the marker or right beside it.
 std::size_t strangers_in(const Square& square, std::span<const Dot> dots) {
-  const double reach_px = 3.0 * square.grid.pitch_px();
-  const Vec2 middle = 0.5 * (square.grid.center_px(cell_of_x) + square.grid.center_px(cell_of_y));
-  const auto near =
-      std::ranges::count_if(dots, [&](const Dot& dot) { return (dot.center_px - middle).norm() < reach_px; });
-  return static_cast<std::size_t>(near) - std::min(static_cast<std::size_t>(near), square.dots.size());
+  const std::size_t near = dots_within(square.grid, dots);
+  return near - std::min(near, square.dots.size());
 }
 
 /// A marker's ID and how it hangs in a square.
@@ -144,11 +142,9 @@ struct Hanging {
 /// balanced by dots that speak for it.
 bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& decoder,
                 const LatticeOptions& options) {
-  constexpr double contradiction = 1.0;
-  const bool contradicted = marker.id.cost > contradiction;
   const std::size_t dots = marker.square.dots.size();
-  return decoder.accepts(marker.id.id) && marker.id.cost <= options.most_contradiction &&
-         4 * strangers <= dots && (!contradicted || dots >= options.least_dots_contradicted);
+  return decoder.accepts(marker.id.id) && marker.id.contradicting <= options.most_contradicting &&
+         4 * strangers <= dots && (marker.id.contradicting == 0 || dots >= options.least_dots_contradicted);
 }
 
 constexpr int pixels_at_once = 16;
@@ -235,34 +231,37 @@ std::span<const DetectedMarker> MarkerDetector::read(const cv::Mat& gray, std::s
   const std::size_t areas = area_finder_.find(dots);
   for (std::size_t i = 0; i < areas; ++i) {
     const std::span<const Dot> area = area_finder_.dots_of(i);
-    if (area.size() >= 3) append_markers_of_area(gray, area);
+    if (area.size() >= 3) append_markers_of_area(gray, area, dots);
   }
   sort_by_distance_to_center(markers_, gray.size());
   return markers_;
 }
 
-void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots) {
+void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots,
+                                            std::span<const Dot> of_frame) {
   const std::span<const MarkerReading> readings = area_reader_.read(dots);
   for (const MarkerReading& reading : readings) {
     const DotsOfMarker own = dots_at(dots, reading.indices);
     const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
-    const IdReading id = id_decoder_.read(cells);
+    const bool cover_shows = shows_a_cover(reading.grid, own, of_frame, options_.evidence);
+    const IdReading id = id_decoder_.read(cells, cover_shows);
     const double probability = id.weight / id.all_weight;
     if (probability < options_.least_probability || cells.undecided() > options_.most_undecided ||
-        !id_decoder_.accepts(id.id)) {
+        id.contradicting > 0 || !id_decoder_.accepts(id.id)) {
       continue;
     }
     markers_.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
                                 [&](GridCell cell) { return reading.grid.center_px(cell); }));
   }
   if (readings.empty() && options_.lattice_search && id_decoder_.knows_ids())
-    append_marker_of_lattice(gray, dots);
+    append_marker_of_lattice(gray, dots, of_frame);
 }
 
 /// Every way that a marker may hang on the lattice is weighed against all others.
-void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots) {
+void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots,
+                                              std::span<const Dot> of_frame) {
   if (dots.size() > DotsOfArea::capacity) return;
-  const DotsOfArea usual = dots_of_usual_size(dots);
+  const DotsOfArea usual = dots_of_usual_size(dots, options_.decoder);
   const std::optional<DotLattice> lattice = find_lattice(usual, options_.lattice);
   if (!lattice) return;
   std::optional<Hanging> best;
@@ -271,9 +270,10 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<con
   for_each_square(*lattice, usual, [&](const Square& square) {
     const CellEvidence cells =
         look_at_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
+    const bool cover_shows = shows_a_cover(square.grid, square.measured, of_frame, options_.evidence);
     is_decided = is_decided && cells.undecided() <= options_.most_undecided;
     for (int turn = 0; turn < quarter_turns; ++turn) {
-      const IdReading id = id_decoder_.read(evidence_turned(cells, turn));
+      const IdReading id = id_decoder_.read(evidence_turned(cells, turn), cover_shows);
       all_weight += id.all_weight;
       if (!best || id.weight > best->id.weight) best = Hanging{square, turn, id};
     }

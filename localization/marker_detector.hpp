@@ -59,8 +59,9 @@ class MarkerDetector {
 
  private:
   std::span<const DetectedMarker> read(const cv::Mat& gray, std::span<const Dot> dots);
-  void append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots);
-  void append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots);
+  void append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots, std::span<const Dot> of_frame);
+  void append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots,
+                                std::span<const Dot> of_frame);
   [[nodiscard]] double confidence_of(const cv::Mat& gray, std::span<const Dot> dots) const;
 
   DetectorOptions options_;

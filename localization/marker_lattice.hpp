@@ -27,10 +27,10 @@ struct LatticeOptions {
   double size_tolerance = 0.25;   ///< how near 4 radii must be to a pitch, foreshortened or not
   double first_tolerance = 0.28;  ///< how far a dot may be from its place, in pitches, on the square lattice
   double tolerance = 0.12;        ///< and on the fitted one
-  /// Of the ID read from it. With registered IDs one sure cell, as when a direction dot is covered, may
-  /// contradict the reading (in log odds), but then so many dots must support it.
-  double least_probability = 0.999;
-  double most_contradiction = 13.0;
+  /// Of the ID read from it. One sure cell, as when a direction dot is covered, may contradict the reading,
+  /// but then so many dots must support it.
+  double least_probability = 0.99;
+  int most_contradicting = 1;
   std::size_t least_dots_contradicted = 7;
   double least_cosine = 0.88;  ///< of the tilt: a lattice that is more oblong is none
 };

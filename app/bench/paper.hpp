@@ -16,11 +16,12 @@ struct BenchPaperOptions {
   std::optional<PosePrior> prior;  ///< instead of that one
 };
 
-/// Table 1: trials (the paper's are 200) with 100 different IDs, varied angle, light and number of markers.
+/// Table 1: trials (the paper's are 200) with 100 different IDs, which are registered, varied angle, light
+/// and number of markers.
 struct IdentificationResult {
   int trials = 0;
   int correct = 0;  ///< the optimal marker was found and its ID was right
-  int wrong = 0;    ///< an ID was given, but not the right one
+  int wrong = 0;    ///< an ID was read that does not hang there
   double mean_ms = 0.0;
 };
 

@@ -203,7 +203,7 @@ TEST(MarkerDecoder, of_too_few_dots_or_too_many_reads_nothing) {
   EXPECT_THAT(read_area(std::vector<Dot>(100, dot_seen(view, cell_of_o))), testing::IsEmpty());
 }
 
-// Middles 22 cm apart: the nearest dots of the two may be less than 3 pitches from each other.
+// Middles 25 cm apart: the nearest dots of the two may be 2 pitches from each other.
 TEST(MarkerDecoder, reads_two_markers_that_dilation_joined) {
   Random random(12);
   int read = 0;
@@ -213,7 +213,7 @@ TEST(MarkerDecoder, reads_two_markers_that_dilation_joined) {
     left.middle_px = {250.0, 240.0};
     MarkerView right = left;
     right.turn_rad = radians(random.uniform(0.0, 360.0));
-    right.middle_px.x() += 0.22 * camera.fx_px / left.depth_m;
+    right.middle_px.x() += 0.25 * camera.fx_px / left.depth_m;
     const std::array<int, 2> truth{static_cast<int>(random.below(marker_id_count)),
                                    static_cast<int>(random.below(marker_id_count))};
     std::vector<Dot> dots = dots_seen(left, dots_of(truth[0]), random);
