@@ -201,6 +201,7 @@ HttpResponse Console::save_markers(const HttpRequest& request) const {
     if (text != before) {
       history_.keep(before);
       write_file_atomically(registry_file_, text);
+      if (tell_saved_) tell_saved_(after);
     }
   } catch (const InputError& error) {
     return refusal(422, error.what());

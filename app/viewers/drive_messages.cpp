@@ -189,8 +189,6 @@ std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
   }
   if (moment.step.event == MissionEvent::path_planned)
     messages.push_back(planned_message(now, moment.mission.path()));
-  if (moment.picture != nullptr)
-    messages.push_back(camera_message(moment.picture->stamp, moment.picture->jpeg));
   return messages;
 }
 

@@ -58,7 +58,7 @@ class DriveMessages {
  public:
   DriveMessages(const KnownWorld& world, double robot_radius_m);
 
-  /// What there is to say of this moment; of the first one also all that does not change.
+  /// What there is to say of this moment but for its picture; of the first one also all that does not change.
   std::vector<Message> of(const DriveMoment& moment);
 
  private:

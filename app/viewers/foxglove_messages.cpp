@@ -153,7 +153,10 @@ Json markers_message(Stamp stamp, const MarkerRegistry& registry, const std::vec
     const bool is_bad = std::ranges::find(distrusted, marker.id) != distrusted.end();
     entities.push_back(marker_entity(stamp, registry, marker, is_bad));
   }
-  return scene_json(std::move(entities));
+  Json scene = scene_json(std::move(entities));
+  constexpr int all = 1;
+  scene["deletions"].push_back({{"timestamp", time_json(stamp)}, {"type", all}, {"id", ""}});
+  return scene;
 }
 
 Json robot_message(const PoseEstimate& estimate, double radius_m) {

@@ -23,7 +23,7 @@ MessageJson transform_message(Stamp stamp, const char* parent, const char* child
 MessageJson pose_message(Stamp stamp, const Eigen::Isometry3d& map_from_base);
 MessageJson path_message(Stamp stamp, const Path& path);
 MessageJson grid_message(Stamp stamp, const OccupancyMap& map);
-/// A plate and its ID for each marker; `distrusted` ones in red.
+/// A plate and its ID for each marker, in place of all that were there before; `distrusted` ones in red.
 MessageJson markers_message(Stamp stamp, const MarkerRegistry& registry, const std::vector<int>& distrusted);
 /// The footprint, and the ellipse of three standard deviations about the estimated place.
 MessageJson robot_message(const PoseEstimate& estimate, double radius_m);

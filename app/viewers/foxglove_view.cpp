@@ -15,7 +15,14 @@ FoxgloveView::FoxgloveView(const Site& site)
 }
 
 void FoxgloveView::pump(Stamp /*now*/, const RobotState* fresh) {
-  if (fresh != nullptr && hub_.has_viewers()) show(*fresh);
+  if (fresh == nullptr) return;
+  now_ = fresh->now;
+  if (hub_.has_viewers()) show(*fresh);
+}
+
+void FoxgloveView::take_markers(const MarkerRegistry& saved) {
+  registry_ = saved;
+  hub_.publish(ceiling_message(now_, registry_, distrusted_));
 }
 
 void FoxgloveView::show(const RobotState& state) {

@@ -17,6 +17,7 @@ class FoxgloveView : public LiveChannel {
   [[nodiscard]] std::vector<SocketProtocol> protocols() override { return hub_.protocols(); }
   [[nodiscard]] bool is_watched() const override { return hub_.has_viewers(); }
   void pump(Stamp now, const RobotState* fresh) override;
+  void take_markers(const MarkerRegistry& saved) override;
 
  private:
   void show(const RobotState& state);
@@ -27,6 +28,7 @@ class FoxgloveView : public LiveChannel {
   std::shared_ptr<const Path> path_;
   std::vector<int> distrusted_;
   std::uint64_t last_event_ = 0;
+  Stamp now_;  ///< of the newest state
 };
 
 }  // namespace lodestar

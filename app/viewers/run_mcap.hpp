@@ -42,15 +42,22 @@ class RunMcap {
   [[nodiscard]] bool finish();
 
  private:
-  void take(std::vector<Message> messages);
+  /// What is to be written next. A picture may still be in the making.
+  struct Portion {
+    std::vector<Message> messages;
+    std::optional<KeptPicture> picture;
+  };
+
+  void take(Portion portion);
   void work();
+  void write(const Portion& portion);
 
   RunMcapOptions options_;
   DriveMessages messages_;
   std::unique_ptr<McapFile> file_;  ///< the writer's alone while it works
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Message> waiting_;
+  std::vector<Portion> waiting_;
   std::size_t waiting_bytes_ = 0;
   bool has_skipped_ = false;
   bool ends_ = false;

@@ -90,6 +90,31 @@ describe('Foxglove', () => {
     });
   }
 
+  test('who looks at the markers sees them as they have just been saved, and those who come later too', async () => {
+    const early = await connect(server.url, 'foxglove.sdk.v1');
+    const names = (scene) => scene.entities.map((e) => e.id);
+    const xOf = (scene, id) => scene.entities.find((e) => e.id === `marker ${id}`).cubes[0].pose.position.x;
+    const before = await early.hear('/markers');
+    const saved = within(event(early.client, 'message'));
+    const api = `${server.url}api/markers`;
+    const read = await fetch(api);
+    const registry = await read.json();
+    const [gone, moved] = registry.markers;
+    const markers = registry.markers.slice(1).map((m) => m.id === moved.id ? { ...m, x_m: m.x_m + 0.5 } : m);
+    const answer = await fetch(api, { method: 'PUT', body: JSON.stringify({ ...registry, markers }),
+      headers: { 'If-Match': read.headers.get('ETag'), 'X-Lodestar': '1', 'Content-Type': 'application/json' } });
+    assert.equal(answer.status, 200);
+    const after = JSON.parse(new TextDecoder().decode((await saved).data));
+    assert.deepEqual(complaints(officialSchema('foxglove.SceneUpdate'), after), []);
+    assert.deepEqual(after.deletions.map((d) => d.type), [1]);  // all that were shown, the one that is gone among them
+    assert.deepEqual(names(after), names(before).filter((name) => name !== `marker ${gone.id}`));
+    assert.ok(Math.abs(xOf(after, moved.id) - xOf(before, moved.id) - 0.5) < 1e-5);
+    const late = await connect(server.url, 'foxglove.websocket.v1');
+    assert.deepEqual(await late.hear('/markers'), after);
+    early.client.close();
+    late.client.close();
+  });
+
   test('an app may offer both names at once', async () => {
     const socket = new WebSocket(server.url.replace('http', 'ws'), ['foxglove.websocket.v1', 'foxglove.sdk.v1']);
     await within(event(socket, 'open'));
