@@ -36,7 +36,7 @@ const std::filesystem::path& KeptRuns::present_folder() {
 void KeptRuns::watch(const DriveMoment& moment) {
   if (mcap_refused_) return;
   try {
-    if (!mcap_) mcap_ = std::make_unique<RunMcap>(present_folder(), world_, site_.robot.radius_m);
+    if (!mcap_) mcap_ = std::make_unique<RunMcap>(present_folder(), world_, body_of(site_.robot));
     mcap_->watch(moment);
   } catch (const InputError& error) {
     mcap_refused_ = true;

@@ -174,7 +174,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
   {
     Progress progress("replay", arguments.quiet);
     options.progress = [&progress](double share) { progress.show(share); };
-    RunMcap mcap(folder, known_world(site, options.camera), site.robot.radius_m, {.can_wait = true});
+    RunMcap mcap(folder, known_world(site, options.camera), body_of(site.robot), {.can_wait = true});
     options.watch = [&mcap](const DriveMoment& moment) { mcap.watch(moment); };
     record = replay(site, options);
     mcap.add_truth(record);

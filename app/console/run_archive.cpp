@@ -23,13 +23,14 @@ bool is_run(const fs::directory_entry& entry) {
          fs::is_regular_file(entry.path() / "estimate.tum");
 }
 
-/// Names of a run's pictures, in the order of their stamps.
+/// Names of a run's pictures, in the order of their stamps. What is larger than any camera's is none.
 std::vector<std::string> pictures_in(const fs::path& folder) {
+  constexpr std::uintmax_t most_bytes = 4U << 20U;
   std::vector<std::string> names;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "pictures", none)) {
-    const bool is_picture =
-        !entry.is_symlink() && entry.is_regular_file() && entry.path().extension() == ".jpg";
+    const bool is_picture = !entry.is_symlink() && entry.is_regular_file() &&
+                            entry.path().extension() == ".jpg" && entry.file_size(none) <= most_bytes;
     if (is_picture) names.push_back(entry.path().filename().string());
   }
   std::ranges::sort(names, {}, [](const std::string& name) { return std::strtod(name.c_str(), nullptr); });

@@ -7,9 +7,7 @@
 namespace lodestar {
 
 FoxgloveView::FoxgloveView(const Site& site)
-    : registry_(site.registry),
-      robot_radius_m_(site.robot.radius_m),
-      hub_("Lodestar: " + site.name, drive_channels()) {
+    : registry_(site.registry), body_(body_of(site.robot)), hub_("Lodestar: " + site.name, drive_channels()) {
   for (const Message& message : scene_messages(known_world(site, site.default_camera), Stamp()))
     hub_.publish(message);
 }
@@ -36,7 +34,7 @@ void FoxgloveView::show(const RobotState& state) {
                                .base = state.base,
                                .fault = state.fault,
                                .stop = state.stop},
-                              robot_radius_m_));
+                              body_));
     if (state.error_m) publish({error_message(*state.estimate, *state.error_m)});
   }
   if (state.path && state.path != path_) publish({planned_message(state.now, *state.path)});

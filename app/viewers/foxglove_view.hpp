@@ -5,6 +5,7 @@
 #include "app/console/live_channel.hpp"
 #include "app/site.hpp"
 #include "app/viewers/foxglove_hub.hpp"
+#include "app/viewers/foxglove_messages.hpp"
 
 namespace lodestar {
 
@@ -23,7 +24,7 @@ class FoxgloveView : public LiveChannel {
   void show(const RobotState& state);
 
   MarkerRegistry registry_;
-  double robot_radius_m_;
+  RobotBody body_;
   FoxgloveHub hub_;
   std::shared_ptr<const Path> path_;
   std::vector<int> distrusted_;

@@ -6,9 +6,9 @@
 
 namespace lodestar {
 
-RunMcap::RunMcap(const std::filesystem::path& folder, const KnownWorld& world, double robot_radius_m,
+RunMcap::RunMcap(const std::filesystem::path& folder, const KnownWorld& world, RobotBody body,
                  const RunMcapOptions& options)
-    : options_(options), messages_(world, robot_radius_m) {
+    : options_(options), messages_(world, std::move(body)) {
   make_run_folder(folder);
   file_ = std::make_unique<McapFile>(folder / "run.mcap", drive_channels());
   writer_ = std::thread([this] { work(); });

@@ -26,7 +26,7 @@ struct RunMcapOptions {
 class RunMcap {
  public:
   /// Makes the folder. Throws InputError when that or the file cannot be made.
-  RunMcap(const std::filesystem::path& folder, const KnownWorld& world, double robot_radius_m,
+  RunMcap(const std::filesystem::path& folder, const KnownWorld& world, RobotBody body,
           const RunMcapOptions& options = {});
   RunMcap(const RunMcap&) = delete;
   RunMcap& operator=(const RunMcap&) = delete;

@@ -5,6 +5,7 @@ import { button, byId, el } from './dom.js';
 import { DrivePlots } from './plots.js';
 import { poseAt } from './poses.js';
 import { drawRobot, drawWay, inkNow } from './robot_paint.js';
+import type { RobotShape } from './robot_paint.js';
 import { columnsOf, lastNotAfter } from './run_plots.js';
 import { showSummary } from './run_summary.js';
 import type { Stage } from './stage.js';
@@ -28,7 +29,7 @@ export class Replay {
   private readonly noPicture = el('p', { class: 'faint' }, 'No pictures: lodestar replay --pictures 2 keeps two a second');
   private readonly picture = el('img', { id: 'replay-picture', alt: 'Camera picture of that time', hidden: '' });
 
-  constructor(private readonly stage: Stage, private readonly robotRadiusM: number, private readonly fail: (error: unknown) => void) {
+  constructor(private readonly stage: Stage, private readonly robot: RobotShape, private readonly fail: (error: unknown) => void) {
     byId('replay').append(this.runs, this.play, this.slider, this.speed, this.words,
       button('Close', 'Leave the replay', () => this.onClose()));
     byId('picture-box').append(this.picture, this.noPicture);
@@ -135,6 +136,6 @@ export class Replay {
     drawWay(c, view, points(this.run.truth), colours.truth, 1.5, [4, 4]);
     drawWay(c, view, points(this.run.estimate), colours.track, 2);
     const pose = poseAt(this.run.estimate, this.time);
-    if (pose) drawRobot(c, view, { x: pose[1], y: pose[2], yawDeg: pose[3] }, this.robotRadiusM, colours.robot);
+    if (pose) drawRobot(c, view, { x: pose[1], y: pose[2], yawDeg: pose[3] }, this.robot, colours.robot);
   }
 }

@@ -19,7 +19,7 @@ before(async () => {
 });
 after(async () => {
   await browser?.close();
-  server?.stop();
+  await server?.stop();
 });
 
 /** Runs a story on a fresh page over the lab as it is, and looks that the page had no complaints. */
@@ -288,7 +288,7 @@ describe('seeing', () => {
       const { console: c } = window.lodestar;
       const markers = [];
       for (let i = 0; i < 10_000; ++i) markers.push({ id: i % 4096, x_m: 0.15 * (i % 100), y_m: 0.07 * Math.floor(i / 100), z_m: 2.6, yaw_deg: i % 360 });
-      c.check = () => {};
+      c.check = async () => {};
       c.editor.onChange = () => {};
       c.editor.load({ alignment: { x_m: 0, y_m: 0, yaw_deg: 0 }, markers });
       const times = [];
@@ -346,7 +346,7 @@ describe('with strangers', () => {
     assert.deepEqual(results, ['refused', 'refused', 'refused']);
     assert.equal(server.markersFile(), before);
     await page.context().close();
-    stranger.stop();
+    await stranger.stop();
   });
 
   test('a console with a token opens by the link and by nothing else', async () => {
@@ -362,6 +362,6 @@ describe('with strangers', () => {
     assert.equal(new URL(page.url()).hash, '');
     assert.equal(await page.evaluate(() => document.cookie), '');
     await context.close();
-    guarded.stop();
+    await guarded.stop();
   });
 });

@@ -1,7 +1,7 @@
 // The console's port as Foxglove's own client sees it.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { packages, serve, serveRobot } from './programs.mjs';
+import { labCopy, packages, serve, serveRobot, serveRobotAt, withOutline } from './programs.mjs';
 import { complaints, officialSchema } from './schemas.mjs';
 
 const { FoxgloveClient } = packages('@foxglove/ws-protocol');
@@ -55,6 +55,18 @@ describe('Foxglove and a robot that drives', () => {
     await new Promise((done) => setTimeout(done, 400));
     assert.equal(times.length, after, `${before}`);
     client.close();
+  });
+
+  test('a robot with an outline is shown as one', async () => {
+    const long = await serveRobotAt(withOutline(labCopy()));
+    const { client, hear } = await connect(long.url, 'foxglove.sdk.v1');
+    const scene = await hear('/robot');
+    assert.deepEqual(complaints(officialSchema('foxglove.SceneUpdate'), scene), []);
+    const body = scene.entities.find((e) => e.id === 'robot');
+    assert.equal(body.cylinders.length, 0);
+    assert.deepEqual(body.lines[0].points.map((p) => [p.x, p.y]), [[-0.3, -0.15], [0.4, -0.15], [0.4, 0.15], [-0.3, 0.15]]);
+    client.close();
+    await long.stop();
   });
 
   test('a viewer that never reads stops nobody', async () => {
