@@ -89,12 +89,16 @@ ordered_json numbers_json(const std::string& csv, const fs::path& file, std::siz
 }
 
 std::vector<std::string> RunArchive::names() const {
-  std::vector<std::string> names;
+  std::vector<std::pair<fs::file_time_type, std::string>> runs;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, none)) {
-    if (is_run(entry)) names.push_back(entry.path().filename().string());
+    if (is_run(entry))
+      runs.emplace_back(fs::last_write_time(entry.path() / "summary.json", none),
+                        entry.path().filename().string());
   }
-  std::ranges::sort(names);
+  std::ranges::sort(runs);
+  std::vector<std::string> names;
+  for (auto& [written, name] : runs) names.push_back(std::move(name));
   return names;
 }
 

@@ -18,7 +18,7 @@ const legends: Record<FloorColour, [string, string][]> = {
 };
 
 const lineKeys: Record<string, [keyof Ink, string][]> = {
-  live: [['path', 'planned'], ['preview', 'would be driven'], ['track', 'driven'], ['truth', 'markers in view'], ['goal', 'goal, and 3σ of the pose']],
+  live: [['path', 'planned'], ['preview', 'preview'], ['track', 'driven'], ['truth', 'markers in view'], ['goal', 'goal, 3σ of the pose']],
   replay: [['track', 'by the estimate'], ['truth', 'by the truth of a simulation']],
 };
 
@@ -56,7 +56,7 @@ export class Layers {
       swatch.style.background = colours[kind];
       return [swatch, words];
     });
-    byId('legend').replaceChildren('From above, as through the ceiling.', ...lines,
+    byId('legend').replaceChildren(lines.length === 0 ? 'From above, as through the ceiling.' : '', ...lines,
       ...legends[this.floor].flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words]));
   }
 }

@@ -10,12 +10,16 @@ import { columnsOf, lastNotAfter } from './run_plots.js';
 import { showSummary } from './run_summary.js';
 import type { Stage } from './stage.js';
 
+const lookEveryMs = 2000;
 const speeds = ['0.2', '1', '2', '5', '10', '50'];
 
 export class Replay {
   time = 0;
   run: Run | null = null;
   onClose: () => void = () => {};
+  private opened = false;
+  private watching = 0;
+  private listed = '';
   private playing = false;
   private lastFrame = 0;
   private plots: DrivePlots | null = null;
@@ -40,19 +44,32 @@ export class Replay {
     stage.painters.push((c) => this.paint(c));
   }
 
-  /** Shows the bar with the latest run, or says that there is none. */
+  /** Shows the bar with the latest run, or says that there is none; those that come later are added. */
   async open(): Promise<string> {
+    this.opened = true;
+    clearInterval(this.watching);
+    this.watching = setInterval(() => { this.look().catch(this.fail); }, lookEveryMs);
+    await this.look();
+    return this.run ? '' : 'No run folders yet: replay -o and the drives of this console leave them below --runs FOLDER';
+  }
+
+  private async look(): Promise<void> {
     const names = await getRuns();
-    if (names.length === 0) return 'No run folders: start the server with --runs FOLDER, as replay -o leaves them';
+    if (!this.opened || names.length === 0 || names.join() === this.listed) return;
+    this.listed = names.join();
+    const chosen = this.run?.name ?? names.at(-1)!;
     this.runs.replaceChildren(...names.map((name) => el('option', { value: name }, name)));
-    this.runs.value = names.at(-1)!;
+    this.runs.value = chosen;
+    if (this.run) return;
     byId('replay').hidden = byId('replay-plots').hidden = false;
     this.plots ??= new DrivePlots(byId('replay-plots'), (time) => this.goTo(time));
-    await this.load(this.runs.value);
-    return '';
+    await this.load(chosen);
   }
 
   leave(): void {
+    this.opened = false;
+    clearInterval(this.watching);
+    this.listed = '';
     this.run = null;
     this.playing = false;
     byId('replay').hidden = byId('replay-plots').hidden = true;

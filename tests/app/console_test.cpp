@@ -213,6 +213,9 @@ TEST_F(ConsoleTest, shows_run_folders_and_nothing_beside_them) {
   fs::create_directories(folder_ / "runs" / "empty");
 
   EXPECT_EQ(json::parse(get("/api/runs").body), json({"seed 7"}));
+  fs::copy(run, folder_ / "runs" / "seed 10", fs::copy_options::recursive);
+  fs::last_write_time(run / "summary.json", fs::file_time_type::clock::now() - std::chrono::hours(1));
+  EXPECT_EQ(json::parse(get("/api/runs").body), json({"seed 7", "seed 10"})) << "the newest last";
   const json read = json::parse(get("/api/runs/seed%207").body);
   EXPECT_EQ(read["summary"]["seed"], 7);
   EXPECT_EQ(read["estimate"], json::parse("[[0.5, 1.0, 2.0, 0.0], [1.0, 1.5, 2.0, 90.0]]"));

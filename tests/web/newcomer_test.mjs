@@ -123,6 +123,9 @@ test('a newcomer hangs fifteen markers, prints them, drives by them, and looks a
   const time = page.getByLabel('Time', { exact: true });
   await look(page, 'runs');
   await time.waitFor();
+  await page.getByRole('option', { name: 'run-2' }).waitFor({ state: 'attached' });
+  await page.getByRole('combobox', { name: 'Run', exact: true }).selectOption('run-2');
+  await page.getByText(/2\.30, 4\.90 m: reached/).waitFor();
   const end = Number(await time.getAttribute('max'));
   assert.ok(end > 1, `${end}`);
   await time.fill((end / 2).toFixed(2));
