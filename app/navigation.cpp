@@ -18,13 +18,6 @@ constexpr std::array margins_m{0.10, 0.06, 0.03, 0.02, 0.01};
 /// A lost one keeps a little more to the middle.
 constexpr std::array margins_on_retreat_m{0.12, 0.10, 0.06, 0.03, 0.02, 0.01};
 
-/// The room that an unsure robot keeps on all sides. A centimetre is usual, and paths have room for it.
-double room_for_doubt_m(const PoseEstimate& estimate) {
-  constexpr double usual_sigma_m = 0.01;
-  constexpr double sigmas = 3.0;
-  return sigmas * std::max(larger_sigma_m(estimate.covariance) - usual_sigma_m, 0.0);
-}
-
 /// Tried on a copy.
 bool can_go_back(Retreat places) {
   return places.begin().has_value();
@@ -82,6 +75,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
   if (has_agreed && step.estimate) {
     motion.places.saw_marker_at(step.estimate->map_from_base.position_m);
     motion.is_lost = false;
+    if (motion.retreat) motion.retreat->cancel();
   }
   step.command = move(motion, at, step);
 
@@ -133,14 +127,14 @@ BodyVelocity Navigation::follow(Motion& motion, const Situation& at, NavigationS
   if (!motion.drive) return {};
   if (motion.reroutes) return motion.drive->slow_down(at.elapsed);
 
-  const double spare_room_m = room_for_doubt_m(*at.estimate);
-  SpeedLimit limit = speed_limit(*at.estimate, spare_room_m, options_.safety);
-  if (spare_room_m > 0.0 && ground_->free_way.room_m(pose.position_m) < spare_room_m) limit.forward_mps = 0.0;
+  const SpareRoom spare = room_for_doubt(at.estimate->covariance);
+  SpeedLimit limit = speed_limit(*at.estimate, spare, options_.safety);
+  if (spare.here_m > 0.0 && ground_->free_way.room_m(pose.position_m) < spare.here_m) limit.forward_mps = 0.0;
   const BodyVelocity command = motion.drive->update(*at.estimate, at.elapsed, limit);
   const bool is_blocked =
       limit.forward_mps < options_.drive.min_forward_mps && motion.drive->phase() == DrivePhase::driving;
   if (is_blocked &&
-      speed_limit(*at.estimate, 0.0, options_.safety).forward_mps >= options_.drive.min_forward_mps) {
+      speed_limit(*at.estimate, {}, options_.safety).forward_mps >= options_.drive.min_forward_mps) {
     step.stop = StopReason::pose_uncertain;
     motion.is_lost = true;
     return command;
@@ -163,7 +157,9 @@ BodyVelocity Navigation::go_back(Motion& motion, const Situation& at, Navigation
   step.stop.reset();
   step.retreats = true;
   motion.is_lost = false;
-  const SpeedLimit limit = speed_limit(*at.estimate, room_for_doubt_m(*at.estimate), options_.retreat.limits);
+  // It has come this way, and is the less likely to hit anything the farther it is back.
+  const SpareRoom spare{.here_m = room_for_doubt(at.estimate->covariance).here_m};
+  const SpeedLimit limit = speed_limit(*at.estimate, spare, options_.retreat.limits);
   const bool is_blocked =
       limit.forward_mps < options_.drive.min_forward_mps && retreat.phase() == DrivePhase::driving;
   const BodyVelocity command =
@@ -242,13 +238,13 @@ void Navigation::map_changed(const OccupancyMap& map) {
 
 /// The less sure of its pose the slower, and never so fast that the robot could not stop before it meets what
 /// lies straight ahead.
-SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate, double spare_room_m,
+SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate, const SpareRoom& spare,
                                    const SafetyStopOptions& limits) const {
   const DriveOptions& drive = options_.drive;
   const double deceleration = drive.braking_share * drive.max_acceleration_mps2;
   const double reach_m =
       drive.max_forward_mps * (drive.response_s + 0.5 * drive.max_forward_mps / deceleration);
-  const double free_m = ground_->free_way.ahead_m(estimate.map_from_base, reach_m, spare_room_m);
+  const double free_m = ground_->free_way.ahead_m(estimate.map_from_base, reach_m, spare);
   const double share = share_of_speed(estimate.covariance, limits, options_.caution);
   return {.forward_mps = std::min(share * drive.max_forward_mps,
                                   speed_to_stop_within(free_m, deceleration, drive.response_s)),

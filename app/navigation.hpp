@@ -12,6 +12,7 @@
 #include "control/retreat.hpp"
 #include "control/rotate_then_drive.hpp"
 #include "control/safety_stop.hpp"
+#include "control/spare_room.hpp"
 #include "control/speed_limit.hpp"
 #include "drivers/base_driver.hpp"
 #include "maps/frame.hpp"
@@ -140,7 +141,7 @@ class Navigation {
   BodyVelocity go_back(Motion& motion, const Situation& at, NavigationStep& step) const;
   [[nodiscard]] std::optional<RotateThenDrive> way_back(Motion& motion, const Pose2& pose) const;
   [[nodiscard]] RouteUpdate route_from(const Motion& motion, const Pose2& pose) const;
-  [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate, double spare_room_m,
+  [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate, const SpareRoom& spare,
                                        const SafetyStopOptions& limits) const;
   [[nodiscard]] DriveOptions drive_options(const Path& path) const;
 

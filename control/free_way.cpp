@@ -11,16 +11,18 @@ FreeWay::FreeWay(const OccupancyMap& map, double radius_m, double tolerance_m)
 
 /// Sphere tracing (Hart 1996): where the nearest obstacle is far, the step may be as far. A disc that
 /// overlaps something already may still move, but not deeper into it.
-double FreeWay::ahead_m(const Pose2& map_from_base, double up_to_m, double spare_room_m) const {
+double FreeWay::ahead_m(const Pose2& map_from_base, double up_to_m, const SpareRoom& spare) const {
   const Vec2 ahead(std::cos(map_from_base.yaw_rad), std::sin(map_from_base.yaw_rad));
   const double step_m = 0.2 * map_.resolution_m;
-  const double radius_m = radius_m_ + spare_room_m;
-  const double least_room_m = std::min(room_m(map_from_base.position_m, radius_m), 0.0);
+  const auto room_after = [&](double way_m) {
+    return room_m(map_from_base.position_m + way_m * ahead, radius_m_ + spare.here_m + way_m * spare.per_m);
+  };
+  const double least_room_m = std::min(room_after(0.0), 0.0);
   double way_m = 0.0;
   while (way_m < up_to_m) {
-    const double room = room_m(map_from_base.position_m + way_m * ahead, radius_m);
+    const double room = room_after(way_m);
     if (room < least_room_m) return std::max(way_m - step_m, 0.0);
-    way_m += std::max(room, step_m);
+    way_m += std::max(room / (1.0 + spare.per_m), step_m);
   }
   return up_to_m;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "control/spare_room.hpp"
 #include "maps/distance_field.hpp"
 #include "maps/geometry.hpp"
 #include "maps/occupancy_map.hpp"
@@ -12,10 +13,10 @@ class FreeWay {
   /// `tolerance_m`: the disc is taken to be smaller by so much, for paths that pass at exactly its radius.
   FreeWay(const OccupancyMap& map, double radius_m, double tolerance_m = 0.03);
 
-  /// At most `up_to_m`, with `spare_room_m` kept on all sides. A disc that overlaps something already, as
-  /// after a pose that was a little off, has a way out of it but none deeper into it; so has one that has
-  /// less room than is to be kept.
-  [[nodiscard]] double ahead_m(const Pose2& map_from_base, double up_to_m, double spare_room_m = 0.0) const;
+  /// At most `up_to_m`, with some room kept on all sides. A disc that overlaps something already, as after a
+  /// pose that was a little off, has a way out of it but none deeper into it; so has one that has less room
+  /// than is to be kept.
+  [[nodiscard]] double ahead_m(const Pose2& map_from_base, double up_to_m, const SpareRoom& spare = {}) const;
 
   /// From the rim of a disc at this place to the nearest obstacle; less than zero where they overlap.
   [[nodiscard]] double room_m(const Vec2& point_in_map) const { return room_m(point_in_map, radius_m_); }

@@ -22,7 +22,8 @@ std::optional<Duration> passing(double least_s, double most_s, Random& random) {
 }
 
 /// A marker that misleads a robot which has seen no other yet: what cannot be known stays unknown. Such
-/// faults begin when the robot has a pose.
+/// faults begin when the robot has a pose, so long after it sees for the first time.
+constexpr double until_it_has_a_pose_s = 1.5;
 bool may_mislead_at_the_start(FaultKind kind) {
   return kind == FaultKind::marker_moved || kind == FaultKind::marker_wrong_id ||
          kind == FaultKind::markers_swapped || kind == FaultKind::marker_duplicated ||
@@ -46,17 +47,35 @@ bool blinds(const Fault& fault) {
   }
 }
 
-/// Nothing on board could tell a blind robot that it was carried off.
+/// When a robot sees for the first time; nothing when it never does.
+std::optional<Duration> first_sight(std::vector<Fault> faults) {
+  std::ranges::sort(faults, {}, &Fault::begin);
+  Duration sees{};
+  for (const Fault& fault : faults) {
+    if (!blinds(fault) || fault.begin > sees + from_seconds(until_it_has_a_pose_s)) continue;
+    if (!fault.lasts) return std::nullopt;
+    sees = std::max(sees, fault.begin + *fault.lasts);
+  }
+  return sees;
+}
+
+/// Nothing on board could tell a blind robot that it was carried off, nor one that has seen nothing yet that
+/// its first marker misleads.
 void leave_out_what_nobody_could_see(std::vector<Fault>& faults) {
-  if (std::ranges::none_of(faults, blinds)) return;
-  std::erase_if(faults, [](const Fault& fault) { return fault.kind == FaultKind::kidnapping; });
+  const std::optional<Duration> sees = first_sight(faults);
+  const bool may_be_blind = std::ranges::any_of(faults, blinds);
+  std::erase_if(faults, [&](const Fault& fault) {
+    if (fault.kind == FaultKind::kidnapping) return may_be_blind;
+    return may_mislead_at_the_start(fault.kind) &&
+           (!sees || fault.begin < *sees + from_seconds(until_it_has_a_pose_s));
+  });
 }
 
 Fault random_fault(FaultKind kind, Random random) {
   constexpr double pi = std::numbers::pi;
   Fault fault{.kind = kind};
   const bool from_the_start = random.uniform() < 0.15 && !may_mislead_at_the_start(kind);
-  const double begin_s = random.uniform(1.5, 12.0);
+  const double begin_s = random.uniform(until_it_has_a_pose_s, 12.0);
   fault.begin = from_seconds(from_the_start ? 0.0 : begin_s);
   fault.direction_rad = random.uniform(-pi, pi);
   switch (kind) {

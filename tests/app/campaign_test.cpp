@@ -49,6 +49,26 @@ TEST(Campaign, draws_faults_of_every_kind) {
   EXPECT_EQ(seen.size(), all_fault_kinds().size());
 }
 
+TEST(Campaign, misleads_no_robot_that_has_seen_nothing_yet) {
+  using enum FaultKind;
+  const std::set<FaultKind> misleading{marker_moved, marker_wrong_id, markers_swapped, marker_duplicated};
+  int together = 0;
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    const std::vector<Fault> faults = random_faults(seed);
+    const auto dark = std::ranges::find_if(faults, [](const Fault& fault) {
+      return (fault.kind == camera_dropped || fault.kind == camera_black) && fault.begin == Duration::zero();
+    });
+    if (dark == faults.end()) continue;
+    for (const Fault& fault : faults) {
+      if (!misleading.contains(fault.kind)) continue;
+      ++together;
+      ASSERT_TRUE(dark->lasts) << seed;
+      EXPECT_GT(fault.begin, *dark->lasts + std::chrono::seconds(1)) << seed;
+    }
+  }
+  EXPECT_GT(together, 0);
+}
+
 TEST(Campaign, goes_on_where_it_was_cut_off) {
   const TemporaryFolder folder;
   const Site robot = lab();

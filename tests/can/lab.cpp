@@ -1,5 +1,6 @@
 #include "tests/can/lab.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -97,8 +98,12 @@ Stamp CanLab::wait_until_driving() {
 }
 
 bool CanLab::wait_for_words(const std::string& words, Duration longest) const {
+  return wait_for_any_words({words}, longest);
+}
+
+bool CanLab::wait_for_any_words(const std::vector<std::string>& words, Duration longest) const {
   const Stamp end = monotonic_now() + longest;
-  while (!run->said(words)) {
+  while (std::ranges::none_of(words, [&](const std::string& some) { return run->said(some).has_value(); })) {
     if (monotonic_now() >= end) return false;
     std::this_thread::sleep_for(5ms);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "drivers/clock.hpp"
 
@@ -45,6 +46,7 @@ class CanLab : public testing::Test {
   std::optional<int> wait_for_the_end(Duration longest) const;
   /// The navigator has said so on its way.
   bool wait_for_words(const std::string& words, Duration longest) const;
+  bool wait_for_any_words(const std::vector<std::string>& words, Duration longest) const;
   /// Somebody stands there and resumes, as often as it takes, until the mission is over; its exit code. (On a
   /// machine that is busy with other things, this kernel itself may hang for a while.)
   std::optional<int> resume_until_the_end(Duration longest);

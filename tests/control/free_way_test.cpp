@@ -30,8 +30,11 @@ TEST(FreeWay, ends_where_the_disc_would_touch) {
 
 TEST(FreeWay, ends_earlier_where_room_must_be_spared) {
   const FreeWay way(hall(), 0.25, 0.0);
-  EXPECT_NEAR(way.ahead_m({{0.0, 0.5}, 0.0}, 3.0, 0.1), 1.15, 0.011);
-  EXPECT_NEAR(way.ahead_m({{1.2, 0.5}, radians(180.0)}, 1.0, 0.1), 1.0, 1e-9) << "out of the narrow place";
+  EXPECT_NEAR(way.ahead_m({{0.0, 0.5}, 0.0}, 3.0, {.here_m = 0.1}), 1.15, 0.011);
+  EXPECT_NEAR(way.ahead_m({{0.0, 0.5}, 0.0}, 3.0, {.here_m = 0.1, .per_m = 0.1}), 1.15 / 1.1, 0.011)
+      << "more and more";
+  EXPECT_NEAR(way.ahead_m({{1.2, 0.5}, radians(180.0)}, 1.0, {.here_m = 0.1}), 1.0, 1e-9)
+      << "out of the narrow place";
   EXPECT_NEAR(way.room_m({1.2, 0.5}), 0.05, 1e-9);
   EXPECT_NEAR(way.room_m({0.5, 0.5}), 0.75, 0.08) << "far away, at least so much";
   EXPECT_LT(way.room_m({1.3, 0.5}), 0.0);
