@@ -2,7 +2,7 @@
 import { button, byId } from './dom.js';
 import type { Layers } from './layers.js';
 import type { Live } from './live.js';
-import type { Pointer } from './pointer.js';
+import type { Guest, Pointer } from './pointer.js';
 import type { Replay } from './replay.js';
 import type { Stage } from './stage.js';
 import { attempt } from './words.js';
@@ -10,6 +10,9 @@ import { attempt } from './words.js';
 export type Mode = 'edit' | 'live' | 'replay';
 const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['live', 'Live', 'watch the robot, and send it'],
   ['replay', 'Replay', 'open a run and scrub through it']];
+
+/** Who looks on moves no marker. */
+const onlooker: Guest = { press: () => false, drag: () => {}, release: () => {}, click: () => {} };
 
 interface Parts {
   readonly layers: Layers;
@@ -39,7 +42,8 @@ export class Modes {
     document.body.dataset['mode'] = mode;
     for (const [other] of titles) byId(`tool-${other}`).setAttribute('aria-pressed', String(other === mode));
     pointer.cancel();
-    pointer.guest = mode === 'live' ? live : null;
+    pointer.guest = mode === 'edit' ? null : mode === 'live' ? live : onlooker;
+    stage.showsSelection = mode === 'edit';
     live.show(mode === 'live');
     if (before !== mode) layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
     if (mode !== 'replay') this.fitAtFirst(mode);

@@ -1,7 +1,7 @@
 // A run folder on the map: its track, the robot at a time, plots and camera pictures, and a bar to scrub through it.
 import { getRun, getRuns, pictureOfRun } from './api.js';
 import type { Row, Run } from './api.js';
-import { button, byId, el } from './dom.js';
+import { button, byId, el, positive } from './dom.js';
 import { DrivePlots } from './plots.js';
 import { poseAt } from './poses.js';
 import { drawRobot, drawWay, inkNow } from './robot_paint.js';
@@ -77,7 +77,7 @@ export class Replay {
   }
 
   goTo(time: number): void {
-    this.time = Math.min(this.end(), Math.max(0, time));
+    this.time = Math.min(this.end(), Math.max(this.start(), time));
     this.slider.value = String(this.time);
     this.words.textContent = this.report();
     this.plots?.tell(lastNotAfter(this.columns[0]!, this.time), true);
@@ -87,13 +87,15 @@ export class Replay {
 
   private async load(name: string): Promise<void> {
     this.run = await getRun(name);
-    this.slider.max = String(this.end());
+    [this.slider.min, this.slider.max] = [String(Math.floor(100 * this.start()) / 100), String(this.end())];
     this.columns = columnsOf(this.run);
     this.plots?.set(this.columns);
     showSummary(this.run);
-    this.goTo(0);
+    this.goTo(this.start());
   }
 
+  /** A robot's clock goes on from drive to drive. */
+  private start(): number { return this.run?.estimate[0]?.[0] ?? 0; }
   private end(): number { return Math.max(this.run?.estimate.at(-1)?.[0] ?? 0, this.run?.truth.at(-1)?.[0] ?? 0); }
 
   private key(e: KeyboardEvent): void {
@@ -110,7 +112,7 @@ export class Replay {
   private toggle(): void {
     this.playing = !this.playing;
     this.play.textContent = this.playing ? 'Pause' : 'Play';
-    if (this.playing && this.time >= this.end()) this.goTo(0);
+    if (this.playing && this.time >= this.end()) this.goTo(this.start());
     this.lastFrame = performance.now();
     if (this.playing) requestAnimationFrame((now) => this.advance(now));
   }
@@ -140,7 +142,7 @@ export class Replay {
     const estimate = poseAt(this.run?.estimate ?? [], this.time);
     const truth = poseAt(this.run?.truth ?? [], this.time);
     if (!estimate) return '';
-    const place = `${this.time.toFixed(1)} of ${this.end().toFixed(1)} s: ${estimate[1].toFixed(3)}, ${estimate[2].toFixed(3)} m, ${estimate[3].toFixed(1)}°`;
+    const place = `${this.time.toFixed(1)} of ${this.end().toFixed(1)} s: ${estimate[1].toFixed(3)}, ${estimate[2].toFixed(3)} m, ${positive(estimate[3].toFixed(1))}°`;
     if (!truth) return place;
     return `${place}; off by ${(1000 * Math.hypot(estimate[1] - truth[1], estimate[2] - truth[2])).toFixed(1)} mm`;
   }

@@ -20,6 +20,7 @@ export class Stage {
   pins: { at: Point; label: string }[] = [];
   /** What others draw on the overlay. */
   painters: ((c: CanvasRenderingContext2D) => void)[] = [];
+  showsSelection = true;
   readonly floorPaint: FloorPaint;
   private shift: Point = { x: 0, y: 0 };
   private readonly floorLayer: CanvasRenderingContext2D;
@@ -120,7 +121,7 @@ export class Stage {
     for (const marker of this.editor.shown()) {
       const middle = view.toScreen(centerOf(marker));
       if (middle.x < -sidePx || middle.y < -sidePx || middle.x > view.width + sidePx || middle.y > view.height + sidePx) continue;
-      const chosen = this.editor.selection.has(marker.key);
+      const chosen = this.showsSelection && this.editor.selection.has(marker.key);
       if (sidePx < 5 && !few) {
         c.fillStyle = chosen ? colours.chosen : colours.ink;
         c.fillRect(middle.x - 1.5, middle.y - 1.5, 3, 3);
@@ -146,6 +147,7 @@ export class Stage {
   }
 
   draggedSelection(): Marker[] {
+    if (!this.showsSelection) return [];
     return this.editor.chosen().map((m) => this.editor.preview.get(m.key) ?? m);
   }
 

@@ -279,8 +279,11 @@ describe('seeing', () => {
     await page.getByLabel('Speed').selectOption('50');
     await page.getByRole('button', { name: 'Play', exact: true }).click();
     await page.locator('#replay-words', { hasText: '3.0 of 3.0 s: 4.000' }).waitFor();
+    const at = await placeOf(page, 2454);
+    await drag(page, at, { x: at.x + 50, y: at.y });  // who looks on moves no marker
     await page.getByRole('button', { name: 'Close' }).click();
     assert.equal(await page.locator('#replay').isVisible(), false);
+    assert.equal(await page.evaluate(() => window.lodestar.console.editor.dirty), false);
   });
 
   story('ten thousand markers can still be panned', async (page) => {
