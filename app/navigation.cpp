@@ -98,6 +98,9 @@ BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationSte
   RotateThenDrive& drive = *motion.drive;
   const bool may_look = !drive.paused() && !drive.arrived();
   motion.is_lost = motion.is_lost || (may_look && step.stop && would_a_marker_mend(*step.stop));
+  // While it braked it may have passed the narrow place that it was too unsure for.
+  if (motion.is_lost && !step.stop && drive.at_rest() && !is_stuck(limit_in_doubt(*at.estimate)))
+    motion.is_lost = false;
   if (!motion.retreat && motion.is_lost && !at.stop_on_retreat && may_look && can_go_back(motion.places)) {
     if (!step.stop) step.stop = StopReason::pose_uncertain;
     if (!drive.at_rest()) return drive.slow_down(at.elapsed);
@@ -127,14 +130,10 @@ BodyVelocity Navigation::follow(Motion& motion, const Situation& at, NavigationS
   if (!motion.drive) return {};
   if (motion.reroutes) return motion.drive->slow_down(at.elapsed);
 
-  const SpareRoom spare = room_for_doubt(at.estimate->covariance);
-  SpeedLimit limit = speed_limit(*at.estimate, spare, options_.safety);
-  if (spare.here_m > 0.0 && ground_->free_way.room_m(pose.position_m) < spare.here_m) limit.forward_mps = 0.0;
+  const SpeedLimit limit = limit_in_doubt(*at.estimate);
   const BodyVelocity command = motion.drive->update(*at.estimate, at.elapsed, limit);
-  const bool is_blocked =
-      limit.forward_mps < options_.drive.min_forward_mps && motion.drive->phase() == DrivePhase::driving;
-  if (is_blocked &&
-      speed_limit(*at.estimate, {}, options_.safety).forward_mps >= options_.drive.min_forward_mps) {
+  const bool is_blocked = is_stuck(limit) && motion.drive->phase() == DrivePhase::driving;
+  if (is_blocked && !is_stuck(speed_limit(*at.estimate, {}, options_.safety))) {
     step.stop = StopReason::pose_uncertain;
     motion.is_lost = true;
     return command;
@@ -160,8 +159,7 @@ BodyVelocity Navigation::go_back(Motion& motion, const Situation& at, Navigation
   // It has come this way, and is the less likely to hit anything the farther it is back.
   const SpareRoom spare{.here_m = room_for_doubt(at.estimate->covariance).here_m};
   const SpeedLimit limit = speed_limit(*at.estimate, spare, options_.retreat.limits);
-  const bool is_blocked =
-      limit.forward_mps < options_.drive.min_forward_mps && retreat.phase() == DrivePhase::driving;
+  const bool is_blocked = is_stuck(limit) && retreat.phase() == DrivePhase::driving;
   const BodyVelocity command =
       is_blocked ? retreat.slow_down(at.elapsed) : retreat.update(*at.estimate, at.elapsed, limit);
   const bool has_ended = retreat.arrived() || retreat.phase() == DrivePhase::cancelled;
@@ -249,6 +247,15 @@ SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate, const SpareRoom
   return {.forward_mps = std::min(share * drive.max_forward_mps,
                                   speed_to_stop_within(free_m, deceleration, drive.response_s)),
           .turn_radps = share * drive.max_turn_radps};
+}
+
+/// As speed_limit(), with room kept for what the robot does not know of its place; none where it has less.
+SpeedLimit Navigation::limit_in_doubt(const PoseEstimate& estimate) const {
+  const SpareRoom spare = room_for_doubt(estimate.covariance);
+  SpeedLimit limit = speed_limit(estimate, spare, options_.safety);
+  const double room_m = ground_->free_way.room_m(estimate.map_from_base.position_m);
+  if (spare.here_m > 0.0 && room_m < spare.here_m) limit.forward_mps = 0.0;
+  return limit;
 }
 
 /// Corners are cut only where there is room for it.

@@ -143,6 +143,10 @@ class Navigation {
   [[nodiscard]] RouteUpdate route_from(const Motion& motion, const Pose2& pose) const;
   [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate, const SpareRoom& spare,
                                        const SafetyStopOptions& limits) const;
+  [[nodiscard]] SpeedLimit limit_in_doubt(const PoseEstimate& estimate) const;
+  [[nodiscard]] bool is_stuck(const SpeedLimit& limit) const {
+    return limit.forward_mps < options_.drive.min_forward_mps;
+  }
   [[nodiscard]] DriveOptions drive_options(const Path& path) const;
 
   NavigationOptions options_;

@@ -8,7 +8,7 @@
 namespace lodestar {
 
 SpareRoom room_for_doubt(const Eigen::Matrix3d& covariance) {
-  constexpr double usual_sigma_m = 0.01;
+  constexpr double usual_sigma_m = 0.005;
   constexpr double sigmas = 3.0;
   const double sigma_m = larger_sigma_m(covariance);
   if (sigma_m < usual_sigma_m) return {};

@@ -171,6 +171,7 @@ fs::path output_folder(const Site& site, const ReplayArguments& arguments) {
 ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArguments& arguments) {
   const fs::path folder = output_folder(site, arguments);
   RunRecord record;
+  bool streamed = false;
   {
     Progress progress("replay", arguments.quiet);
     options.progress = [&progress](double share) { progress.show(share); };
@@ -178,9 +179,11 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     options.watch = [&mcap](const DriveMoment& moment) { mcap.watch(moment); };
     record = replay(site, options);
     mcap.add_truth(record);
+    streamed = mcap.finish();
   }
   record.repeat = repeat_command(arguments, options);
   const bool written = leave_run_folder(folder, record, site.map.map, site.registry);
+  if (written && !streamed) fmt::print(stderr, "lodestar: warning: the disk did not take all of run.mcap\n");
   const RunSummary summary = summarize(record);
   if (arguments.json) {
     fmt::print("{}\n", as_json(summary).dump(2));
@@ -191,7 +194,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
                written ? folder.string() : "not written");
   }
   fmt::print(stderr, "{:.1f} s driven in {:.1f} s\n", summary.drive_s, summary.wall_s);
-  return succeeded(summary) && written ? done : job_failed;
+  return succeeded(summary) && written && streamed ? done : job_failed;
 }
 
 /// In a browser too, until Ctrl-C: what it drives, and where to next.
