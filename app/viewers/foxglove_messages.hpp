@@ -33,7 +33,7 @@ struct RobotBody {
 };
 
 /// The footprint, and the ellipse of three standard deviations about the estimated place.
-MessageJson robot_message(const PoseEstimate& estimate, const RobotBody& body);
+MessageJson robot_message(const PoseEstimate& estimate, const RobotBody& robot);
 MessageJson calibration_message(Stamp stamp, const CameraModel& camera);
 MessageJson picture_message(Stamp stamp, const std::string& jpeg);
 
