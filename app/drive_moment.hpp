@@ -13,7 +13,7 @@ struct DriveMoment {
   const SensorInput& input;
   const MissionStep& step;
   const Mission& mission;
-  const KeptPicture* picture = nullptr;  ///< that the record keeps of this step, if any
+  std::optional<KeptPicture> picture;  ///< that the record keeps of this step, if any
 };
 
 /// Called after each step, once its command is on the way.

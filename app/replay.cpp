@@ -5,6 +5,7 @@
 #include "app/live/attendant.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
+#include "app/report/picture_keeper.hpp"
 #include "app/report/run_recorder.hpp"
 #include "app/report/run_statistics.hpp"
 #include "app/stopwatch.hpp"
@@ -95,7 +96,7 @@ class SimulatedDrive {
     if (!recording_) return simulation_.scorer().forget();
 
     record_step(record_, input, step.navigation);
-    const KeptPicture* const picture = record_pictures(record_, input, options_.pictures_hz);
+    const std::optional<KeptPicture> picture = pictures_.keep(record_, input.frames);
     record_event(record_, mission_, step.event, simulation_.now());
     judge(record_, simulation_.scorer(), mission_, step.event);
     if (options_.watch)
@@ -159,6 +160,7 @@ class SimulatedDrive {
   BaseDriver base_;
   Mission mission_;
   RunRecord record_;
+  PictureKeeper pictures_{{.pictures_hz = options_.pictures_hz, .can_wait = true}};
   bool recording_ = false;
   Stopwatch watch_;
 };

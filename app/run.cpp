@@ -5,6 +5,7 @@
 #include "app/live/attendant.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
+#include "app/report/picture_keeper.hpp"
 #include "app/report/run_recorder.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/recorded_bus.hpp"
@@ -102,7 +103,7 @@ class Recording {
   void take(const SensorInput& input, const Mission& mission, const MissionStep& step) {
     if (!on_) return;
     record_step(record_, input, step.navigation);
-    const KeptPicture* const picture = record_pictures(record_, input, options_.pictures_hz);
+    const std::optional<KeptPicture> picture = pictures_.keep(record_, input.frames);
     record_event(record_, mission, step.event, input.now);
     if (options_.watch)
       options_.watch({.input = input, .step = step, .mission = mission, .picture = picture});
@@ -123,6 +124,7 @@ class Recording {
   bool on_ = false;
   Stamp start_;
   RunRecord record_;
+  PictureKeeper pictures_{{.pictures_hz = options_.pictures_hz}};
 };
 
 /// What people at the console do to the drive before a step.

@@ -11,8 +11,8 @@ struct SpareRoom {
 };
 
 /// What an unsure robot keeps, by the covariance of its (x_m, y_m, yaw_rad): three times the deviation of its
-/// position, less the usual half centimetre, for which paths have room. On its way the error of its heading makes
-/// it less sure.
+/// position, less the usual half centimetre, for which paths have room. On its way the error of its heading
+/// makes it less sure.
 SpareRoom room_for_doubt(const Eigen::Matrix3d& covariance);
 
 }  // namespace lodestar

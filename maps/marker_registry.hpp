@@ -35,6 +35,9 @@ Eigen::Isometry3d map_from_marker(const MarkerRegistry& registry, const Register
 /// ill-typed key, a number that is not finite, an ID outside 0..4095 or listed twice.
 MarkerRegistry load_registry(const std::filesystem::path& file);
 
+/// The same for those who look for mistakes: an ID may be listed twice.
+MarkerRegistry load_registry_draft(const std::filesystem::path& file);
+
 /// Writes one marker a line, atomically: a reader sees the old file or the new one, whole.
 void save_registry(const MarkerRegistry& registry, const std::filesystem::path& file);
 

@@ -39,35 +39,40 @@ double tidy_degrees(double angle_rad) {
 }
 
 MarkerRegistry read_registry(StrictYaml yaml) {
-  const std::filesystem::path& file = yaml.file();
   const std::string format = yaml.text("format");
   if (format != format_name) yaml.refuse("format", "'" + format + "'", fmt::format("'{}'", format_name));
   (void)yaml.integer("version", 1, 1);
 
   MarkerRegistry registry;
   registry.map_from_registry = read_alignment(yaml.mapping("alignment"));
-  std::map<int, int> line_of_id;
-  for (StrictYaml& entry : yaml.list_of_mappings("markers")) {
-    const RegisteredMarker marker = read_marker(entry);
-    const auto [first, is_new] = line_of_id.emplace(marker.id, marker.line);
-    if (!is_new) {
-      throw InputError(file, marker.line, fmt::format("marker {} again", marker.id),
-                       fmt::format("each ID once (it stands in line {})", first->second));
-    }
-    registry.markers.push_back(marker);
-  }
+  for (StrictYaml& entry : yaml.list_of_mappings("markers")) registry.markers.push_back(read_marker(entry));
   yaml.finish();
+  return registry;
+}
+
+MarkerRegistry with_each_id_once(MarkerRegistry registry, const std::filesystem::path& file) {
+  std::map<int, int> line_of_id;
+  for (const RegisteredMarker& marker : registry.markers) {
+    const auto [first, is_new] = line_of_id.emplace(marker.id, marker.line);
+    if (is_new) continue;
+    throw InputError(file, marker.line, fmt::format("marker {} again", marker.id),
+                     fmt::format("each ID once (it stands in line {})", first->second));
+  }
   return registry;
 }
 
 }  // namespace
 
-MarkerRegistry load_registry(const std::filesystem::path& file) {
+MarkerRegistry load_registry_draft(const std::filesystem::path& file) {
   return read_registry(StrictYaml::load(file));
 }
 
+MarkerRegistry load_registry(const std::filesystem::path& file) {
+  return with_each_id_once(load_registry_draft(file), file);
+}
+
 MarkerRegistry parse_registry(const std::string& text, const std::filesystem::path& file) {
-  return read_registry(StrictYaml::parse(text, file));
+  return with_each_id_once(read_registry(StrictYaml::parse(text, file)), file);
 }
 
 std::string registry_text(const MarkerRegistry& registry) {

@@ -38,7 +38,7 @@ void KeptRuns::watch(const DriveMoment& moment) {
   if (mcap_refused_) return;
   try {
     if (!mcap_)
-      mcap_ = std::make_unique<RunMcap>(present_folder(), world_, site_.robot.radius_m, mcap_options_);
+      mcap_ = std::make_unique<RunMcap>(present_folder(), world_, body_of(site_.robot), mcap_options_);
     mcap_->watch(moment);
   } catch (const InputError& error) {
     mcap_refused_ = true;

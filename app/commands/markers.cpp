@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.hpp"
-#include "app/markers/registry_check.hpp"
+#include "app/markers/coverage.hpp"
+#include "app/markers/site_floor.hpp"
+#include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker.hpp"
 #include "maps/marker_code.hpp"
@@ -17,6 +19,7 @@ namespace {
 struct MarkersArguments {
   std::string registry;
   std::string map;
+  std::string site;
   std::string format = "text";
   bool json = false;
 };
@@ -76,13 +79,7 @@ void print_json(const MarkerRegistry& registry, const std::vector<RegistryIssue>
                                 {"upright", as_json(upright_distances(registry))},
                                 {"turned_or_mirrored", as_json(turned_distances(registry))},
                                 {"issues", nlohmann::ordered_json::array()}};
-  for (const RegistryIssue& issue : issues) {
-    report["issues"].push_back({{"kind", to_string(issue.kind)},
-                                {"severity", issue.error ? "error" : "warning"},
-                                {"ids", issue.ids},
-                                {"line", issue.line},
-                                {"words", issue.words}});
-  }
+  for (const RegistryIssue& issue : issues) report["issues"].push_back(issue_json(issue));
   fmt::print("{}\n", report.dump(2));
 }
 
@@ -106,22 +103,30 @@ void print_distances(const char* how, const DistanceReport& report) {
 void print_text(const std::string& file, const MarkerRegistry& registry,
                 const std::vector<RegistryIssue>& issues) {
   for (const RegistryIssue& issue : issues) {
-    fmt::print("{}:{}: {}: {}\n", file, issue.line, issue.error ? "error" : "warning", issue.words);
+    const std::string line = issue.line > 0 ? fmt::format("{}:", issue.line) : "";
+    fmt::print("{}:{} {}: {}\n", file, line, issue.error ? "error" : "warning", issue.words);
   }
   fmt::print("{} markers\n", registry.markers.size());
   print_distances("upright", upright_distances(registry));
   print_distances("turned or mirrored", turned_distances(registry));
 }
 
+/// What is to be checked, against what: the site's own registry where none is named.
 ExitCode check(const MarkersArguments& arguments) {
-  const MarkerRegistry registry = load_registry(arguments.registry);
+  if (arguments.registry.empty() && arguments.site.empty())
+    throw InputError("found neither a registry nor --site, wanted one of them at least");
+  std::optional<Site> site;
+  if (!arguments.site.empty()) site = load_site(arguments.site);
+  const std::string file = arguments.registry.empty() ? site->registry_file.string() : arguments.registry;
+  const MarkerRegistry registry = load_registry_draft(file);
   std::optional<OccupancyMap> map;
   if (!arguments.map.empty()) map = load_map(arguments.map).map;
-  const std::vector<RegistryIssue> issues = check_registry(registry, map);
+  const std::vector<RegistryIssue> issues =
+      site ? check_coverage(registry, covered_floor(*site)) : check_registry(registry, map);
   if (arguments.json || arguments.format == "json") {
     print_json(registry, issues);
   } else {
-    print_text(arguments.registry, registry, issues);
+    print_text(file, registry, issues);
   }
   return std::ranges::any_of(issues, &RegistryIssue::error) ? job_failed : done;
 }
@@ -216,8 +221,13 @@ std::vector<Command> markers_commands(CLI::App& lodestar) {
       "check",
       "Look for mistakes, and for markers that may be mistaken for each other; exit 1 "
       "when there are errors");
-  check_command->add_option("registry", arguments->registry, "Marker registry")->required();
-  check_command->add_option("--map", arguments->map, "Occupancy map: markers must hang above it");
+  check_command->add_option("registry", arguments->registry, "Marker registry; by default that of --site");
+  CLI::Option* map =
+      check_command->add_option("--map", arguments->map, "Occupancy map: markers must hang above it");
+  check_command
+      ->add_option("--site", arguments->site,
+                   "Site folder: also name places and stretches of its usual route that see no marker")
+      ->excludes(map);
   check_command->add_option("--format", arguments->format, "text or json")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();

@@ -182,7 +182,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     options.progress = [&progress](double share) { progress.show(share); };
     RunMcapOptions mcap_options = run_mcap_options(*options.disk);
     mcap_options.can_wait = true;
-    RunMcap mcap(folder, known_world(site, options.camera), site.robot.radius_m, mcap_options);
+    RunMcap mcap(folder, known_world(site, options.camera), body_of(site.robot), mcap_options);
     options.watch = [&mcap](const DriveMoment& moment) { mcap.watch(moment); };
     record = replay(site, options);
     mcap.add_truth(record);

@@ -151,7 +151,7 @@ class RunViewersFile {
   RunViewersFile(const fs::path& folder, const Site& site, RunOptions& options, DiskWarning& warn)
       : warn_(warn) {
     try {
-      mcap_.emplace(folder, known_world(site, options.camera), site.robot.radius_m);
+      mcap_.emplace(folder, known_world(site, options.camera), body_of(site.robot));
       options.watch = [this](const DriveMoment& moment) { mcap_->watch(moment); };
     } catch (const InputError& error) {
       warn(error.what());

@@ -33,6 +33,14 @@ ordered_json pose_json(const Pose2& pose) {
   return {{"x_m", pose.position_m.x()}, {"y_m", pose.position_m.y()}, {"yaw_deg", degrees(pose.yaw_rad)}};
 }
 
+ordered_json robot_json(const Robot& robot) {
+  ordered_json outline;  // null for a disc
+  if (robot.footprint) {
+    for (const Vec2& corner : robot.footprint->corners_m()) outline.push_back({corner.x(), corner.y()});
+  }
+  return {{"name", robot.name}, {"radius_m", robot.radius_m}, {"footprint_m", outline}};
+}
+
 /// Text with its %XX replaced; empty where one is broken or stands for a zero.
 std::string decoded(const std::string& text) {
   std::string plain;
@@ -150,11 +158,11 @@ HttpResponse Console::site_document() const {
     goals.push_back({{"x_m", goal.position_m.x()}, {"y_m", goal.position_m.y()}});
   }
   return document({{"name", site_.name},
-                   {"robot", {{"name", site_.robot.name}, {"radius_m", site_.robot.radius_m}}},
+                   {"robot", robot_json(site_.robot)},
                    {"start", pose_json(site_.start)},
                    {"goals", goals},
-                   {"routes", usual_routes(site_)},
-                   {"coverage", coverage_json(site_)},
+                   {"routes", routes_json(view_.floor().routes)},
+                   {"coverage", coverage_json(site_, view_.floor())},
                    {"formats", marker_format_names()}});
 }
 
@@ -164,13 +172,14 @@ HttpResponse Console::map() const {
                    {"rows", map.rows},
                    {"resolution_m", map.resolution_m},
                    {"origin", pose_json(map.map_from_grid)},
-                   {"heights", heights_json(view_.heights())}});
+                   {"heights", heights_json(view_.floor().heights)}});
 }
 
 std::optional<HttpResponse> Console::heights() const {
-  if (!view_.heights()) return std::nullopt;
+  const std::optional<HeightBands>& heights = view_.floor().heights;
+  if (!heights) return std::nullopt;
   HttpResponse response{.content_type = "application/octet-stream"};
-  for (const std::uint32_t bits : view_.heights()->cells)
+  for (const std::uint32_t bits : heights->cells)
     for (unsigned byte = 0; byte < sizeof bits; ++byte)
       response.body += static_cast<char>((bits >> (8U * byte)) & 0xFFU);
   response.etag = etag_of(response.body);
@@ -201,6 +210,7 @@ HttpResponse Console::save_markers(const HttpRequest& request) const {
     if (text != before) {
       history_.keep(before);
       write_file_atomically(registry_file_, text);
+      if (tell_saved_) tell_saved_(after);
     }
   } catch (const InputError& error) {
     return refusal(422, error.what());
@@ -257,7 +267,7 @@ HttpResponse Console::runs(const std::string& target) const {
 HttpResponse Console::post(const HttpRequest& request) const {
   try {
     if (request.target == "/api/markers/check") {
-      return {.body = issues_json(registry_from_json(request.body), site_.map.map).dump()};
+      return {.body = view_.issues(registry_from_json(request.body)).dump()};
     }
     if (request.target == "/api/markers/deviations") {
       return {.body = view_.deviations(site_, registry_from_json(request.body)).dump()};

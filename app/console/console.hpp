@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "app/console/document_history.hpp"
 #include "app/console/http.hpp"
@@ -38,6 +39,9 @@ class Console {
 
   HttpResponse answer(const HttpRequest& request);
 
+  /// Called with the markers each time that somebody has saved them.
+  void on_saved_markers(std::function<void(const MarkerRegistry&)> tell) { tell_saved_ = std::move(tell); }
+
   [[nodiscard]] const Site& site() const { return site_; }
 
  private:
@@ -58,6 +62,7 @@ class Console {
   std::filesystem::path routes_file_;
   DocumentHistory history_;
   RunArchive runs_;
+  std::function<void(const MarkerRegistry&)> tell_saved_;
   SiteView view_;
 };
 

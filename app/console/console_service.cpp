@@ -24,6 +24,9 @@ ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* l
     : console_(options.site, options.runs), link_(link) {
   channels_.push_back(std::make_unique<LiveView>(console_.site(), link, options.live));
   channels_.push_back(std::make_unique<FoxgloveView>(console_.site()));
+  console_.on_saved_markers([this](const MarkerRegistry& saved) {
+    for (const auto& channel : channels_) channel->take_markers(saved);
+  });
   server_ = std::make_unique<HttpServer>(
       HttpServerOptions{.access = options.access},
       [this](const HttpRequest& request) { return console_.answer(request); }, protocols_of(channels_));

@@ -18,6 +18,8 @@ class LiveChannel {
   [[nodiscard]] virtual bool is_watched() const = 0;
   /// About 20 times a second. `fresh`: a state that has been published since the last call; null when none.
   virtual void pump(Stamp now, const RobotState* fresh) = 0;
+  /// Somebody has saved the site's markers. A robot that drives goes on by those that it began with.
+  virtual void take_markers(const MarkerRegistry& saved) = 0;
 };
 
 }  // namespace lodestar

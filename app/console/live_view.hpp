@@ -36,6 +36,8 @@ class LiveView : public LiveChannel {
   [[nodiscard]] std::vector<SocketProtocol> protocols() override;
   [[nodiscard]] bool is_watched() const override { return !clients_.empty(); }
   void pump(Stamp now, const RobotState* fresh) override;
+  /// Nothing here shows them but the page, which reads them by itself.
+  void take_markers(const MarkerRegistry& /*saved*/) override {}
 
  private:
   class Session;

@@ -59,26 +59,6 @@ double tidy_degrees(double angle_rad) {
   return std::round(degrees(angle_rad) * per_degree) / per_degree;
 }
 
-/// Where on the map the markers with these IDs are.
-ordered_json places_of(const MarkerRegistry& registry, const std::vector<int>& ids) {
-  ordered_json places = ordered_json::array();
-  for (const RegisteredMarker& marker : registry.markers) {
-    if (std::ranges::find(ids, marker.id) == ids.end()) continue;
-    const Vec3 at = map_from_marker(registry, marker).translation();
-    places.push_back({at.x(), at.y()});
-  }
-  return places;
-}
-
-ordered_json issue_json(const MarkerRegistry& registry, std::string_view kind, bool error,
-                        const std::vector<int>& ids, const std::string& words) {
-  return {{"kind", kind},
-          {"severity", error ? "error" : "warning"},
-          {"ids", ids},
-          {"words", words},
-          {"places_m", places_of(registry, ids)}};
-}
-
 }  // namespace
 
 ordered_json registry_json(const MarkerRegistry& registry) {
@@ -129,21 +109,6 @@ std::optional<int> repeated_id(const MarkerRegistry& registry) {
     if (!seen.insert(marker.id).second) return marker.id;
   }
   return std::nullopt;
-}
-
-ordered_json issues_json(const MarkerRegistry& draft, const OccupancyMap& map) {
-  ordered_json issues = ordered_json::array();
-  std::set<int> seen;
-  std::set<int> repeated;
-  for (const RegisteredMarker& marker : draft.markers) {
-    if (seen.insert(marker.id).second || !repeated.insert(marker.id).second) continue;
-    issues.push_back(issue_json(draft, "repeated-id", true, {marker.id},
-                                fmt::format("marker {} stands twice; each ID may stand once", marker.id)));
-  }
-  for (const RegistryIssue& issue : check_registry(draft, map)) {
-    issues.push_back(issue_json(draft, to_string(issue.kind), issue.error, issue.ids, issue.words));
-  }
-  return issues;
 }
 
 }  // namespace lodestar

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "app/markers/registry_check.hpp"
+#include "maps/marker_registry.hpp"
 
 // The registry as the page sees it: {"alignment": {x_m, y_m, yaw_deg}, "markers": [{id, x_m, y_m, z_m,
 // yaw_deg}]}, in the registry's own frame.
@@ -16,10 +16,6 @@ nlohmann::ordered_json registry_json(const MarkerRegistry& registry);
 /// ill-typed key, a number beyond 100 km, or an ID outside 0..4095. The same ID twice is let through: a draft
 /// may be wrong.
 MarkerRegistry registry_from_json(const std::string& text);
-
-/// What check_registry finds in a draft, and IDs that stand twice; with the place of each on the map, for a
-/// view to go there.
-nlohmann::ordered_json issues_json(const MarkerRegistry& draft, const OccupancyMap& map);
 
 /// The first ID that stands twice.
 std::optional<int> repeated_id(const MarkerRegistry& registry);

@@ -23,13 +23,14 @@ bool is_run(const fs::directory_entry& entry) {
          fs::is_regular_file(entry.path() / "estimate.tum");
 }
 
-/// Names of a run's pictures, in the order of their stamps.
+/// Names of a run's pictures, in the order of their stamps. What is larger than any camera's is none.
 std::vector<std::string> pictures_in(const fs::path& folder) {
+  constexpr std::uintmax_t most_bytes = 4U << 20U;
   std::vector<std::string> names;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "pictures", none)) {
-    const bool is_picture =
-        !entry.is_symlink() && entry.is_regular_file() && entry.path().extension() == ".jpg";
+    const bool is_picture = !entry.is_symlink() && entry.is_regular_file() &&
+                            entry.path().extension() == ".jpg" && entry.file_size(none) <= most_bytes;
     if (is_picture) names.push_back(entry.path().filename().string());
   }
   std::ranges::sort(names, {}, [](const std::string& name) { return std::strtod(name.c_str(), nullptr); });
@@ -88,12 +89,16 @@ ordered_json numbers_json(const std::string& csv, const fs::path& file, std::siz
 }
 
 std::vector<std::string> RunArchive::names() const {
-  std::vector<std::string> names;
+  std::vector<std::pair<fs::file_time_type, std::string>> runs;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, none)) {
-    if (is_run(entry)) names.push_back(entry.path().filename().string());
+    if (is_run(entry))
+      runs.emplace_back(fs::last_write_time(entry.path() / "summary.json", none),
+                        entry.path().filename().string());
   }
-  std::ranges::sort(names);
+  std::ranges::sort(runs);
+  std::vector<std::string> names;
+  for (auto& [written, name] : runs) names.push_back(std::move(name));
   return names;
 }
 

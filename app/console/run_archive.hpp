@@ -14,7 +14,7 @@ class RunArchive {
  public:
   explicit RunArchive(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Names of all runs, in order; none when the folder is not there. Links to elsewhere are left out.
+  /// Names of all runs, the newest last; none when the folder is not there. Links to elsewhere are left out.
   [[nodiscard]] std::vector<std::string> names() const;
 
   /// {"name", "summary", "estimate", "truth", "steps", "fixes", "pictures"}: the summary as it was written;

@@ -3,72 +3,39 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/markers/site_floor.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/visibility.hpp"
-#include "maps/marker.hpp"
-#include "planning/margin_planner.hpp"
 
 namespace lodestar {
-namespace {
-
 using nlohmann::ordered_json;
 
-/// How far from its axis the camera sees on all sides, per metre of height: what it covers however the robot
-/// has turned.
-double narrowest_view(const CameraModel& camera) {
-  double narrowest = 1e9;
-  const double right = camera.width_px - 1.0;
-  const double bottom = camera.height_px - 1.0;
-  for (const Vec2& side : {Vec2(0.0, camera.cy_px), Vec2(right, camera.cy_px), Vec2(camera.cx_px, 0.0),
-                           Vec2(camera.cx_px, bottom)}) {
-    if (const std::optional<Vec2> ray = camera.normalized(side)) narrowest = std::min(narrowest, ray->norm());
+ordered_json routes_json(const std::vector<Path>& routes) {
+  ordered_json all = ordered_json::array();
+  for (const Path& route : routes) {
+    ordered_json points = ordered_json::array();
+    for (const Vec2& at : route.waypoints_m) points.push_back({at.x(), at.y()});
+    all.push_back(points);
   }
-  return narrowest;
+  return all;
 }
 
-/// So high may markers hang, for all that is known.
-double ceiling_m(const Site& site) {
-  constexpr double usual_m = 3.0;
-  constexpr double more_m = 0.5;
-  double highest_m = usual_m;
-  for (const RegisteredMarker& marker : site.registry.markers)
-    highest_m = std::max(highest_m, marker.position_m.z());
-  return highest_m + more_m;
-}
-
-}  // namespace
-
-ordered_json usual_routes(const Site& site) {
-  const MarginPlanner planner(site.map.map, navigation_options(site.robot).planner);
-  ordered_json routes = ordered_json::array();
-  Vec2 from_m = site.start.position_m;
-  for (const Goal& goal : site.goals) {
-    const PlanResult result = planner.plan(from_m, goal.position_m, {});
-    from_m = goal.position_m;
-    const auto* plan = std::get_if<Plan>(&result);
-    if (plan == nullptr) continue;
-    ordered_json route = ordered_json::array();
-    for (const Vec2& at : plan->path.waypoints_m) route.push_back({at.x(), at.y()});
-    routes.push_back(route);
-  }
-  return routes;
-}
-
-nlohmann::ordered_json coverage_json(const Site& site) {
-  const Vec3 camera = site.robot.base_from_camera.translation();
-  const double half_marker_m =
-      0.5 * (marker_grid_size - 1) * marker_pitch_m * std::sqrt(2.0) + marker_dot_radius_m;
+ordered_json coverage_json(const Site& site, const CoveredFloor& floor) {
   return {{"camera", site.default_camera},
-          {"camera_height_m", camera.z()},
-          {"reach_per_m", narrowest_view(site.cameras.at(site.default_camera))},
-          {"margin_m", half_marker_m + camera.head<2>().norm()}};
+          {"camera_height_m", floor.view.camera_height_m},
+          {"reach_per_m", floor.view.reach_per_m},
+          {"margin_m", floor.view.margin_m},
+          {"room_m", floor.room_m}};
 }
 
-SiteView::SiteView(const Site& site) {
-  if (!site.octomap_file) return;
-  sight_lines_.emplace(*site.octomap_file);
-  const double camera_m = site.robot.base_from_camera.translation().z();
-  heights_ = height_bands(*site.octomap_file, site.map.map, camera_m, ceiling_m(site));
+SiteView::SiteView(const Site& site) : floor_(covered_floor(site)) {
+  if (site.octomap_file) sight_lines_.emplace(*site.octomap_file);
+}
+
+ordered_json SiteView::issues(const MarkerRegistry& draft) const {
+  ordered_json issues = ordered_json::array();
+  for (const RegistryIssue& issue : check_coverage(draft, floor_)) issues.push_back(issue_json(issue));
+  return issues;
 }
 
 ordered_json SiteView::deviations(const Site& site, const MarkerRegistry& registry) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <map>
 
 #include "maps/marker.hpp"
 #include "maps/marker_code.hpp"
@@ -15,10 +16,21 @@ constexpr double half_side_m = 0.5 * (marker_grid_size - 1) * marker_pitch_m + m
 
 /// The marker's square on the ceiling, its frame at the centre.
 Pose2 center_of(const MarkerRegistry& registry, const RegisteredMarker& marker) {
-  constexpr double to_center_m = 0.5 * (marker_grid_size - 1) * marker_pitch_m;
-  const Eigen::Isometry3d pose = map_from_marker(registry, marker);
-  const Vec3 center = pose * Vec3(to_center_m, to_center_m, 0.0);
-  return {center.head<2>(), flattened(pose).yaw_rad};
+  return {middle_of(registry, marker).head<2>(), flattened(map_from_marker(registry, marker)).yaw_rad};
+}
+
+/// Each ID once, though it stand there many times.
+void find_repeated_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>& issues) {
+  std::map<int, int> times;
+  for (const RegisteredMarker& marker : registry.markers) {
+    if (++times[marker.id] != 2) continue;
+    issues.push_back({IssueKind::repeated_id,
+                      true,
+                      {marker.id},
+                      marker.line,
+                      fmt::format("marker {} stands twice; each ID may stand once", marker.id),
+                      {}});
+  }
 }
 
 std::array<Vec2, 4> corners_of(const Pose2& square) {
@@ -66,7 +78,8 @@ void find_overlaps(const MarkerRegistry& registry, std::vector<RegistryIssue>& i
                         true,
                         {a.id, b.id},
                         a.line,
-                        fmt::format("markers {} and {} overlap", a.id, b.id)});
+                        fmt::format("markers {} and {} overlap", a.id, b.id),
+                        {}});
     }
   }
 }
@@ -76,12 +89,13 @@ void find_outsiders(const MarkerRegistry& registry, const OccupancyMap& map,
   for (const RegisteredMarker& marker : registry.markers) {
     const Vec2 center = center_of(registry, marker).position_m;
     if (map.contains(map.cell_at(center))) continue;
-    issues.push_back({IssueKind::outside_map,
-                      true,
-                      {marker.id},
-                      marker.line,
-                      fmt::format("marker {} at {:.2f}, {:.2f} m lies outside the map", marker.id, center.x(),
-                                  center.y())});
+    issues.push_back(
+        {IssueKind::outside_map,
+         true,
+         {marker.id},
+         marker.line,
+         fmt::format("marker {} at {:.2f}, {:.2f} m lies outside the map", marker.id, center.x(), center.y()),
+         {}});
   }
 }
 
@@ -91,6 +105,7 @@ void find_similar_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>
     for (std::size_t j = i + 1; j < markers.size(); ++j) {
       const RegisteredMarker& a = markers[i];
       const RegisteredMarker& b = markers[j];
+      if (a.id == b.id) continue;  // that is another mistake
       if (id_distance(a.id, b.id) == 1) {
         issues.push_back(
             {IssueKind::similar_ids,
@@ -99,7 +114,8 @@ void find_similar_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>
              a.line,
              fmt::format("markers {} and {}, {:.2f} m apart, differ in one dot: when it is lost, or "
                          "a glint stands there, the one is read as the other",
-                         a.id, b.id, apart_m(a, b))});
+                         a.id, b.id, apart_m(a, b)),
+             {}});
       }
       if (turned_distance(a.id, b.id) == 0) {
         issues.push_back({IssueKind::mirror_images,
@@ -107,8 +123,22 @@ void find_similar_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>
                           {a.id, b.id},
                           a.line,
                           fmt::format("markers {} and {}, {:.2f} m apart, are each other's mirror image",
-                                      a.id, b.id, apart_m(a, b))});
+                                      a.id, b.id, apart_m(a, b)),
+                          {}});
       }
+    }
+  }
+}
+
+/// The places of the markers that each issue names.
+void find_places(const MarkerRegistry& registry, std::vector<RegistryIssue>& issues) {
+  std::multimap<int, Vec2> places;
+  for (const RegisteredMarker& marker : registry.markers)
+    places.emplace(marker.id, map_from_marker(registry, marker).translation().head<2>());
+  for (RegistryIssue& issue : issues) {
+    for (const int id : issue.ids) {
+      const auto [first, last] = places.equal_range(id);
+      for (auto place = first; place != last; ++place) issue.places_m.push_back(place->second);
     }
   }
 }
@@ -117,6 +147,8 @@ void find_similar_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>
 
 std::string_view to_string(IssueKind kind) {
   switch (kind) {
+    case IssueKind::repeated_id:
+      return "repeated-id";
     case IssueKind::overlapping:
       return "overlapping";
     case IssueKind::outside_map:
@@ -125,8 +157,27 @@ std::string_view to_string(IssueKind kind) {
       return "similar-ids";
     case IssueKind::mirror_images:
       return "mirror-images";
+    case IssueKind::blind_route:
+      return "blind-route";
+    case IssueKind::gap:
+      return "gap";
   }
   return "";
+}
+
+nlohmann::ordered_json issue_json(const RegistryIssue& issue) {
+  nlohmann::ordered_json json{
+      {"kind", to_string(issue.kind)}, {"severity", issue.error ? "error" : "warning"}, {"ids", issue.ids}};
+  if (issue.line > 0) json["line"] = issue.line;
+  json["words"] = issue.words;
+  json["places_m"] = nlohmann::ordered_json::array();
+  for (const Vec2& place : issue.places_m) json["places_m"].push_back({place.x(), place.y()});
+  return json;
+}
+
+Vec3 middle_of(const MarkerRegistry& registry, const RegisteredMarker& marker) {
+  constexpr double to_middle_m = 0.5 * (marker_grid_size - 1) * marker_pitch_m;
+  return map_from_marker(registry, marker) * Vec3(to_middle_m, to_middle_m, 0.0);
 }
 
 DistanceReport upright_distances(const MarkerRegistry& registry) {
@@ -156,9 +207,11 @@ DistanceReport turned_distances(const MarkerRegistry& registry) {
 std::vector<RegistryIssue> check_registry(const MarkerRegistry& registry,
                                           const std::optional<OccupancyMap>& map) {
   std::vector<RegistryIssue> issues;
+  find_repeated_ids(registry, issues);
   find_overlaps(registry, issues);
   if (map) find_outsiders(registry, *map, issues);
   find_similar_ids(registry, issues);
+  find_places(registry, issues);
   return issues;
 }
 

@@ -70,7 +70,7 @@ void write_pictures(const std::filesystem::path& folder, const RunRecord& record
   if (record.pictures.empty()) return;
   make_run_folder(folder);
   for (const KeptPicture& picture : record.pictures) {
-    write_file_atomically(folder / fmt::format("{:.3f}.jpg", seconds(picture.stamp)), picture.jpeg);
+    write_file_atomically(folder / fmt::format("{:.3f}.jpg", seconds(picture.stamp)), picture.jpeg.get());
   }
 }
 

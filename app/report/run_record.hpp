@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,10 +35,10 @@ struct FixRecord {
   bool accepted = false;  ///< by the pose filter
 };
 
-/// A camera frame worth keeping, as JPEG.
+/// A camera frame worth keeping.
 struct KeptPicture {
-  Stamp stamp;  ///< capture
-  std::string jpeg;
+  Stamp stamp;                           ///< capture
+  std::shared_future<std::string> jpeg;  ///< made on the side, see PictureKeeper
 };
 
 /// How one goal ended.

@@ -1,7 +1,5 @@
 #include "app/report/run_recorder.hpp"
 
-#include "app/report/figure.hpp"
-
 namespace lodestar {
 namespace {
 
@@ -36,18 +34,6 @@ void record_step(RunRecord& record, const SensorInput& input, const NavigationSt
                           .commanded = step.command,
                           .measured = input.base.measured.value_or(BodyVelocity{}),
                           .wheel_scales = step.wheel_scales});
-}
-
-const KeptPicture* record_pictures(RunRecord& record, const SensorInput& input, double pictures_hz) {
-  if (pictures_hz <= 0.0) return nullptr;
-  const std::size_t before = record.pictures.size();
-  for (const Frame& frame : input.frames) {
-    const bool is_due = record.pictures.empty() ||
-                        frame.stamp - record.pictures.back().stamp >= from_seconds(0.99 / pictures_hz);
-    if (is_due && !frame.gray.empty())
-      record.pictures.push_back({.stamp = frame.stamp, .jpeg = jpeg_bytes(frame.gray)});
-  }
-  return record.pictures.size() > before ? &record.pictures.back() : nullptr;
 }
 
 void record_event(RunRecord& record, const Mission& mission, MissionEvent event, Stamp now) {

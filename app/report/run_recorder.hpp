@@ -8,10 +8,6 @@ namespace lodestar {
 
 void record_step(RunRecord& record, const SensorInput& input, const NavigationStep& step);
 
-/// Keeps so many of the camera's frames a second. Gives the one that was kept now, until the next call; else
-/// null.
-const KeptPicture* record_pictures(RunRecord& record, const SensorInput& input, double pictures_hz);
-
 /// What has come of the present goal.
 void record_event(RunRecord& record, const Mission& mission, MissionEvent event, Stamp now);
 

@@ -124,6 +124,12 @@ const std::vector<Channel>& drive_channels() {
   return channels;
 }
 
+RobotBody body_of(const Robot& robot) {
+  RobotBody body{.radius_m = robot.radius_m, .outline_m = {}};
+  if (robot.footprint) body.outline_m = robot.footprint->corners_m();
+  return body;
+}
+
 std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp) {
   return {message(map, stamp, grid_message(stamp, world.map)),
           message(markers, stamp, markers_message(stamp, world.registry, {})),
@@ -132,12 +138,12 @@ std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp) {
           message(calibration, stamp, calibration_message(stamp, world.camera))};
 }
 
-std::vector<Message> estimate_messages(const EstimateMoment& moment, double robot_radius_m) {
+std::vector<Message> estimate_messages(const EstimateMoment& moment, const RobotBody& body) {
   const Stamp stamp = moment.estimate.stamp;
   const Eigen::Isometry3d map_from_base = lifted(moment.estimate.map_from_base);
   return {message(transform, stamp, transform_message(stamp, "map", "base_link", map_from_base)),
           message(pose, stamp, pose_message(stamp, map_from_base)),
-          message(robot, stamp, robot_message(moment.estimate, robot_radius_m)),
+          message(robot, stamp, robot_message(moment.estimate, body)),
           message(drive, stamp, drive_json(moment))};
 }
 
@@ -171,8 +177,8 @@ std::vector<int> ids_of(const std::vector<DistrustedMarker>& distrusted) {
   return ids;
 }
 
-DriveMessages::DriveMessages(const KnownWorld& world, double robot_radius_m)
-    : world_(world), robot_radius_m_(robot_radius_m) {}
+DriveMessages::DriveMessages(const KnownWorld& world, RobotBody body)
+    : world_(world), body_(std::move(body)) {}
 
 std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
   const Stamp now = moment.input.now;
@@ -189,8 +195,6 @@ std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
   }
   if (moment.step.event == MissionEvent::path_planned)
     messages.push_back(planned_message(now, moment.mission.path()));
-  if (moment.picture != nullptr)
-    messages.push_back(camera_message(moment.picture->stamp, moment.picture->jpeg));
   return messages;
 }
 
@@ -205,7 +209,7 @@ void DriveMessages::say_estimate(const DriveMoment& moment, std::vector<Message>
                                           .base = base.state,
                                           .fault = base.fault,
                                           .stop = step.stop},
-                                         robot_radius_m_))
+                                         body_))
     messages.push_back(std::move(said));
 }
 

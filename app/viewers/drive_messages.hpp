@@ -36,10 +36,12 @@ struct EstimateMoment {
   std::optional<StopReason> stop;
 };
 
+RobotBody body_of(const Robot& robot);
+
 /// All that does not change during a drive.
 std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp);
 /// /tf, /pose, /robot and /drive.
-std::vector<Message> estimate_messages(const EstimateMoment& moment, double robot_radius_m);
+std::vector<Message> estimate_messages(const EstimateMoment& moment, const RobotBody& body);
 Message planned_message(Stamp stamp, const Path& planned);
 Message ceiling_message(Stamp stamp, const MarkerRegistry& registry, const std::vector<int>& distrusted);
 Message words_message(Stamp stamp, LogLevel level, const std::string& words);
@@ -56,9 +58,9 @@ std::vector<int> ids_of(const std::vector<DistrustedMarker>& distrusted);
 /// Puts a drive into messages, moment by moment.
 class DriveMessages {
  public:
-  DriveMessages(const KnownWorld& world, double robot_radius_m);
+  DriveMessages(const KnownWorld& world, RobotBody body);
 
-  /// What there is to say of this moment; of the first one also all that does not change.
+  /// What there is to say of this moment but for its picture; of the first one also all that does not change.
   std::vector<Message> of(const DriveMoment& moment);
 
  private:
@@ -67,7 +69,7 @@ class DriveMessages {
   void say_base(const DriveMoment& moment, std::vector<Message>& messages);
 
   KnownWorld world_;
-  double robot_radius_m_;
+  RobotBody body_;
   bool has_begun_ = false;
   std::optional<Stamp> last_pose_;
   std::string base_said_;

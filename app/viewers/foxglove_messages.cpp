@@ -59,6 +59,17 @@ Json disc_json(const Eigen::Isometry3d& pose, const Vec3& size_m, Json color) {
           {"color", std::move(color)}};
 }
 
+/// A closed line at this height.
+Json outline_json(const std::vector<Vec2>& corners_m, double height_m) {
+  constexpr int line_loop = 1;
+  Json points = Json::array();
+  for (const Vec2& corner : corners_m) points.push_back(vector_json({corner.x(), corner.y(), height_m}));
+  return {{"type", line_loop},           {"pose", pose_json(Eigen::Isometry3d::Identity())},
+          {"thickness", 0.03},           {"scale_invariant", false},
+          {"points", std::move(points)}, {"color", color_json(0.2, 0.6, 0.9, 1.0)},
+          {"colors", Json::array()},     {"indices", Json::array()}};
+}
+
 Json marker_entity(Stamp stamp, const MarkerRegistry& registry, const RegisteredMarker& marker,
                    bool distrusted) {
   constexpr double plate_m = marker_grid_size * marker_pitch_m;
@@ -153,17 +164,24 @@ Json markers_message(Stamp stamp, const MarkerRegistry& registry, const std::vec
     const bool is_bad = std::ranges::find(distrusted, marker.id) != distrusted.end();
     entities.push_back(marker_entity(stamp, registry, marker, is_bad));
   }
-  return scene_json(std::move(entities));
+  Json scene = scene_json(std::move(entities));
+  constexpr int all = 1;
+  scene["deletions"].push_back({{"timestamp", time_json(stamp)}, {"type", all}, {"id", ""}});
+  return scene;
 }
 
-Json robot_message(const PoseEstimate& estimate, double radius_m) {
+Json robot_message(const PoseEstimate& estimate, const RobotBody& robot) {
   constexpr double height_m = 0.02;
   constexpr double sigmas = 3.0;
   const Stamp stamp = estimate.stamp;
   Json body = entity_json(stamp, base_frame, "robot");
-  body["cylinders"].push_back(disc_json(lifted({}, 0.5 * height_m),
-                                        {2.0 * radius_m, 2.0 * radius_m, height_m},
-                                        color_json(0.2, 0.6, 0.9, 0.5)));
+  if (robot.outline_m.empty()) {
+    body["cylinders"].push_back(disc_json(lifted({}, 0.5 * height_m),
+                                          {2.0 * robot.radius_m, 2.0 * robot.radius_m, height_m},
+                                          color_json(0.2, 0.6, 0.9, 0.5)));
+  } else {
+    body["lines"].push_back(outline_json(robot.outline_m, height_m));
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(estimate.covariance.topLeftCorner<2, 2>());
   const Vec2 sigma_m = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   const Vec2 axis = solver.eigenvectors().col(0);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "app/viewers/channel.hpp"
 #include "maps/camera_model.hpp"
@@ -23,10 +24,16 @@ MessageJson transform_message(Stamp stamp, const char* parent, const char* child
 MessageJson pose_message(Stamp stamp, const Eigen::Isometry3d& map_from_base);
 MessageJson path_message(Stamp stamp, const Path& path);
 MessageJson grid_message(Stamp stamp, const OccupancyMap& map);
-/// A plate and its ID for each marker; `distrusted` ones in red.
+/// A plate and its ID for each marker, in place of all that were there before; `distrusted` ones in red.
 MessageJson markers_message(Stamp stamp, const MarkerRegistry& registry, const std::vector<int>& distrusted);
+/// What of the robot stands on the floor: a disc, or an outline where it has one.
+struct RobotBody {
+  double radius_m = 0.0;
+  std::vector<Vec2> outline_m;  ///< corners in the robot frame
+};
+
 /// The footprint, and the ellipse of three standard deviations about the estimated place.
-MessageJson robot_message(const PoseEstimate& estimate, double radius_m);
+MessageJson robot_message(const PoseEstimate& estimate, const RobotBody& robot);
 MessageJson calibration_message(Stamp stamp, const CameraModel& camera);
 MessageJson picture_message(Stamp stamp, const std::string& jpeg);
 

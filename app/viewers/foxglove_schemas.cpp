@@ -43,6 +43,14 @@ Json scene_update() {
                              {"scale_invariant", truth_value},
                              {"color", color},
                              {"text", text}});
+  const Json line = object({{"type", integer},
+                            {"pose", pose},
+                            {"thickness", number},
+                            {"scale_invariant", truth_value},
+                            {"points", list_of(vector3)},
+                            {"color", color},
+                            {"colors", list_of(color)},
+                            {"indices", list_of(integer)}});
   const Json any = list_of(of_type("object"));  // shapes that we never send
   const Json entity = object({{"timestamp", time_of_day},
                               {"frame_id", text},
@@ -54,7 +62,7 @@ Json scene_update() {
                               {"cubes", list_of(cube)},
                               {"spheres", any},
                               {"cylinders", list_of(cylinder)},
-                              {"lines", any},
+                              {"lines", list_of(line)},
                               {"triangles", any},
                               {"texts", list_of(label)},
                               {"models", any}});

@@ -7,15 +7,20 @@
 namespace lodestar {
 
 FoxgloveView::FoxgloveView(const Site& site)
-    : registry_(site.registry),
-      robot_radius_m_(site.robot.radius_m),
-      hub_("Lodestar: " + site.name, drive_channels()) {
+    : registry_(site.registry), body_(body_of(site.robot)), hub_("Lodestar: " + site.name, drive_channels()) {
   for (const Message& message : scene_messages(known_world(site, site.default_camera), Stamp()))
     hub_.publish(message);
 }
 
 void FoxgloveView::pump(Stamp /*now*/, const RobotState* fresh) {
-  if (fresh != nullptr && hub_.has_viewers()) show(*fresh);
+  if (fresh == nullptr) return;
+  now_ = fresh->now;
+  if (hub_.has_viewers()) show(*fresh);
+}
+
+void FoxgloveView::take_markers(const MarkerRegistry& saved) {
+  registry_ = saved;
+  hub_.publish(ceiling_message(now_, registry_, distrusted_));
 }
 
 void FoxgloveView::show(const RobotState& state) {
@@ -29,7 +34,7 @@ void FoxgloveView::show(const RobotState& state) {
                                .base = state.base,
                                .fault = state.fault,
                                .stop = state.stop},
-                              robot_radius_m_));
+                              body_));
     if (state.error_m) publish({error_message(*state.estimate, *state.error_m)});
   }
   if (state.path && state.path != path_) publish({planned_message(state.now, *state.path)});

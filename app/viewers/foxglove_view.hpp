@@ -5,6 +5,7 @@
 #include "app/console/live_channel.hpp"
 #include "app/site.hpp"
 #include "app/viewers/foxglove_hub.hpp"
+#include "app/viewers/foxglove_messages.hpp"
 
 namespace lodestar {
 
@@ -17,16 +18,18 @@ class FoxgloveView : public LiveChannel {
   [[nodiscard]] std::vector<SocketProtocol> protocols() override { return hub_.protocols(); }
   [[nodiscard]] bool is_watched() const override { return hub_.has_viewers(); }
   void pump(Stamp now, const RobotState* fresh) override;
+  void take_markers(const MarkerRegistry& saved) override;
 
  private:
   void show(const RobotState& state);
 
   MarkerRegistry registry_;
-  double robot_radius_m_;
+  RobotBody body_;
   FoxgloveHub hub_;
   std::shared_ptr<const Path> path_;
   std::vector<int> distrusted_;
   std::uint64_t last_event_ = 0;
+  Stamp now_;  ///< of the newest state
 };
 
 }  // namespace lodestar

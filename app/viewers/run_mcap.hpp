@@ -31,7 +31,7 @@ struct RunMcapOptions {
 class RunMcap {
  public:
   /// Makes the folder. Throws InputError when that or the file cannot be made.
-  RunMcap(const std::filesystem::path& folder, const KnownWorld& world, double robot_radius_m,
+  RunMcap(const std::filesystem::path& folder, const KnownWorld& world, RobotBody body,
           const RunMcapOptions& options = {});
   RunMcap(const RunMcap&) = delete;
   RunMcap& operator=(const RunMcap&) = delete;
@@ -47,15 +47,22 @@ class RunMcap {
   [[nodiscard]] bool finish();
 
  private:
-  void take(std::vector<Message> messages);
+  /// What is to be written next. A picture may still be in the making.
+  struct Portion {
+    std::vector<Message> messages;
+    std::optional<KeptPicture> picture;
+  };
+
+  void take(Portion portion);
   void work();
+  void write(const Portion& portion);
 
   RunMcapOptions options_;
   DriveMessages messages_;
   std::unique_ptr<McapFile> file_;  ///< the writer's alone while it works
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Message> waiting_;
+  std::vector<Portion> waiting_;
   std::size_t waiting_bytes_ = 0;
   bool has_skipped_ = false;
   bool ends_ = false;

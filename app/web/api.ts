@@ -7,11 +7,11 @@ export class Refusal extends Error {
 
 export interface Site {
   name: string;
-  robot: { name: string; radius_m: number };
+  robot: { name: string; radius_m: number; footprint_m: [number, number][] | null };  // the outline; null for a disc
   start: { x_m: number; y_m: number; yaw_deg: number };
   goals: { x_m: number; y_m: number }[];
   routes: [number, number][][];  // of the usual drive, from place to place
-  coverage: { camera: string; camera_height_m: number; reach_per_m: number; margin_m: number };
+  coverage: { camera: string; camera_height_m: number; reach_per_m: number; margin_m: number; room_m: number };
   formats: string[];
 }
 
@@ -30,7 +30,7 @@ export interface Heights { low_m: number; step_m: number; touch_m: number; bands
 export interface Deviations { stride: number; columns: number; sigma_mm: (number | null)[] }
 
 export interface Issue {
-  kind: string;
+  kind: string;  // as lodestar markers check names it
   severity: 'error' | 'warning';
   ids: number[];
   words: string;

@@ -7,8 +7,6 @@ import type { Marker, Point, Pose } from './geometry.js';
 const occupiedFrom = 50;
 const enoughMarkers = 2;
 
-export interface Gap { at: Point; areaM2: number; low: Point; high: Point }
-
 export class Floor {
   readonly origin: Pose;
   private readonly gridFromMap: Pose;
@@ -16,10 +14,10 @@ export class Floor {
 
   /** With `heights`, of an OctoMap, these hide markers; without, all that is occupied on the map is taken to reach the
    *  ceiling. */
-  constructor(readonly info: MapInfo, readonly cells: Int8Array, robotRadiusM: number, readonly heights: Heights | null = null) {
+  constructor(readonly info: MapInfo, readonly cells: Int8Array, roomM: number, readonly heights: Heights | null = null) {
     this.origin = { x: info.origin.x_m, y: info.origin.y_m, yawDeg: info.origin.yaw_deg };
     this.gridFromMap = inverse(this.origin);
-    this.roomy = this.placesWithRoom(robotRadiusM / info.resolution_m);
+    this.roomy = this.placesWithRoom(roomM / info.resolution_m);
   }
 
   isFree(index: number): boolean {
@@ -32,7 +30,7 @@ export class Floor {
     return column >= 0 && row >= 0 && column < columns && row < rows && this.cells[row * columns + column]! >= occupiedFrom;
   }
 
-  /** Can the robot's middle be there, as planners see it: farther than its radius from all that is not free? */
+  /** Can the robot's middle be there, as planners see it: farther than it needs from all that is not free? */
   canStand(index: number): boolean { return this.roomy[index] === 1; }
 
   private placesWithRoom(radius: number): Uint8Array {
@@ -167,39 +165,6 @@ export class Coverage {
     return { one: free ? one / free : 1, two: free ? two / free : 1 };
   }
 
-  /** How many markers are sure to be seen from a place; 0 beyond the map. */
-  countAt(at: Point): number {
-    const { columns, rows } = this.floor.info;
-    const cell = this.floor.toGrid(at);
-    const [column, row] = [Math.floor(cell.x), Math.floor(cell.y)];
-    return column >= 0 && row >= 0 && column < columns && row < rows ? this.counts[row * columns + column]! : 0;
-  }
-
-  /** Connected places that see nothing, the largest first; specks are left out. */
-  gaps(leastM2 = 0.1): Gap[] {
-    const { columns, resolution_m: r } = this.floor.info;
-    const visited = new Uint8Array(this.counts.length);
-    const gaps: Gap[] = [];
-    for (let start = 0; start < this.counts.length; ++start) {
-      if (visited[start] || !this.isBlind(start)) continue;
-      const open = [start];
-      visited[start] = 1;
-      const cells: number[] = [];
-      while (open.length > 0) {
-        const cell = open.pop()!;
-        cells.push(cell);
-        const column = cell % columns;
-        for (const next of [column > 0 ? cell - 1 : -1, column < columns - 1 ? cell + 1 : -1, cell - columns, cell + columns]) {
-          if (next < 0 || next >= visited.length || visited[next] || !this.isBlind(next)) continue;
-          visited[next] = 1;
-          open.push(next);
-        }
-      }
-      if (cells.length * r * r >= leastM2) gaps.push(this.gapOf(cells, r));
-    }
-    return gaps.sort((a, b) => b.areaM2 - a.areaM2);
-  }
-
   /** Where one more marker at this height would let the most blind cells see; null when none are blind. */
   suggestion(z: number): Point | null {
     const { columns, rows, resolution_m: r } = this.floor.info;
@@ -216,18 +181,6 @@ export class Coverage {
       }
     }
     return best;
-  }
-
-  private isBlind(index: number): boolean { return this.counts[index] === 0 && this.floor.canStand(index); }
-
-  private gapOf(cells: number[], r: number): Gap {
-    const points = cells.map((cell) => this.floor.centerOfCell(cell));
-    const low = { x: Infinity, y: Infinity }, high = { x: -Infinity, y: -Infinity };
-    for (const p of points) {
-      low.x = Math.min(low.x, p.x); low.y = Math.min(low.y, p.y);
-      high.x = Math.max(high.x, p.x); high.y = Math.max(high.y, p.y);
-    }
-    return { at: points[points.length >> 1]!, areaM2: cells.length * r * r, low, high };
   }
 
   private count(cells: Int32Array, by: number): void { for (const cell of cells) this.counts[cell]! += by; }

@@ -18,6 +18,9 @@ export function button(text: string, title: string, action: () => void, attribut
 
 export const byId = (id: string): HTMLElement => document.getElementById(id)!;
 
+/** No minus before zero. */
+export const positive = (text: string): string => text.replace(/^-(0(\.0*)?)$/, '$1');
+
 export const plural = (count: number, word: string): string => `${count} ${word}${count === 1 ? '' : 's'}`;
 
 /** A dialog with a head, contents and buttons; resolves with the name of the button, or '' when it is left. */

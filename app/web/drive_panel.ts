@@ -1,11 +1,8 @@
 // Beside the map: the robot in words and numbers, and the goals as fields for the keyboard.
-import { button, byId, el } from './dom.js';
+import { button, byId, el, positive } from './dom.js';
 import type { Goal } from './goals.js';
 import type { Live } from './live.js';
 import { ellipseOf } from './robot_paint.js';
-
-/** No minus before zero. */
-const positive = (text: string): string => text.replace(/^-(0(\.0*)?)$/, '$1');
 
 export class DrivePanel {
   private listed = '';

@@ -38,11 +38,21 @@ export class Editor {
     this.markSaved();
   }
 
-  registry(): Registry {
+  registry(): Registry { return this.registryOf([...this.markers.values()]); }
+
+  /** The same with what is being dragged where it is now. */
+  draft(): Registry {
+    return this.registryOf([...this.markers.values()].map((marker) => {
+      const dragged = this.preview.get(marker.key);
+      return dragged ? this.fromMap(dragged) : marker;
+    }));
+  }
+
+  private registryOf(markers: Marker[]): Registry {
     const a = this.alignment;
     return {
       alignment: { x_m: a.x, y_m: a.y, yaw_deg: a.yawDeg },
-      markers: [...this.markers.values()].map((m) => ({ id: m.id, x_m: m.x, y_m: m.y, z_m: m.z, yaw_deg: m.yawDeg })),
+      markers: markers.map((m) => ({ id: m.id, x_m: m.x, y_m: m.y, z_m: m.z, yaw_deg: m.yawDeg })),
     };
   }
 

@@ -1,5 +1,7 @@
 // What the map shows: each layer can be switched off. The floor has one colour at a time.
 import { byId, el } from './dom.js';
+import { inkNow } from './robot_paint.js';
+import type { Ink } from './robot_paint.js';
 
 export type FloorColour = 'coverage' | 'deviation' | 'plain';
 export type LayerName = 'map' | 'markers' | 'ids' | 'reach' | 'route';
@@ -13,6 +15,11 @@ const legends: Record<FloorColour, [string, string][]> = {
   coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more']],
   deviation: [['more', '5 mm or less'], ['one', '20 mm or more, one deviation of a fix'], ['none', 'no marker at some heading']],
   plain: [],
+};
+
+const lineKeys: Record<string, [keyof Ink, string][]> = {
+  live: [['path', 'planned'], ['preview', 'preview'], ['track', 'driven'], ['truth', 'markers in view'], ['goal', 'goal, 3σ of the pose']],
+  replay: [['track', 'by the estimate'], ['truth', 'by the truth of a simulation']],
 };
 
 export class Layers {
@@ -41,9 +48,15 @@ export class Layers {
     this.onChange();
   }
 
-  /** What the floor's colours mean. */
+  /** What the colours of lines and floor mean, for what the page is for now. */
   showLegend(): void {
-    byId('legend').replaceChildren('From above, as through the ceiling.',
+    const colours = inkNow();
+    const lines = (lineKeys[document.body.dataset['mode'] ?? ''] ?? []).flatMap(([kind, words]) => {
+      const swatch = el('span', { class: 'swatch' });
+      swatch.style.background = colours[kind];
+      return [swatch, words];
+    });
+    byId('legend').replaceChildren(lines.length === 0 ? 'From above, as through the ceiling.' : '', ...lines,
       ...legends[this.floor].flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words]));
   }
 }

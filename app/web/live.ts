@@ -60,9 +60,11 @@ export class Live implements Guest, Listener {
       this.plots ??= new DrivePlots(byId('live-plots'));
       this.places.open();
     }
-    this.socket.send({ type: 'camera', on: shown });
+    this.wantPictures();
     this.stage.redraw();
   }
+
+  private wantPictures(): void { if (this.hello?.robot) this.socket.send({ type: 'camera', on: this.shown }); }
 
   get canDrive(): boolean { return this.hello?.role === 'drive' && this.hello.robot; }
   get atWheel(): boolean { return this.state !== null && this.state.driver === this.hello?.client; }
@@ -74,7 +76,7 @@ export class Live implements Guest, Listener {
     const first = this.hello === null;
     this.hello = hello;
     this.wantsWheel = false;
-    this.socket.send({ type: 'camera', on: this.shown });
+    this.wantPictures();
     if (hello.robot) document.body.dataset['robot'] = '';
     if (first && hello.robot) this.onRobot();
     this.panel.refresh();
@@ -231,7 +233,7 @@ export class Live implements Guest, Listener {
     const state = this.state;
     if (state?.pose) {
       const pose = { x: state.pose.x_m, y: state.pose.y_m, yawDeg: state.pose.yaw_deg };
-      drawRobot(c, view, pose, this.site.robot.radius_m, this.isStale ? colours.stale : colours.robot);
+      drawRobot(c, view, pose, this.site.robot, this.isStale ? colours.stale : colours.robot);
       drawEllipse(c, view, pose, state.pose.covariance_m2, colours.goal);
     }
     const many = this.goals.list.length > 1;

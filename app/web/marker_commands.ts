@@ -6,7 +6,7 @@ import type { Measure } from './measure.js';
 import type { Pointer } from './pointer.js';
 import type { View } from './view.js';
 
-interface Page {
+export interface MarkerTools {
   readonly editor: Editor;
   readonly actions: Actions;
   readonly pointer: Pointer;
@@ -15,7 +15,7 @@ interface Page {
 }
 
 /** `attempt`: runs what may fail, and says how. */
-export function markerCommands(page: Page, attempt: (action: () => Promise<string | void>) => void): Command[] {
+export function markerCommands(page: MarkerTools, attempt: (action: () => Promise<string | void>) => void): Command[] {
   const { editor } = page;
   const any = () => editor.selection.size > 0;
   const { snap } = page.pointer;

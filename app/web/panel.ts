@@ -1,12 +1,11 @@
 // The panel beside the map: the selection in numbers, coverage, issues, and all markers as a table.
 import type { Issue } from './api.js';
-import type { Coverage, Gap } from './coverage.js';
-import type { BlindStretch } from './route.js';
+import type { Coverage } from './coverage.js';
 import { button, byId, el, plural } from './dom.js';
 import type { Editor } from './editor.js';
 import { idCount, wrapDeg } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
-import { drawFace } from './stage.js';
+import { drawFace } from './marker_paint.js';
 
 const mostRows = 250;
 const mostIssues = 60;
@@ -23,12 +22,14 @@ const fields: [FieldName, string, string][] = [
   ['id', 'ID', '1'], ['x', 'x (m)', '0.01'], ['y', 'y (m)', '0.01'], ['z', 'z (m)', '0.01'], ['yawDeg', 'yaw (°)', '1']];
 
 export class Panel {
-  issues: Issue[] = [];
-  private gaps: Gap[] = [];
-  private stretches: BlindStretch[] = [];
   private shownSelection = '';
+  private readonly coverageWords = el('p', { id: 'coverage-words' });
+  private readonly gapWords = el('p', { id: 'gap-words' });
 
   constructor(private readonly editor: Editor, private readonly actions: PanelActions) {
+    byId('coverage').append(this.coverageWords, this.gapWords, el('div', { class: 'row' },
+      button('Suggest next marker', 'Place one where it closes most of the gaps', () => actions.suggest()),
+      button('Fill the gaps', 'Place as many as it takes, by a greedy search (K)', () => actions.fill())));
     byId('filter').addEventListener('input', () => this.showList());
   }
 
@@ -46,7 +47,9 @@ export class Panel {
     if (keys === this.shownSelection && chosen.length === 1) return this.refreshFields(chosen[0]!);
     this.shownSelection = keys;
     if (chosen.length === 0) {
-      box.replaceChildren(el('p', {}, 'Nothing. Click a marker; Shift+drag a box; press ? for all keys.'));
+      box.replaceChildren(el('p', {}, this.editor.markers.size === 0
+        ? 'There are no markers yet. Add hangs one in the middle of the view, Suggest next marker where it is needed most.'
+        : 'Nothing. Click a marker; Shift+drag a box; press ? for all keys.'));
     } else if (chosen.length === 1) {
       box.replaceChildren(this.fieldsOf(chosen[0]!), el('div', { class: 'row' },
         button('Safest IDs', 'Free IDs, the safest first (I)', () => this.actions.pickId())), facesOf(chosen[0]!.id));
@@ -87,37 +90,25 @@ export class Panel {
 
   // -- coverage -------------------------------------------------------------------------------------------
 
-  showCoverage(coverage: Coverage, stretches: BlindStretch[]): void {
-    this.gaps = coverage.gaps();
-    this.stretches = stretches;
+  showCoverage(coverage: Coverage): void {
     const { one, two } = coverage.shares();
     const percent = (share: number) => `${(100 * share).toFixed(1)} %`;
-    byId('coverage').replaceChildren(
-      el('p', { id: 'coverage-words' }, `${percent(one)} of the floor where the robot can stand sees a marker, ${percent(two)} two or more, ` +
-        'however the robot has turned.'),
-      this.gaps.length === 0 ? el('p', { class: 'fine' }, 'No gaps.')
-        : el('p', { class: 'warning' }, `${plural(this.gaps.length, 'gap')} without any marker; the wheels carry the robot across short ones.`),
-      el('div', { class: 'row' }, button('Suggest next marker', 'Place one where it closes most of the gaps', () => this.actions.suggest()),
-        button('Fill the gaps', 'Place as many as it takes, by a greedy search (K)', () => this.actions.fill())));
-    this.listIssues();
+    this.coverageWords.textContent = `${percent(one)} of the floor where the robot can stand sees a marker, ${percent(two)} two or more, ` +
+      'however the robot has turned.';
   }
 
   // -- issues ---------------------------------------------------------------------------------------------
 
-  /** What the server found in the registry. */
+  /** What the server found in the registry, as `lodestar markers check` does. */
   showIssues(issues: Issue[]): void {
-    this.issues = issues;
-    this.listIssues();
-  }
-
-  private listIssues(): void {
-    const sorted = [...this.issues].sort((a, b) => a.severity.localeCompare(b.severity));
-    const errors = this.issues.filter((i) => i.severity === 'error').length;
-    const warnings = this.issues.length - errors + this.gaps.length + this.stretches.length;
-    const rows = [...sorted.map((issue) => this.issueRow(issue)), ...this.stretches.map((s) => this.stretchRow(s)), ...this.gaps.map((gap) => this.gapRow(gap))];
+    const gaps = issues.filter((i) => i.kind === 'gap').length;
+    this.gapWords.className = gaps === 0 ? 'fine' : 'warning';
+    this.gapWords.textContent = gaps === 0 ? 'No gaps.' : `${plural(gaps, 'gap')} without any marker; the wheels carry the robot across short ones.`;
+    const worstFirst = [...issues].sort((a, b) => a.severity.localeCompare(b.severity));
+    const errors = issues.filter((i) => i.severity === 'error').length;
     byId('issues').replaceChildren(
-      rows.length === 0 ? el('p', { class: 'fine' }, 'None found.') : el('p', {}, `${plural(errors, 'error')}, ${plural(warnings, 'warning')}`),
-      listOf(rows.slice(0, mostIssues)));
+      issues.length === 0 ? el('p', { class: 'fine' }, 'None found.') : el('p', {}, `${plural(errors, 'error')}, ${plural(issues.length - errors, 'warning')}`),
+      listOf(worstFirst.slice(0, mostIssues).map((issue) => this.issueRow(issue))));
   }
 
   private issueRow(issue: Issue): HTMLElement {
@@ -125,16 +116,6 @@ export class Panel {
       this.editor.select([...this.editor.markers.values()].filter((m) => issue.ids.includes(m.id)).map((m) => m.key));
       this.actions.goTo(issue.places_m.map(([x, y]) => ({ x, y })));
     }, { class: issue.severity, 'data-kind': issue.kind });
-  }
-
-  private stretchRow(stretch: BlindStretch): HTMLElement {
-    return button(`the usual route sees no marker for ${stretch.lengthM.toFixed(1)} m from ${stretch.from.x.toFixed(1)}, ${stretch.from.y.toFixed(1)} m`,
-      'Show on the map', () => this.actions.goTo([stretch.from, stretch.to]), { class: 'warning', 'data-kind': 'blind-route' });
-  }
-
-  private gapRow(gap: Gap): HTMLElement {
-    return button(`${gap.areaM2.toFixed(1)} m² near ${gap.at.x.toFixed(1)}, ${gap.at.y.toFixed(1)} m without any marker`,
-      'Show on the map', () => this.actions.goTo([gap.low, gap.high]), { class: 'warning', 'data-kind': 'gap' });
   }
 
   // -- all markers ----------------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 // Small plots over time, and in words what they show now.
 import uPlot from 'uplot';
-import { el } from './dom.js';
+import { el, positive } from './dom.js';
 
 export interface Line { label: string; unit: string; colour: string; digits: number; dash?: boolean }
 
@@ -32,7 +32,7 @@ export class Plot {
   tell(row: number, mark: boolean): void {
     const parts = this.lines.map((line, i) => {
       const value = this.data[i + 1]?.[row];
-      const number = value === null || value === undefined ? '-' : `${value.toFixed(line.digits)}${line.unit}`;
+      const number = value === null || value === undefined ? '-' : `${positive(value.toFixed(line.digits))}${line.unit}`;
       return el('span', {}, el('i', { class: `ink ${line.colour.slice(2)}` }), `${line.label} ${number}`);
     });
     this.words.replaceChildren(el('strong', {}, this.title), ...parts);

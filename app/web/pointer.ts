@@ -1,7 +1,7 @@
 // The mouse, a pen or a finger on the stage: pan, zoom, choose, drag, rotate, marquee.
 import { centerOf, degrees, tidy, transform, wrapDeg } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
-import { isOn } from './stage.js';
+import { isOn } from './marker_paint.js';
 import type { Stage } from './stage.js';
 
 export interface Snap { on: boolean; gridM: number; angleDeg: number }

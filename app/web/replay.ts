@@ -1,20 +1,25 @@
 // A run folder on the map: its track, the robot at a time, plots and camera pictures, and a bar to scrub through it.
 import { getRun, getRuns, pictureOfRun } from './api.js';
 import type { Row, Run } from './api.js';
-import { button, byId, el } from './dom.js';
+import { button, byId, el, positive } from './dom.js';
 import { DrivePlots } from './plots.js';
 import { poseAt } from './poses.js';
 import { drawRobot, drawWay, inkNow } from './robot_paint.js';
+import type { RobotShape } from './robot_paint.js';
 import { columnsOf, lastNotAfter } from './run_plots.js';
 import { showSummary } from './run_summary.js';
 import type { Stage } from './stage.js';
 
+const lookEveryMs = 2000;
 const speeds = ['0.2', '1', '2', '5', '10', '50'];
 
 export class Replay {
   time = 0;
   run: Run | null = null;
   onClose: () => void = () => {};
+  private opened = false;
+  private watching = 0;
+  private listed = '';
   private playing = false;
   private lastFrame = 0;
   private plots: DrivePlots | null = null;
@@ -28,7 +33,7 @@ export class Replay {
   private readonly noPicture = el('p', { class: 'faint' }, 'No pictures: lodestar replay --pictures 2 keeps two a second');
   private readonly picture = el('img', { id: 'replay-picture', alt: 'Camera picture of that time', hidden: '' });
 
-  constructor(private readonly stage: Stage, private readonly robotRadiusM: number, private readonly fail: (error: unknown) => void) {
+  constructor(private readonly stage: Stage, private readonly robot: RobotShape, private readonly fail: (error: unknown) => void) {
     byId('replay').append(this.runs, this.play, this.slider, this.speed, this.words,
       button('Close', 'Leave the replay', () => this.onClose()));
     byId('picture-box').append(this.picture, this.noPicture);
@@ -39,19 +44,32 @@ export class Replay {
     stage.painters.push((c) => this.paint(c));
   }
 
-  /** Shows the bar with the latest run, or says that there is none. */
+  /** Shows the bar with the latest run, or says that there is none; those that come later are added. */
   async open(): Promise<string> {
+    this.opened = true;
+    clearInterval(this.watching);
+    this.watching = setInterval(() => { this.look().catch(this.fail); }, lookEveryMs);
+    await this.look();
+    return this.run ? '' : 'No run folders yet: replay -o and the drives of this console leave them below --runs FOLDER';
+  }
+
+  private async look(): Promise<void> {
     const names = await getRuns();
-    if (names.length === 0) return 'No run folders: start the server with --runs FOLDER, as replay -o leaves them';
+    if (!this.opened || names.length === 0 || names.join() === this.listed) return;
+    this.listed = names.join();
+    const chosen = this.run?.name ?? names.at(-1)!;
     this.runs.replaceChildren(...names.map((name) => el('option', { value: name }, name)));
-    this.runs.value = names.at(-1)!;
+    this.runs.value = chosen;
+    if (this.run) return;
     byId('replay').hidden = byId('replay-plots').hidden = false;
     this.plots ??= new DrivePlots(byId('replay-plots'), (time) => this.goTo(time));
-    await this.load(this.runs.value);
-    return '';
+    await this.load(chosen);
   }
 
   leave(): void {
+    this.opened = false;
+    clearInterval(this.watching);
+    this.listed = '';
     this.run = null;
     this.playing = false;
     byId('replay').hidden = byId('replay-plots').hidden = true;
@@ -59,7 +77,7 @@ export class Replay {
   }
 
   goTo(time: number): void {
-    this.time = Math.min(this.end(), Math.max(0, time));
+    this.time = Math.min(this.end(), Math.max(this.start(), time));
     this.slider.value = String(this.time);
     this.words.textContent = this.report();
     this.plots?.tell(lastNotAfter(this.columns[0]!, this.time), true);
@@ -69,13 +87,15 @@ export class Replay {
 
   private async load(name: string): Promise<void> {
     this.run = await getRun(name);
-    this.slider.max = String(this.end());
+    [this.slider.min, this.slider.max] = [String(Math.floor(100 * this.start()) / 100), String(this.end())];
     this.columns = columnsOf(this.run);
     this.plots?.set(this.columns);
     showSummary(this.run);
-    this.goTo(0);
+    this.goTo(this.start());
   }
 
+  /** A robot's clock goes on from drive to drive. */
+  private start(): number { return this.run?.estimate[0]?.[0] ?? 0; }
   private end(): number { return Math.max(this.run?.estimate.at(-1)?.[0] ?? 0, this.run?.truth.at(-1)?.[0] ?? 0); }
 
   private key(e: KeyboardEvent): void {
@@ -92,7 +112,7 @@ export class Replay {
   private toggle(): void {
     this.playing = !this.playing;
     this.play.textContent = this.playing ? 'Pause' : 'Play';
-    if (this.playing && this.time >= this.end()) this.goTo(0);
+    if (this.playing && this.time >= this.end()) this.goTo(this.start());
     this.lastFrame = performance.now();
     if (this.playing) requestAnimationFrame((now) => this.advance(now));
   }
@@ -122,7 +142,7 @@ export class Replay {
     const estimate = poseAt(this.run?.estimate ?? [], this.time);
     const truth = poseAt(this.run?.truth ?? [], this.time);
     if (!estimate) return '';
-    const place = `${this.time.toFixed(1)} of ${this.end().toFixed(1)} s: ${estimate[1].toFixed(3)}, ${estimate[2].toFixed(3)} m, ${estimate[3].toFixed(1)}°`;
+    const place = `${this.time.toFixed(1)} of ${this.end().toFixed(1)} s: ${estimate[1].toFixed(3)}, ${estimate[2].toFixed(3)} m, ${positive(estimate[3].toFixed(1))}°`;
     if (!truth) return place;
     return `${place}; off by ${(1000 * Math.hypot(estimate[1] - truth[1], estimate[2] - truth[2])).toFixed(1)} mm`;
   }
@@ -135,6 +155,6 @@ export class Replay {
     drawWay(c, view, points(this.run.truth), colours.truth, 1.5, [4, 4]);
     drawWay(c, view, points(this.run.estimate), colours.track, 2);
     const pose = poseAt(this.run.estimate, this.time);
-    if (pose) drawRobot(c, view, { x: pose[1], y: pose[2], yawDeg: pose[3] }, this.robotRadiusM, colours.robot);
+    if (pose) drawRobot(c, view, { x: pose[1], y: pose[2], yawDeg: pose[3] }, this.robot, colours.robot);
   }
 }

@@ -25,10 +25,15 @@ export function drawWay(c: CanvasRenderingContext2D, view: View, points: Iterabl
   c.restore();
 }
 
-/** Its footprint, true to scale but never too small to be seen, and a wedge to the front. */
-export function drawRobot(c: CanvasRenderingContext2D, view: View, pose: Pose, radiusM: number, colour: string): void {
+/** A disc, or the outline where the robot has one: corners in its own frame, x ahead and y to the left. */
+export interface RobotShape { radius_m: number; footprint_m: [number, number][] | null }
+
+/** Its footprint, true to scale but never too small to be seen, and a wedge at its front. */
+export function drawRobot(c: CanvasRenderingContext2D, view: View, pose: Pose, shape: RobotShape, colour: string): void {
   const at = view.toScreen(pose);
-  const radius = Math.max(7, radiusM * view.pixelsPerM);
+  const corners = shape.footprint_m ?? [[shape.radius_m, shape.radius_m]];
+  const front = Math.max(...corners.map(([x]) => x)), side = Math.max(...corners.map(([, y]) => Math.abs(y)));
+  const scale = Math.max(view.pixelsPerM, 7 / Math.max(front, side));
   c.save();
   c.translate(at.x, at.y);
   c.rotate(view.angleOf(pose.yawDeg));
@@ -36,12 +41,15 @@ export function drawRobot(c: CanvasRenderingContext2D, view: View, pose: Pose, r
   c.lineWidth = 2;
   c.globalAlpha = 0.3;
   c.beginPath();
-  c.arc(0, 0, radius, 0, 2 * Math.PI);
+  if (shape.footprint_m) for (const [x, y] of shape.footprint_m) c.lineTo(x * scale, -y * scale);
+  else c.arc(0, 0, shape.radius_m * scale, 0, 2 * Math.PI);
+  c.closePath();
   c.fill();
   c.globalAlpha = 1;
   c.stroke();
+  const nose = front * scale, size = Math.min(front, side) * scale;
   c.beginPath();
-  c.moveTo(radius, 0); c.lineTo(-radius * 0.35, radius * 0.5); c.lineTo(-radius * 0.1, 0); c.lineTo(-radius * 0.35, -radius * 0.5);
+  c.moveTo(nose, 0); c.lineTo(nose - size * 1.35, size * 0.5); c.lineTo(nose - size * 1.1, 0); c.lineTo(nose - size * 1.35, -size * 0.5);
   c.closePath();
   c.fill();
   c.restore();

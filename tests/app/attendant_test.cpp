@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/navigation_setup.hpp"
 #include "app/replay.hpp"
 #include "drivers/clock.hpp"
 
@@ -90,6 +91,29 @@ TEST(Attendant, sends_the_robot_where_it_is_told_and_keeps_each_drive) {
   EXPECT_LT((story.kept[1].start.position_m - story.kept[0].truth.back().map_from_base.position_m).norm(),
             0.005);
   EXPECT_TRUE(story.said("somebody: go to (2.20, 5.00)"));
+}
+
+/// What the camera took is shown as it is and not copied or made into a picture: who wants one makes it.
+/// States that nobody has fetched are replaced.
+TEST(Attendant, hands_over_the_newest_frame_as_it_is_and_keeps_no_state_for_the_slow) {
+  const Site site = lab();
+  LiveLink link;
+  Attendant attendant(link);
+  SensorInput input;
+  Mission mission(known_world(site, site.default_camera), navigation_options(site.robot), {});
+  std::vector<cv::Mat> taken;
+  for (int i = 1; i <= 3; ++i) {
+    taken.emplace_back(480, 640, CV_8UC1, cv::Scalar(i));
+    input.now = Stamp(std::chrono::milliseconds(20 * i));
+    input.frames = {{.stamp = input.now, .gray = taken.back()}};
+    link.want_state();
+    attendant.show(input, mission.step(input), mission, {});
+  }
+  const std::optional<RobotState> newest = link.newest();
+  ASSERT_TRUE(newest && newest->frame);
+  EXPECT_EQ(newest->frame->stamp, input.now);
+  EXPECT_EQ(newest->frame->gray.data, taken.back().data);
+  EXPECT_FALSE(link.newest()) << "the two before it have not waited";
 }
 
 TEST(Attendant, stops_within_the_limits_for_whoever_asks) {

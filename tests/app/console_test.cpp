@@ -213,11 +213,22 @@ TEST_F(ConsoleTest, shows_run_folders_and_nothing_beside_them) {
   fs::create_directories(folder_ / "runs" / "empty");
 
   EXPECT_EQ(json::parse(get("/api/runs").body), json({"seed 7"}));
+  fs::copy(run, folder_ / "runs" / "seed 10", fs::copy_options::recursive);
+  fs::last_write_time(run / "summary.json", fs::file_time_type::clock::now() - std::chrono::hours(1));
+  EXPECT_EQ(json::parse(get("/api/runs").body), json({"seed 7", "seed 10"})) << "the newest last";
   const json read = json::parse(get("/api/runs/seed%207").body);
   EXPECT_EQ(read["summary"]["seed"], 7);
   EXPECT_EQ(read["estimate"], json::parse("[[0.5, 1.0, 2.0, 0.0], [1.0, 1.5, 2.0, 90.0]]"));
   for (const char* name : {"link", "empty", "..", "../site", "seed%207/..", "", ".", "seed%207%00", "%"}) {
     EXPECT_EQ(get(std::string("/api/runs/") + name).status, 404) << name;
+  }
+  fs::create_directories(run / "pictures");
+  std::ofstream(run / "pictures" / "0.500.jpg") << "a picture";
+  std::ofstream(run / "pictures" / "1.000.jpg") << std::string((4U << 20U) + 1, 'x');  // no camera's
+  EXPECT_EQ(json::parse(get("/api/runs/seed%207").body)["pictures"], json({"0.500.jpg"}));
+  EXPECT_EQ(get("/api/runs/seed%207/pictures/0.500.jpg").body, "a picture");
+  for (const char* picture : {"1.000.jpg", "../summary.json", "..%2fsummary.json"}) {
+    EXPECT_EQ(get(std::string("/api/runs/seed%207/pictures/") + picture).status, 404) << picture;
   }
   std::ofstream(run / "estimate.tum") << "0.5 1 two\n";
   EXPECT_EQ(get("/api/runs/seed%207").status, 422);
@@ -243,6 +254,7 @@ TEST_F(ConsoleTest, finds_in_a_draft_what_the_check_finds_and_ids_that_stand_twi
     return std::ranges::any_of(issues, [&](const json& issue) { return issue["kind"] == kind; });
   };
   EXPECT_TRUE(has("repeated-id"));
+  EXPECT_TRUE(has("gap"));
   EXPECT_TRUE(has("outside-map"));
 }
 

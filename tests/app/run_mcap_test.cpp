@@ -36,7 +36,8 @@ TEST(RunMcap, does_not_wait_for_a_slow_disk_and_says_that_the_file_has_a_gap) {
   const FileDescriptor reader(::open(file.c_str(), O_RDONLY | O_NONBLOCK));
   ASSERT_GE(reader.get(), 0);
   std::optional<RunMcap> mcap;
-  mcap.emplace(folder / "", small_world(), 0.25, RunMcapOptions{.most_waiting_bytes = 100'000});
+  mcap.emplace(folder / "", small_world(), RobotBody{.radius_m = 0.25, .outline_m = {}},
+               RunMcapOptions{.most_waiting_bytes = 100'000});
   const RunRecord drive = sample::run();
   for (int i = 0; i < 20'000; ++i) mcap->add_truth(drive);  // returns, whether the pipe is full or not
 
@@ -55,7 +56,8 @@ TEST(RunMcap, waits_where_it_may_and_loses_nothing) {
   const RunRecord drive = sample::run();
   std::array<std::uintmax_t, 2> sizes{};
   for (const std::size_t most : {std::size_t{1}, std::size_t{1} << 30U}) {
-    RunMcap mcap(folder / "", small_world(), 0.25, {.most_waiting_bytes = most, .can_wait = true});
+    RunMcap mcap(folder / "", small_world(), {.radius_m = 0.25, .outline_m = {}},
+                 {.most_waiting_bytes = most, .can_wait = true});
     for (int i = 0; i < 300; ++i) mcap.add_truth(drive);
     EXPECT_TRUE(mcap.finish());
     sizes[most == 1 ? 0 : 1] = std::filesystem::file_size(folder / "run.mcap");

@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 #include <sstream>
+
+#include "app/console/console.hpp"
+#include "app/console/registry_json.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 #include "tests/scenarios/shots.hpp"
@@ -123,6 +127,51 @@ TEST(Markers, check_reports_the_smallest_distances_and_their_pairs_as_json) {
   EXPECT_EQ(report["upright"]["closest_pairs"][0]["apart_m"], 5.0);
   EXPECT_GE(report["turned_or_mirrored"]["smallest_distance"], 0);
   EXPECT_EQ(report["issues"][0]["kind"], "similar-ids");
+}
+
+/// One rule behind both: the console judges a draft as the command line judges the file.
+TEST(Markers, check_of_a_site_says_what_the_console_says) {
+  const ScratchFolder scratch;
+  const std::filesystem::path site = scratch.path() / "site";
+  std::filesystem::copy(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab", site,
+                        std::filesystem::copy_options::recursive);
+  Console console(site, scratch.path() / "runs");
+  std::istringstream lab(read_document(site / "markers.yaml"));
+  std::string fewer;  // every third marker is left, one of them twice, one far away
+  int number = 0;
+  for (std::string line; std::getline(lab, line);) {
+    if (line.find("id:") != std::string::npos && ++number % 3 != 0) continue;
+    fewer += line + "\n";
+    if (number == 3 && line.find("id:") != std::string::npos) fewer += line + "\n";
+  }
+  fewer += "  - {id: 4, x_m: 99, y_m: 2, z_m: 2.6, yaw_deg: 0}\n";
+  write_text(scratch.path() / "draft.yaml", fewer);
+
+  const Ran ran = run_lodestar("markers check --json --site site draft.yaml", scratch.path());
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  auto told = nlohmann::json::parse(ran.out)["issues"];
+  std::set<std::string> kinds;
+  for (auto& issue : told) {
+    kinds.insert(issue["kind"].get<std::string>());
+    issue.erase("line");  // which a draft in a browser does not have
+  }
+  for (const char* kind : {"repeated-id", "overlapping", "outside-map", "blind-route", "gap"})
+    EXPECT_TRUE(kinds.contains(kind)) << kind;
+
+  const std::string draft = registry_json(load_registry_draft(scratch.path() / "draft.yaml")).dump();
+  const HttpResponse answer =
+      console.answer({.method = "POST", .target = "/api/markers/check", .body = draft});
+  EXPECT_EQ(nlohmann::json::parse(answer.body), told);
+}
+
+TEST(Markers, check_of_a_site_takes_its_own_registry_and_needs_something_to_check) {
+  const ScratchFolder scratch;
+  const std::string lab = std::string(LODESTAR_SOURCE_DIR) + "/sites/lab";
+  const Ran ran = run_lodestar("markers check --site " + lab, scratch.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("markers.yaml: warning: "));
+  EXPECT_THAT(ran.out, HasSubstr("without any marker"));
+  EXPECT_EQ(run_lodestar("markers check", scratch.path()).exit_code, 2);
 }
 
 TEST(Markers, that_are_generated_pass_the_check_at_their_distance) {

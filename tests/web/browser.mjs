@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { packages } from './programs.mjs';
 
-export { serve, serveRobot } from './programs.mjs';
+export { labCopy, serve, serveRobot, serveRobotAt, serveSite, withOutline } from './programs.mjs';
 
 const { chromium } = packages('playwright-core');
 export const axeSource = readFileSync(packages.resolve('axe-core/axe.min.js'), 'utf8');

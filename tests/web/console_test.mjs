@@ -19,7 +19,7 @@ before(async () => {
 });
 after(async () => {
   await browser?.close();
-  server?.stop();
+  await server?.stop();
 });
 
 /** Runs a story on a fresh page over the lab as it is, and looks that the page had no complaints. */
@@ -279,8 +279,11 @@ describe('seeing', () => {
     await page.getByLabel('Speed').selectOption('50');
     await page.getByRole('button', { name: 'Play', exact: true }).click();
     await page.locator('#replay-words', { hasText: '3.0 of 3.0 s: 4.000' }).waitFor();
+    const at = await placeOf(page, 2454);
+    await drag(page, at, { x: at.x + 50, y: at.y });  // who looks on moves no marker
     await page.getByRole('button', { name: 'Close' }).click();
     assert.equal(await page.locator('#replay').isVisible(), false);
+    assert.equal(await page.evaluate(() => window.lodestar.console.editor.dirty), false);
   });
 
   story('ten thousand markers can still be panned', async (page) => {
@@ -288,7 +291,7 @@ describe('seeing', () => {
       const { console: c } = window.lodestar;
       const markers = [];
       for (let i = 0; i < 10_000; ++i) markers.push({ id: i % 4096, x_m: 0.15 * (i % 100), y_m: 0.07 * Math.floor(i / 100), z_m: 2.6, yaw_deg: i % 360 });
-      c.check = () => {};
+      c.check = async () => {};
       c.editor.onChange = () => {};
       c.editor.load({ alignment: { x_m: 0, y_m: 0, yaw_deg: 0 }, markers });
       const times = [];
@@ -346,7 +349,7 @@ describe('with strangers', () => {
     assert.deepEqual(results, ['refused', 'refused', 'refused']);
     assert.equal(server.markersFile(), before);
     await page.context().close();
-    stranger.stop();
+    await stranger.stop();
   });
 
   test('a console with a token opens by the link and by nothing else', async () => {
@@ -362,6 +365,6 @@ describe('with strangers', () => {
     assert.equal(new URL(page.url()).hash, '');
     assert.equal(await page.evaluate(() => document.cookie), '');
     await context.close();
-    guarded.stop();
+    await guarded.stop();
   });
 });

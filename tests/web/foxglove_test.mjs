@@ -1,7 +1,7 @@
 // The console's port as Foxglove's own client sees it.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { packages, serve, serveRobot } from './programs.mjs';
+import { labCopy, packages, serve, serveRobot, serveRobotAt, withOutline } from './programs.mjs';
 import { complaints, officialSchema } from './schemas.mjs';
 
 const { FoxgloveClient } = packages('@foxglove/ws-protocol');
@@ -57,6 +57,18 @@ describe('Foxglove and a robot that drives', () => {
     client.close();
   });
 
+  test('a robot with an outline is shown as one', async () => {
+    const long = await serveRobotAt(withOutline(labCopy()));
+    const { client, hear } = await connect(long.url, 'foxglove.sdk.v1');
+    const scene = await hear('/robot');
+    assert.deepEqual(complaints(officialSchema('foxglove.SceneUpdate'), scene), []);
+    const body = scene.entities.find((e) => e.id === 'robot');
+    assert.equal(body.cylinders.length, 0);
+    assert.deepEqual(body.lines[0].points.map((p) => [p.x, p.y]), [[-0.3, -0.15], [0.4, -0.15], [0.4, 0.15], [-0.3, 0.15]]);
+    client.close();
+    await long.stop();
+  });
+
   test('a viewer that never reads stops nobody', async () => {
     const slow = new WebSocket(server.url.replace('http', 'ws'), ['foxglove.sdk.v1']);
     await within(event(slow, 'open'));
@@ -89,6 +101,31 @@ describe('Foxglove', () => {
       client.close();
     });
   }
+
+  test('who looks at the markers sees them as they have just been saved, and those who come later too', async () => {
+    const early = await connect(server.url, 'foxglove.sdk.v1');
+    const names = (scene) => scene.entities.map((e) => e.id);
+    const xOf = (scene, id) => scene.entities.find((e) => e.id === `marker ${id}`).cubes[0].pose.position.x;
+    const before = await early.hear('/markers');
+    const saved = within(event(early.client, 'message'));
+    const api = `${server.url}api/markers`;
+    const read = await fetch(api);
+    const registry = await read.json();
+    const [gone, moved] = registry.markers;
+    const markers = registry.markers.slice(1).map((m) => m.id === moved.id ? { ...m, x_m: m.x_m + 0.5 } : m);
+    const answer = await fetch(api, { method: 'PUT', body: JSON.stringify({ ...registry, markers }),
+      headers: { 'If-Match': read.headers.get('ETag'), 'X-Lodestar': '1', 'Content-Type': 'application/json' } });
+    assert.equal(answer.status, 200);
+    const after = JSON.parse(new TextDecoder().decode((await saved).data));
+    assert.deepEqual(complaints(officialSchema('foxglove.SceneUpdate'), after), []);
+    assert.deepEqual(after.deletions.map((d) => d.type), [1]);  // all that were shown, the one that is gone among them
+    assert.deepEqual(names(after), names(before).filter((name) => name !== `marker ${gone.id}`));
+    assert.ok(Math.abs(xOf(after, moved.id) - xOf(before, moved.id) - 0.5) < 1e-5);
+    const late = await connect(server.url, 'foxglove.websocket.v1');
+    assert.deepEqual(await late.hear('/markers'), after);
+    early.client.close();
+    late.client.close();
+  });
 
   test('an app may offer both names at once', async () => {
     const socket = new WebSocket(server.url.replace('http', 'ws'), ['foxglove.websocket.v1', 'foxglove.sdk.v1']);

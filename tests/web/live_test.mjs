@@ -4,7 +4,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { connect } from 'node:net';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { axeSource, launch, open, serve, serveRobot } from './browser.mjs';
+import { axeSource, labCopy, launch, open, serve, serveRobot, serveRobotAt, withOutline } from './browser.mjs';
 
 let browser;
 let robot;
@@ -14,7 +14,7 @@ before(async () => {
 });
 after(async () => {
   await browser?.close();
-  robot?.stop();
+  await robot?.stop();
 });
 
 /** Waits for the robot to be in a state; `holds` sees the page's live view. */
@@ -189,7 +189,7 @@ describe('stopping', () => {
     await page.context().setOffline(false);
     await page.locator('#stale').waitFor({ state: 'hidden' });
     await page.context().close();  // its complaints are of the connection that was cut
-    mortal.stop();
+    await mortal.stop();
   });
 });
 
@@ -204,6 +204,34 @@ describe('seeing', () => {
     assert.deepEqual(shown.size, [640, 480]);
     assert.ok(shown.ids.length > 0 && shown.used.every((id) => shown.ids.includes(id)), JSON.stringify(shown));
     await leave(page);
+  });
+
+  test('a robot with an outline is drawn as one, live and in the replay', async () => {
+    const long = await serveRobotAt(withOutline(labCopy()));
+    const page = await watch(undefined, undefined, long.url);
+    /** Is a place, given in the robot's frame, painted? */
+    const painted = (pose) => page.evaluate(async ([robot, places]) => {
+      const { stage, view } = window.lodestar.console;
+      view.fit([robot], 2);
+      stage.redraw();
+      await new Promise((done) => setTimeout(done, 200));
+      const context = document.getElementById('overlay').getContext('2d');
+      const [sin, cos] = [Math.sin(robot.yawDeg * Math.PI / 180), Math.cos(robot.yawDeg * Math.PI / 180)];
+      return places.map(([x, y]) => {
+        const p = view.toScreen({ x: robot.x + cos * x - sin * y, y: robot.y + sin * x + cos * y });
+        return context.getImageData(Math.round(p.x * devicePixelRatio), Math.round(p.y * devicePixelRatio), 1, 1).data[3] > 0;
+      });
+    }, [pose, [[0.37, 0.12], [-0.27, -0.12], [0.05, 0.19], [-0.1, 0.19], [-0.34, 0.05], [0.44, 0.05]]]);
+    const asOutline = [true, true, false, false, false, false];
+    const { pose } = await state(page);
+    assert.deepEqual(await painted({ x: pose.x_m, y: pose.y_m, yawDeg: pose.yaw_deg }), asOutline);
+    while (!existsSync(join(long.runs, 'run', 'estimate.tum'))) await new Promise((done) => setTimeout(done, 50));
+    await page.locator('#tool-replay').click();
+    await until(page, () => window.lodestar.console.replay.run !== null);
+    const [, x, y, yawDeg] = await page.evaluate(() => window.lodestar.console.replay.run.estimate[0]);
+    assert.deepEqual(await painted({ x, y, yawDeg }), asOutline);
+    await leave(page);
+    await long.stop();
   });
 
   test('a client that never reads is no burden to those who do', async () => {
@@ -280,7 +308,7 @@ describe('with strangers', () => {
     assert.equal(await offered(page, robot.url), 'refused');
     assert.equal(await offered(page, stranger.url, 'other.v1'), 'refused');
     await page.context().close();
-    stranger.stop();
+    await stranger.stop();
   });
 
   test('who has a token to view may look and stop, and neither edit nor drive', async () => {
@@ -302,7 +330,7 @@ describe('with strangers', () => {
     assert.equal(await offered(without, guarded.url), 'refused');
     await without.context().close();
     await page.context().close();
-    guarded.stop();
+    await guarded.stop();
   });
 
   test('nonsense and frames too large end the connection, and only that one', async () => {

@@ -1,0 +1,182 @@
+// The page as a whole: ties map, panel, tools and keys together, and does what follows a change.
+import { Actions } from './actions.js';
+import * as api from './api.js';
+import { isTyping, keyOf } from './commands.js';
+import type { Command } from './commands.js';
+import { Coverage } from './coverage.js';
+import type { Floor } from './coverage.js';
+import { Documents } from './documents.js';
+import { button, byId } from './dom.js';
+import { Editor } from './editor.js';
+import type { Point } from './geometry.js';
+import { Latest } from './latest.js';
+import { Layers } from './layers.js';
+import { Live } from './live.js';
+import { Measure } from './measure.js';
+import { Modes } from './modes.js';
+import { pageCommands } from './page_commands.js';
+import type { Page } from './page_commands.js';
+import { Panel } from './panel.js';
+import { Pointer } from './pointer.js';
+import { Replay } from './replay.js';
+import { paintRoutes } from './route.js';
+import { Stage } from './stage.js';
+import { View } from './view.js';
+import { attempt, complain, say } from './words.js';
+
+const followEveryMs = 200;
+
+export class Console implements Page {
+  readonly editor = new Editor();
+  readonly view = new View();
+  readonly layers = new Layers();
+  readonly coverage: Coverage;
+  readonly stage: Stage;
+  readonly pointer: Pointer;
+  readonly replay: Replay;
+  readonly live: Live;
+  readonly measure: Measure;
+  readonly actions: Actions;
+  readonly documents: Documents;
+  readonly modes: Modes;
+  readonly commands: Command[];
+  readonly routes: Point[][];
+  private readonly panel: Panel;
+  private readonly judgement = new Latest(followEveryMs, () => this.check(), complain);
+  private readonly deviations = new Latest(followEveryMs, () => this.showDeviations(), complain);
+
+  constructor(readonly site: api.Site, readonly floor: Floor, tagged: api.Tagged) {
+    this.coverage = new Coverage(floor, site);
+    this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage, this.layers);
+    this.pointer = new Pointer(this.stage);
+    this.replay = new Replay(this.stage, site.robot, complain);
+    this.live = new Live(this.stage, site, say);
+    this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.actions.suggest(),
+      fill: () => attempt(() => this.actions.fill()), pickId: () => attempt(() => this.actions.pickId()) });
+    this.actions = new Actions(this.editor, this.coverage, say);
+    this.measure = new Measure(this.stage, this.pointer, say);
+    this.documents = new Documents(this.editor, tagged, () => this.live.hello?.robot === true);
+    this.routes = site.routes.map((route) => route.map(([x, y]) => ({ x, y })));
+    this.stage.painters.push((c) => { if (this.layers.shown.route && this.modes.now === 'edit') paintRoutes(c, this.stage, this.routes); });
+    this.commands = pageCommands(this);
+    this.makeTools();
+    this.modes = new Modes(this);
+    this.listen();
+    byId('title').textContent = `Lodestar: ${site.name}`;
+    this.editor.load(tagged.registry);
+    this.fit();
+  }
+
+  // -- what follows a change --------------------------------------------------------------------------------
+
+  private changed(): void {
+    this.coverage.update(this.editor.shown());
+    this.stage.paintRaster();
+    this.stage.redraw();
+    this.panel.show();
+    this.refreshTools();
+    document.title = `${this.editor.dirty ? '• ' : ''}${this.site.name} - Lodestar`;
+    this.judge();
+  }
+
+  private dragged(): void {
+    this.coverage.update(this.editor.shown());
+    this.stage.paintRaster();
+    this.stage.redrawDragged();
+    this.panel.showSelection();
+    this.judge();
+  }
+
+  /** What the server thinks of it, a moment later and also while something is dragged. */
+  private judge(): void {
+    this.judgement.want();
+    if (this.layers.floor === 'deviation') this.deviations.want();
+  }
+
+  private async check(): Promise<void> {
+    this.panel.showCoverage(this.coverage);
+    this.panel.showIssues(await api.checkMarkers(this.editor.draft()));
+  }
+
+  /** What a single fix would give at each place, by the server, as `lodestar map visibility` has it. */
+  private async showDeviations(): Promise<void> {
+    this.stage.floorPaint.deviations = this.floor.spread(await api.getDeviations(this.editor.draft()));
+    this.stage.paintRaster();
+    this.stage.redrawDragged();
+  }
+
+  private layersChanged(): void {
+    this.layers.showLegend();
+    this.stage.paintRaster();
+    this.stage.redraw();
+    if (this.layers.floor === 'deviation') this.deviations.want();
+  }
+
+  // -- view -------------------------------------------------------------------------------------------------
+
+  fit(): void {
+    this.view.fit(this.floor.corners());
+    this.stage.redraw();
+  }
+
+  turnView(deg: number): void {
+    this.view.turnBy(deg);
+    this.stage.redraw();
+  }
+
+  goTo(points: Point[]): void {
+    if (points.length === 0) return;
+    this.view.fit(points, 3);
+    this.stage.redraw();
+  }
+
+  changeTheme(): void {
+    const root = document.documentElement;
+    root.dataset['theme'] = root.dataset['theme'] === 'dark' ? 'light' : 'dark';
+    this.layersChanged();
+  }
+
+  // -- tools and keys ---------------------------------------------------------------------------------------
+
+  private makeTools(): void {
+    for (const command of this.commands.filter((c) => c.button)) {
+      const words = command.title + (command.key ? ` (${command.key})` : '');
+      byId('tools').append(button(command.button!, words, () => this.run(command),
+        { id: `tool-${command.name}`, ...(command.everywhere ? { class: 'everywhere' } : {}) }));
+    }
+  }
+
+  refreshTools(): void {
+    for (const command of this.commands.filter((c) => c.button)) {
+      const tool = byId(`tool-${command.name}`) as HTMLButtonElement;
+      tool.disabled = command.possible?.() === false;
+      if (command.pressed) tool.setAttribute('aria-pressed', String(command.pressed()));
+    }
+    byId('tool-save').classList.toggle('main', this.editor.dirty);
+  }
+
+  private run(command: Command): void {
+    if (command.possible?.() === false) return;
+    command.run();
+    this.refreshTools();
+  }
+
+  private listen(): void {
+    this.layers.onChange = () => this.layersChanged();
+    this.layers.showLegend();
+    this.pointer.onHover = (at) => { byId('where').textContent = at ? `${at.x.toFixed(3)}, ${at.y.toFixed(3)} m` : ''; };
+    this.pointer.onDrag = () => this.dragged();
+    this.editor.onChange = () => this.changed();
+    addEventListener('beforeunload', (e) => { if (this.editor.dirty) e.preventDefault(); });
+    addEventListener('keydown', (e) => {
+      if ((byId('dialog') as HTMLDialogElement).open) return;
+      const key = keyOf(e);
+      if (isTyping(e.target) && !['Ctrl+S', 'Ctrl+P'].includes(key)) return;
+      const command = this.commands.find((c) => c.key === key);
+      if (!command || (this.modes.now !== 'edit' && !command.everywhere)) return;
+      e.preventDefault();
+      this.run(command);
+    });
+  }
+}
+

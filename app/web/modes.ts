@@ -1,0 +1,71 @@
+// What the page is for at the moment: the panel beside the map, and what a click on it means.
+import { button, byId } from './dom.js';
+import type { Layers } from './layers.js';
+import type { Live } from './live.js';
+import type { Guest, Pointer } from './pointer.js';
+import type { Replay } from './replay.js';
+import type { Stage } from './stage.js';
+import { attempt } from './words.js';
+
+export type Mode = 'edit' | 'live' | 'replay';
+const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['live', 'Live', 'watch the robot, and send it'],
+  ['replay', 'Replay', 'open a run and scrub through it']];
+
+/** Who looks on moves no marker. */
+const onlooker: Guest = { press: () => false, drag: () => {}, release: () => {}, click: () => {} };
+
+interface Parts {
+  readonly layers: Layers;
+  readonly live: Live;
+  readonly pointer: Pointer;
+  readonly replay: Replay;
+  readonly stage: Stage;
+  fit(): void;
+  refreshTools(): void;
+}
+
+export class Modes {
+  now: Mode = 'edit';
+  private readonly seen = new Set<Mode>();
+
+  constructor(private readonly parts: Parts) {
+    byId('modes').append(...titles.map(([mode, text, title]) => button(text, title, () => this.enter(mode), { id: `tool-${mode}` })));
+    parts.replay.onClose = () => this.enter(parts.live.hello?.robot ? 'live' : 'edit');
+    parts.live.onRobot = () => this.enter('live');
+    this.enter('edit');
+  }
+
+  enter(mode: Mode): void {
+    const { layers, live, pointer, replay, stage } = this.parts;
+    const before = this.now;
+    this.now = mode;
+    document.body.dataset['mode'] = mode;
+    for (const [other] of titles) byId(`tool-${other}`).setAttribute('aria-pressed', String(other === mode));
+    pointer.cancel();
+    pointer.guest = mode === 'edit' ? null : mode === 'live' ? live : onlooker;
+    stage.showsSelection = mode === 'edit';
+    live.show(mode === 'live');
+    if (before !== mode) layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
+    if (mode !== 'replay') this.fitAtFirst(mode);
+    this.parts.refreshTools();
+    stage.paintRaster();
+    stage.redraw();
+    if (mode === 'replay') attempt(() => this.openReplay());
+    else if (before === 'replay') replay.leave();
+  }
+
+  private async openReplay(): Promise<string> {
+    const first = !this.seen.has('replay');
+    const words = await this.parts.replay.open();
+    if (first && this.now === 'replay') this.fitAtFirst('replay');
+    return words;
+  }
+
+  /** Each mode has room of another size for the map. */
+  private fitAtFirst(mode: Mode): void {
+    if (this.seen.has(mode)) return;
+    this.seen.add(mode);
+    this.parts.stage.resize();
+    this.parts.fit();
+  }
+}
