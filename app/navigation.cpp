@@ -18,24 +18,6 @@ constexpr std::array margins_m{0.10, 0.06, 0.03, 0.02, 0.01};
 /// A lost one keeps a little more to the middle.
 constexpr std::array margins_on_retreat_m{0.12, 0.10, 0.06, 0.03, 0.02, 0.01};
 
-/// Tried on a copy.
-bool can_go_back(Retreat places) {
-  return places.begin().has_value();
-}
-
-/// A marker that it finds on its way back, and was not driving to, saves the rest of the way.
-bool is_elsewhere(const RotateThenDrive& retreat, const Pose2& pose) {
-  constexpr double as_far_as_a_marker_is_seen_m = 1.5;
-  const Path ahead = retreat.path_ahead();
-  return !ahead.waypoints_m.empty() &&
-         (ahead.waypoints_m.back() - pose.position_m).norm() > as_far_as_a_marker_is_seen_m;
-}
-
-/// Without stopping to think, as the planners of OMPL do.
-bool plans_at_once(PlannerKind kind) {
-  return kind == PlannerKind::astar || kind == PlannerKind::anyangle || kind == PlannerKind::fastest;
-}
-
 }  // namespace
 
 Navigation::Ground::Ground(const OccupancyMap& known, const NavigationOptions& options)
@@ -83,7 +65,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
   if (has_agreed && step.estimate) {
     motion.places.saw_marker_at(step.estimate->map_from_base.position_m);
     motion.is_lost = false;
-    if (motion.retreat && is_elsewhere(*motion.retreat, step.estimate->map_from_base))
+    if (motion.retreat && motion.places.is_far_from_its_end(step.estimate->map_from_base.position_m))
       motion.retreat->cancel();
   }
   step.command = move(motion, at, step);
@@ -110,7 +92,7 @@ BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationSte
   // While it braked it may have passed the narrow place that it was too unsure for.
   if (motion.is_lost && !step.stop && drive.at_rest() && !is_stuck(limit_in_doubt(*at.estimate)))
     motion.is_lost = false;
-  if (!motion.retreat && motion.is_lost && !at.stop_on_retreat && may_look && can_go_back(motion.places)) {
+  if (!motion.retreat && motion.is_lost && !at.stop_on_retreat && may_look && motion.places.possible()) {
     if (!step.stop) step.stop = StopReason::pose_uncertain;
     if (!drive.at_rest()) return drive.slow_down(at.elapsed);
     motion.retreat = way_back(motion, at.estimate->map_from_base);
@@ -202,7 +184,7 @@ void Navigation::reroute(Motion& motion, const Pose2& pose, NavigationStep& step
     if (!motion.looks_again && !is_off_path) return;
     motion.looks_again = false;
     motion.reroutes =
-        !plans_at_once(options_.planner.kind) || route_from(motion, pose).change != RouteChange::kept;
+        sampling_method(options_.planner.kind) || route_from(motion, pose).change != RouteChange::kept;
   }
   if (!motion.reroutes || !motion.drive->at_rest()) return;
   motion.reroutes = false;

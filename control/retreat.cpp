@@ -10,9 +10,10 @@ void Retreat::saw_marker_at(const Vec2& position_in_map) {
 }
 
 std::optional<Vec2> Retreat::begin() {
-  if (seen_at_m_.empty() || made_ >= options_.most_to_a_goal) return std::nullopt;
+  if (!possible()) return std::nullopt;
   ++made_;
-  return seen_at_m_.front();
+  towards_m_ = seen_at_m_.front();
+  return towards_m_;
 }
 
 }  // namespace lodestar

@@ -9,8 +9,9 @@
 namespace lodestar {
 
 struct RetreatOptions {
-  double before_last_m = 0.8;  ///< so far before the last place with a marker in view the robot goes back
-  int most_to_a_goal = 2;      ///< then it stays where it is
+  double before_last_m = 0.8;   ///< so far before the last place with a marker in view the robot goes back
+  int most_to_a_goal = 2;       ///< then it stays where it is
+  double markers_view_m = 1.5;  ///< from farther away the last marker is not seen
   /// How lost it may be on its way back, which it knows to be free because it has just come that way.
   SafetyStopOptions limits{.max_time_without_fix = std::chrono::seconds(60),
                            .max_position_sigma_m = 0.20,
@@ -27,8 +28,17 @@ class Retreat {
   /// Here the robot has seen a marker that agrees with its estimate.
   void saw_marker_at(const Vec2& position_in_map);
 
-  /// Counts a retreat: where to. Nothing when no marker was ever seen, or too many retreats were made.
+  /// May another be made? Not when no marker was ever seen, nor when too many were made.
+  [[nodiscard]] bool possible() const { return !seen_at_m_.empty() && made_ < options_.most_to_a_goal; }
+
+  /// Counts a retreat: where to. Nothing when none may be made.
   std::optional<Vec2> begin();
+
+  /// Is this place of a robot that goes back far from the one it goes to? A marker seen here is another, and
+  /// saves the rest of the way.
+  [[nodiscard]] bool is_far_from_its_end(const Vec2& position_in_map) const {
+    return (position_in_map - towards_m_).norm() > options_.markers_view_m;
+  }
 
   /// To another goal.
   void new_goal() { made_ = 0; }
@@ -36,6 +46,7 @@ class Retreat {
  private:
   RetreatOptions options_;
   std::deque<Vec2> seen_at_m_;  ///< the last places, a step apart
+  Vec2 towards_m_ = Vec2::Zero();
   int made_ = 0;
 };
 

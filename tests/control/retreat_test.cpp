@@ -25,5 +25,15 @@ TEST(Retreat, is_not_made_for_ever_nor_to_nowhere) {
   EXPECT_TRUE(retreat.begin());
 }
 
+TEST(Retreat, knows_a_marker_on_the_way_from_the_one_at_its_end) {
+  Retreat retreat({.markers_view_m = 1.5});
+  EXPECT_FALSE(retreat.possible());
+  retreat.saw_marker_at(Vec2::Zero());
+  ASSERT_TRUE(retreat.possible());
+  ASSERT_TRUE(retreat.begin());
+  EXPECT_TRUE(retreat.is_far_from_its_end({0.0, 4.0}));
+  EXPECT_FALSE(retreat.is_far_from_its_end({0.0, 1.0}));
+}
+
 }  // namespace
 }  // namespace lodestar
