@@ -17,7 +17,7 @@ bool is_between(double value, double a, double b, double tolerance) {
 
 void CommandFollowing::restart(Stamp now, const BodyVelocity& measured) {
   last_ = now;
-  strayed_ = Duration::zero();
+  strayed_grossly_ = strayed_ = Duration::zero();
   slowest_ = measured;
 }
 
@@ -30,12 +30,16 @@ bool CommandFollowing::strays(Stamp now, const BodyVelocity& commanded, const Bo
                                       options_.least_turn_acceleration_radps2 * elapsed_s);
   last_ = now;
 
-  const bool follows = is_between(measured.forward_mps, slowest_.forward_mps, commanded.forward_mps,
-                                  options_.max_forward_error_mps) &&
-                       is_between(measured.turn_radps, slowest_.turn_radps, commanded.turn_radps,
-                                  options_.max_turn_error_radps);
-  strayed_ = follows ? Duration::zero() : strayed_ + elapsed;
-  return strayed_ > options_.patience;
+  const auto still_strayed = [&](Duration before, const FollowingTolerance& tolerance) {
+    const bool follows =
+        is_between(measured.forward_mps, slowest_.forward_mps, commanded.forward_mps,
+                   tolerance.forward_mps) &&
+        is_between(measured.turn_radps, slowest_.turn_radps, commanded.turn_radps, tolerance.turn_radps);
+    return follows ? Duration::zero() : before + elapsed;
+  };
+  strayed_grossly_ = still_strayed(strayed_grossly_, options_.gross);
+  strayed_ = still_strayed(strayed_, options_.fine);
+  return strayed_grossly_ > options_.gross.patience || strayed_ > options_.fine.patience;
 }
 
 }  // namespace lodestar

@@ -42,7 +42,9 @@ void SimulatedMotion::slip(double left_share, double right_share) {
 
 void SimulatedMotion::carry_off(double by_m, double turn_rad, Random random) {
   constexpr int directions = 32;
-  constexpr double room_m = 0.3;  // to all sides of the robot
+  // To all sides of the robot. It may be rolling: nobody puts it nearer to a wall than it needs to notice and
+  // to stop.
+  constexpr double room_m = 0.65;
   const double first_rad = random.uniform(0.0, 2.0 * std::numbers::pi);
   for (int i = 0; i < directions; ++i) {
     const double direction_rad = first_rad + 2.0 * std::numbers::pi * i / directions;

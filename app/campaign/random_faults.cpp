@@ -1,6 +1,7 @@
 #include "app/campaign/random_faults.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numbers>
 
 #include "maps/random.hpp"
@@ -67,13 +68,23 @@ std::optional<Duration> first_sight(std::vector<Fault> faults) {
   return sees;
 }
 
-/// Nothing on board could tell a blind robot that it was carried off, nor one that has seen nothing yet that
-/// its first marker misleads.
+bool are_on_together(const Fault& one, const Fault& other) {
+  const auto end = [](const Fault& fault) {
+    return fault.lasts ? fault.begin + *fault.lasts : Duration::max();
+  };
+  return one.begin < end(other) && other.begin < end(one);
+}
+
+/// Nothing on board could tell a blind robot that it was carried off or that its wheels slip, nor one that
+/// has seen nothing yet that its first marker misleads.
 void leave_out_what_nobody_could_see(std::vector<Fault>& faults) {
   const std::optional<Duration> sees = first_sight(faults);
-  const bool may_be_blind = std::ranges::any_of(faults, blinds);
+  std::vector<Fault> blinding = faults;
+  std::erase_if(blinding, std::not_fn(blinds));
   std::erase_if(faults, [&](const Fault& fault) {
-    if (fault.kind == FaultKind::kidnapping) return may_be_blind;
+    if (fault.kind == FaultKind::kidnapping) return !blinding.empty();
+    if (fault.kind == FaultKind::wheel_slip)
+      return std::ranges::any_of(blinding, [&](const Fault& other) { return are_on_together(fault, other); });
     return may_mislead_at_the_start(fault.kind) &&
            (!sees || fault.begin < *sees + from_seconds(until_it_has_a_pose_s));
   });

@@ -360,6 +360,31 @@ TEST_F(BaseDriverTest, latches_a_base_that_runs_away) {
   expect_latched(BaseFault::not_following, periods(2));
 }
 
+/// Turning slowly about a wheel that stands still, as an encoder that is stuck has it, is no more than a
+/// small error; but it does not pass.
+TEST_F(BaseDriverTest, latches_a_wheel_that_stands_while_the_robot_creeps) {
+  make_ready();
+  measured = {0.0, 0.0};
+  BaseFeedback feedback;
+  int periods_until_fault = 0;
+  for (; feedback.state != BaseState::fault && periods_until_fault < 100; ++periods_until_fault) {
+    driver.command({0.12, -0.57});
+    feedback = period();
+  }
+  EXPECT_EQ(feedback.fault, BaseFault::not_following);
+  // 0.12 s until even the slowest base turns at 0.35 rad/s, and 0.6 s of patience.
+  EXPECT_NEAR(periods_until_fault, 36, 2);
+}
+
+TEST_F(BaseDriverTest, bears_with_a_base_that_is_a_little_slow) {
+  make_ready();
+  measured = {0.4, 0.8};
+  for (int i = 0; i < 200; ++i) {
+    driver.command({0.5, 1.1});
+    ASSERT_EQ(period().state, BaseState::ready);
+  }
+}
+
 TEST_F(BaseDriverTest, latches_a_base_that_ignores_its_commands) {
   make_ready();
   BaseFeedback feedback;
