@@ -16,8 +16,7 @@ struct FollowingTolerance {
 struct CommandFollowingOptions {
   FollowingTolerance gross{.forward_mps = 0.3, .turn_radps = 0.8, .patience = std::chrono::milliseconds(200)};
   /// A wheel that stands while the robot creeps is no more than that.
-  FollowingTolerance fine{
-      .forward_mps = 0.15, .turn_radps = 0.35, .patience = std::chrono::milliseconds(600)};
+  FollowingTolerance fine{.forward_mps = 0.15, .turn_radps = 0.35, .patience = std::chrono::seconds(1)};
   double least_acceleration_mps2 = 1.0;  ///< what any healthy base reaches, towards the command
   double least_turn_acceleration_radps2 = 3.0;
   Duration longest_look = std::chrono::milliseconds(50);  ///< of the time between two looks, what counts

@@ -1,6 +1,7 @@
 #include "drivers/simulated_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -42,19 +43,21 @@ void SimulatedMotion::slip(double left_share, double right_share) {
 
 void SimulatedMotion::carry_off(double by_m, double turn_rad, Random random) {
   constexpr int directions = 32;
-  // To all sides of the robot. It may be rolling: nobody puts it nearer to a wall than it needs to notice and
-  // to stop.
-  constexpr double room_m = 0.65;
+  // To all sides of the robot. It may be rolling: where there is such a place, nobody puts it nearer to a
+  // wall than it needs to notice and to stop.
+  constexpr std::array rooms_m{0.65, 0.5, 0.4, 0.3};
   const double first_rad = random.uniform(0.0, 2.0 * std::numbers::pi);
-  for (int i = 0; i < directions; ++i) {
-    const double direction_rad = first_rad + 2.0 * std::numbers::pi * i / directions;
-    const Vec2 to_m =
-        map_from_base_.position_m + by_m * Vec2(std::cos(direction_rad), std::sin(direction_rad));
-    const bool is_free = !surroundings_ || !disc_overlaps_obstacle(surroundings_->map, to_m,
-                                                                   surroundings_->robot_radius_m + room_m);
-    if (!is_free) continue;
-    map_from_base_ = {to_m, wrap_angle(map_from_base_.yaw_rad + turn_rad)};
-    return;
+  for (const double room_m : rooms_m) {
+    for (int i = 0; i < directions; ++i) {
+      const double direction_rad = first_rad + 2.0 * std::numbers::pi * i / directions;
+      const Vec2 to_m =
+          map_from_base_.position_m + by_m * Vec2(std::cos(direction_rad), std::sin(direction_rad));
+      const bool is_free = !surroundings_ || !disc_overlaps_obstacle(surroundings_->map, to_m,
+                                                                     surroundings_->robot_radius_m + room_m);
+      if (!is_free) continue;
+      map_from_base_ = {to_m, wrap_angle(map_from_base_.yaw_rad + turn_rad)};
+      return;
+    }
   }
 }
 
