@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "drivers/disc_contact.hpp"
 
@@ -46,18 +47,21 @@ void SimulatedMotion::carry_off(double by_m, double turn_rad, Random random) {
   // To all sides of the robot. It may be rolling: where there is such a place, nobody puts it nearer to a
   // wall than it needs to notice and to stop.
   constexpr std::array rooms_m{0.65, 0.5, 0.4, 0.3};
+  std::vector<Vec2> places_m;
   const double first_rad = random.uniform(0.0, 2.0 * std::numbers::pi);
+  for (int i = 0; i < directions; ++i) {
+    const double direction_rad = first_rad + 2.0 * std::numbers::pi * i / directions;
+    places_m.emplace_back(map_from_base_.position_m +
+                          by_m * Vec2(std::cos(direction_rad), std::sin(direction_rad)));
+  }
   for (const double room_m : rooms_m) {
-    for (int i = 0; i < directions; ++i) {
-      const double direction_rad = first_rad + 2.0 * std::numbers::pi * i / directions;
-      const Vec2 to_m =
-          map_from_base_.position_m + by_m * Vec2(std::cos(direction_rad), std::sin(direction_rad));
-      const bool is_free = !surroundings_ || !disc_overlaps_obstacle(surroundings_->map, to_m,
-                                                                     surroundings_->robot_radius_m + room_m);
-      if (!is_free) continue;
-      map_from_base_ = {to_m, wrap_angle(map_from_base_.yaw_rad + turn_rad)};
-      return;
-    }
+    const auto free = std::ranges::find_if(places_m, [&](const Vec2& place_m) {
+      return !surroundings_ ||
+             !disc_overlaps_obstacle(surroundings_->map, place_m, surroundings_->robot_radius_m + room_m);
+    });
+    if (free == places_m.end()) continue;
+    map_from_base_ = {*free, wrap_angle(map_from_base_.yaw_rad + turn_rad)};
+    return;
   }
 }
 

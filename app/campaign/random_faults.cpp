@@ -22,9 +22,10 @@ std::optional<Duration> passing(double least_s, double most_s, Random& random) {
   return lasts_to_the_end ? std::nullopt : std::optional(from_seconds(lasts_s));
 }
 
+constexpr double until_it_has_a_pose_s = 1.5;  ///< after the robot sees for the first time
+
 /// A marker that misleads a robot which has seen no other yet: what cannot be known stays unknown. Such
-/// faults begin when the robot has a pose, so long after it sees for the first time.
-constexpr double until_it_has_a_pose_s = 1.5;
+/// faults begin when the robot has a pose.
 bool may_mislead_at_the_start(FaultKind kind) {
   return kind == FaultKind::marker_moved || kind == FaultKind::marker_wrong_id ||
          kind == FaultKind::markers_swapped || kind == FaultKind::marker_duplicated ||
