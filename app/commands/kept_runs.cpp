@@ -56,7 +56,7 @@ void KeptRuns::keep(RunRecord record) {
       std::async(std::launch::async, [this, folder, kept = std::move(record), mcap = std::move(mcap_)] {
         std::string lost;
         if (mcap) mcap->add_truth(kept);
-        if (mcap && !mcap->finish()) lost = "the disk did not take all of run.mcap";
+        if (mcap && !mcap->finish()) lost = RunMcap::words_of_loss;
         try {
           if (mcap_options_.is_full && mcap_options_.is_full()) throw InputError("the disk is full");
           write_run_folder(folder, kept, site_.map.map, site_.registry);

@@ -189,10 +189,10 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     streamed = mcap.finish();
   }
   record.repeat = repeat_command(arguments, options);
-  const bool written = !options.disk->full() && leave_run_folder(folder, record, site.map.map, site.registry);
-  if (options.disk->full())
-    fmt::print(stderr, "lodestar: warning: the run is not recorded: the disk is full\n");
-  if (written && !streamed) fmt::print(stderr, "lodestar: warning: the disk did not take all of run.mcap\n");
+  const bool is_full = options.disk->full();
+  if (is_full) fmt::print(stderr, "lodestar: warning: the run is not recorded: the disk is full\n");
+  const bool written = !is_full && leave_run_folder(folder, record, site.map.map, site.registry);
+  if (written && !streamed) fmt::print(stderr, "lodestar: warning: {}\n", RunMcap::words_of_loss);
   const RunSummary summary = summarize(record);
   if (arguments.json) {
     fmt::print("{}\n", as_json(summary).dump(2));

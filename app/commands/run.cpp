@@ -158,7 +158,7 @@ class RunViewersFile {
     }
   }
   ~RunViewersFile() {
-    if (mcap_ && !mcap_->finish()) warn_("the disk did not take all of run.mcap");
+    if (mcap_ && !mcap_->finish()) warn_(RunMcap::words_of_loss);
   }
   RunViewersFile(const RunViewersFile&) = delete;
   RunViewersFile& operator=(const RunViewersFile&) = delete;

@@ -30,6 +30,9 @@ struct RunMcapOptions {
 /// up.
 class RunMcap {
  public:
+  /// What people are told when finish() says no.
+  static constexpr const char* words_of_loss = "the disk did not take all of run.mcap";
+
   /// Makes the folder. Throws InputError when that or the file cannot be made.
   RunMcap(const std::filesystem::path& folder, const KnownWorld& world, RobotBody body,
           const RunMcapOptions& options = {});
