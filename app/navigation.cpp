@@ -1,7 +1,6 @@
 #include "app/navigation.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace lodestar {
 namespace {
@@ -12,22 +11,13 @@ std::optional<double> turned_by(const std::vector<WheelTravel>& travel, double t
   return (travel.back().right_m - travel.back().left_m) / track_width_m;
 }
 
-/// Where there is room, a path keeps away from everything, so that a robot which must go some way without a
-/// marker may be unsure of its place.
-constexpr std::array margins_m{0.10, 0.06, 0.03, 0.02, 0.01};
-/// A lost one keeps a little more to the middle.
-constexpr std::array margins_on_retreat_m{0.12, 0.10, 0.06, 0.03, 0.02, 0.01};
-
 }  // namespace
-
-Navigation::Ground::Ground(const OccupancyMap& known, const NavigationOptions& options)
-    : map(known), planner(map, options.planner, margins_m), free_way(map, options.planner.radius_m) {}
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
       sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix,
              options.filter),
-      ground_(std::make_unique<const Ground>(world.map, options)),
+      ground_(std::make_unique<const Ground>(world.map, options.planner)),
       known_{PoseFilter(options.filter), MarkerTrust(options.trust), CameraWatch(options.camera),
              Doubt(options.doubt)},
       motion_{.look_around = LookAround(options.look_around),
@@ -166,8 +156,7 @@ std::optional<RotateThenDrive> Navigation::way_back(Motion& motion, const Pose2&
   const Vec2 leg_start_m = motion.drive->path_ahead().waypoints_m.front();
   if (distance_to_path_m({{leg_start_m, pose.position_m}}, *place_m) <= beside_leg_m)
     return RotateThenDrive({{pose.position_m, *place_m}}, std::nullopt, options_.drive);
-  const MarginPlanner planner(ground_->map, options_.planner, margins_on_retreat_m);
-  const PlanResult result = planner.plan(leg_start_m, *place_m);
+  const PlanResult result = plan_for_a_lost_robot(ground_->map, options_.planner, leg_start_m, *place_m);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return std::nullopt;
   Path path = plan->path;
@@ -192,7 +181,8 @@ void Navigation::reroute(Motion& motion, const Pose2& pose, NavigationStep& step
   if (update.change == RouteChange::kept) return;
   motion.drive.reset();
   if (update.change != RouteChange::lost) {
-    motion.drive.emplace(update.route.path, update.route.goal_heading_rad, drive_options(update.route.path));
+    motion.drive.emplace(update.route.path, update.route.goal_heading_rad,
+                         ground_->drive_options(update.route.path, options_.drive));
   }
   step.reroute = update;
 }
@@ -214,14 +204,14 @@ std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad};
   PlanResult result = ground_->planner.plan(pose.position_m, goal.position_m, headings);
   if (const auto* plan = std::get_if<Plan>(&result)) {
-    motion_.drive.emplace(plan->path, goal.heading_rad, drive_options(plan->path));
+    motion_.drive.emplace(plan->path, goal.heading_rad, ground_->drive_options(plan->path, options_.drive));
     motion_.goal_heading_rad = goal.heading_rad;
   }
   return result;
 }
 
 void Navigation::map_changed(const OccupancyMap& map) {
-  ground_ = std::make_unique<const Ground>(map, options_);
+  ground_ = std::make_unique<const Ground>(map, options_.planner);
   motion_.looks_again = true;
 }
 
@@ -247,20 +237,6 @@ SpeedLimit Navigation::limit_in_doubt(const PoseEstimate& estimate) const {
   const double room_m = ground_->free_way.room_m(estimate.map_from_base.position_m);
   if (spare.here_m > 0.0 && room_m < spare.here_m) limit.forward_mps = 0.0;
   return limit;
-}
-
-/// Corners are cut only where there is room for it.
-DriveOptions Navigation::drive_options(const Path& path) const {
-  DriveOptions options = options_.drive;
-  for (std::size_t i = 2; i < path.waypoints_m.size(); ++i) {
-    const Vec2& waypoint = path.waypoints_m[i - 1];
-    const auto corner = corner_at(path.waypoints_m[i - 2], waypoint, path.waypoints_m[i], options_.drive);
-    if (!corner) continue;
-    const Vec2 begin = waypoint + corner->cut_m * (path.waypoints_m[i - 2] - waypoint).normalized();
-    const Vec2 end = waypoint + corner->cut_m * (path.waypoints_m[i] - waypoint).normalized();
-    if (!ground_->planner.is_roomy(begin, end)) options.blend_corridor_m = 0.0;
-  }
-  return options;
 }
 
 bool Navigation::place_robot(const Pose2& map_from_base) {

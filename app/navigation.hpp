@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/goal.hpp"
+#include "app/ground.hpp"
 #include "app/sight.hpp"
-#include "control/free_way.hpp"
 #include "control/look_around.hpp"
 #include "control/retreat.hpp"
 #include "control/rotate_then_drive.hpp"
@@ -16,7 +16,6 @@
 #include "control/speed_limit.hpp"
 #include "drivers/base_driver.hpp"
 #include "maps/frame.hpp"
-#include "planning/margin_planner.hpp"
 #include "planning/route.hpp"
 
 namespace lodestar {
@@ -104,14 +103,6 @@ class Navigation {
   [[nodiscard]] bool arrived() const { return motion_.drive && motion_.drive->arrived(); }
 
  private:
-  /// What is planned on, made anew for every map.
-  struct Ground {
-    Ground(const OccupancyMap& known, const NavigationOptions& options);
-    OccupancyMap map;
-    MarginPlanner planner;
-    FreeWay free_way;
-  };
-
   /// What moves the robot, and what it is about.
   struct Motion {
     LookAround look_around;
@@ -147,7 +138,6 @@ class Navigation {
   [[nodiscard]] bool is_stuck(const SpeedLimit& limit) const {
     return limit.forward_mps < options_.drive.min_forward_mps;
   }
-  [[nodiscard]] DriveOptions drive_options(const Path& path) const;
 
   NavigationOptions options_;
   Sight sight_;
