@@ -5,6 +5,7 @@
 
 #include "drivers/fault_file.hpp"
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 
 namespace lodestar {
 namespace {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 /// Found from wherever the program is started.
 fs::path library() {
-  return fs::is_directory("faults") ? fs::path("faults") : fs::path(LODESTAR_FAULTS_DIR);
+  return is_folder("faults") ? fs::path("faults") : fs::path(LODESTAR_FAULTS_DIR);
 }
 
 std::string names_in(const fs::path& folder) {
@@ -30,9 +31,9 @@ std::string names_in(const fs::path& folder) {
 }  // namespace
 
 std::vector<Fault> faults_named(const std::string& file_or_name) {
-  if (fs::is_regular_file(file_or_name)) return load_faults(file_or_name);
+  if (is_file(file_or_name)) return load_faults(file_or_name);
   const fs::path of_library = library() / (file_or_name + ".yaml");
-  if (fs::is_regular_file(of_library)) return load_faults(of_library);
+  if (is_file(of_library)) return load_faults(of_library);
   throw InputError(file_or_name, 0, "no such file of faults", "a file" + names_in(library()));
 }
 

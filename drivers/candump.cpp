@@ -11,6 +11,7 @@
 
 #include "drivers/can_wire.hpp"
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 
 namespace lodestar {
 namespace {
@@ -140,7 +141,7 @@ std::vector<LoggedCanFrame> read_candump(std::istream& in, const std::filesystem
 
 std::vector<LoggedCanFrame> load_candump(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
+  if (!in || is_folder(file)) {
     throw InputError(file, 0, "a file that cannot be read", "a candump log");
   }
   return read_candump(in, file);

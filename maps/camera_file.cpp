@@ -4,9 +4,7 @@
 #include <fmt/ranges.h>
 #include <fstream>
 #include <functional>
-#include <opencv2/core.hpp>
 #include <span>
-#include <stdexcept>
 #include <string>
 
 #include "maps/atomic_file.hpp"
@@ -119,62 +117,32 @@ CameraModel load_camera_info(const fs::path& file) {
                                        const std::string& wanted) { yaml.refuse(key, found, wanted); });
 }
 
-/// FileStorage keeps no line numbers; the line of a key is looked up in the text.
-int line_of_key(const std::string& text, const std::string& key) {
-  const std::size_t at = text.find("\n" + key + ":");
-  if (at == std::string::npos) return 0;
-  return 2 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+/// An !!opencv-matrix of so many numbers, in a row or in a column.
+std::vector<double> read_opencv_matrix(StrictYaml yaml, int rows, std::optional<int> columns) {
+  const int found_rows = yaml.integer("rows", 1, 1000);
+  const int found_columns = yaml.integer("cols", 1, 1000);
+  const bool fits =
+      columns ? found_rows == rows && found_columns == *columns : found_rows == rows || found_columns == rows;
+  if (!fits)
+    yaml.refuse("rows", fmt::format("{} x {} numbers", found_rows, found_columns),
+                columns ? fmt::format("{} x {}", rows, *columns) : "a row or a column");
+  return yaml.numbers("data", static_cast<std::size_t>(found_rows) * static_cast<std::size_t>(found_columns));
 }
 
-/// The data of an !!opencv-matrix; empty when it is none. cv::Mat would allocate whatever rows and cols say.
-std::vector<double> numbers_of(const cv::FileNode& node) {
-  const cv::FileNode rows = node["rows"];
-  const cv::FileNode columns = node["cols"];
-  const cv::FileNode data = node["data"];
-  if (!rows.isInt() || !columns.isInt() || !data.isSeq()) return {};
-  if (static_cast<double>(rows) * static_cast<double>(columns) != static_cast<double>(data.size())) return {};
-  std::vector<double> numbers;
-  for (const cv::FileNode& value : data) {
-    if (!value.isInt() && !value.isReal()) return {};
-    numbers.push_back(static_cast<double>(value));
-  }
-  return numbers;
-}
-
-CameraModel load_file_storage(const fs::path& file, const std::string& text) {
-  const Refuse refuse = [&](const std::string& key, const std::string& found, const std::string& wanted) {
-    throw InputError(file, line_of_key(text, key), found, wanted + " for '" + key + "'");
-  };
-  try {
-    const cv::FileStorage storage(
-        text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
-    Calibration calibration;
-    const auto side = [&](const char* key) {
-      const cv::FileNode node = storage[key];
-      const int value = node.isInt() ? static_cast<int>(node) : 0;
-      if (value < 1 || value > max_side_px) refuse(key, "no image side", "a whole number of pixels");
-      return value;
-    };
-    calibration.width_px = side("image_width");
-    calibration.height_px = side("image_height");
-    calibration.matrix = numbers_of(storage["camera_matrix"]);
-    calibration.coefficients = numbers_of(storage["distortion_coefficients"]);
-    if (calibration.matrix.size() != 9) refuse("camera_matrix", "no 3 x 3 matrix", "one");
-    if (calibration.coefficients.empty()) refuse("distortion_coefficients", "no matrix of numbers", "one");
-    if (!std::ranges::all_of(calibration.matrix, [](double v) { return std::isfinite(v); })) {
-      refuse("camera_matrix", "a number that is not finite", "finite ones");
-    }
-    if (!std::ranges::all_of(calibration.coefficients, [](double v) { return std::isfinite(v); })) {
-      refuse("distortion_coefficients", "a number that is not finite", "finite ones");
-    }
-    if (calibration.coefficients.size() == 8) calibration.model = "rational_polynomial";
-    return model_of(calibration, refuse);
-  } catch (const cv::Exception& error) {
-    throw InputError(file, 0, "broken FileStorage YAML (" + error.err + ")", "an OpenCV calibration");
-  } catch (const std::logic_error& error) {  // std::length_error and its like escape from OpenCV's parser
-    throw InputError(file, 0, std::string("broken FileStorage YAML (") + error.what() + ")",
-                     "an OpenCV calibration");
-  }
+/// As OpenCV's calibration writes it: YAML but for its first line. Read without cv::FileStorage, which does
+/// not come back from some malformed files. What else stands in it, as flags and errors, is nobody's business
+/// here.
+CameraModel load_file_storage(const fs::path& file, std::string text) {
+  text.front() = '#';
+  StrictYaml yaml = StrictYaml::parse(text, file);
+  Calibration calibration;
+  calibration.width_px = yaml.integer("image_width", 1, max_side_px);
+  calibration.height_px = yaml.integer("image_height", 1, max_side_px);
+  calibration.matrix = read_opencv_matrix(yaml.mapping("camera_matrix"), 3, 3);
+  calibration.coefficients = read_opencv_matrix(yaml.mapping("distortion_coefficients"), 1, std::nullopt);
+  if (calibration.coefficients.size() == 8) calibration.model = "rational_polynomial";
+  return model_of(calibration, [&yaml](const std::string& key, const std::string& found,
+                                       const std::string& wanted) { yaml.refuse(key, found, wanted); });
 }
 
 std::string_view model_name(Distortion distortion) {

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "maps/path_kind.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -20,7 +22,7 @@ constexpr int max_side_px = 32768;
 
 std::string read_whole(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) refuse("cannot be read");
+  if (!stream || is_folder(file)) refuse("cannot be read");
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   return bytes.str();

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 
 namespace lodestar {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 class Lines {
  public:
   explicit Lines(const std::filesystem::path& file) : file_(file), stream_(file) {
-    if (!stream_ || std::filesystem::is_directory(file)) refuse("no readable file", "a text file");
+    if (!stream_ || is_folder(file)) refuse("no readable file", "a text file");
   }
 
   bool next() {

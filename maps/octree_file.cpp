@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 
 namespace lodestar {
 namespace {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 /// The library prints to the standard streams and returns nothing on most errors; a few it throws.
 std::unique_ptr<octomap::OcTree> read_octree(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::is_directory(file)) refuse(file, "no file that can be read");
+  if (!stream || is_folder(file)) refuse(file, "no file that can be read");
   std::string first_line;
   std::getline(stream, first_line);
   stream.seekg(0);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 #include "maps/yaml_documents.hpp"
 
 namespace lodestar {
@@ -31,7 +32,7 @@ std::string kind_of(const YAML::Node& node) {
 }
 
 std::string read_whole(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) throw InputError(file, 0, "a folder", "a YAML file");
+  if (is_folder(file)) throw InputError(file, 0, "a folder", "a YAML file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file, 0, "no file that can be read", "a YAML file");
   std::ostringstream text;

@@ -9,6 +9,7 @@
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
+#include "maps/path_kind.hpp"
 
 // The words of `lodestar markers` that write files for others: convert and print.
 namespace lodestar {
@@ -31,7 +32,7 @@ struct PrintArguments {
 
 std::string read_whole(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::is_directory(file)) throw InputError(file, 0, "no file that can be read", "markers");
+  if (!stream || is_folder(file)) throw InputError(file, 0, "no file that can be read", "markers");
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();

@@ -9,6 +9,7 @@
 #include "app/frames/live_camera.hpp"
 #include "app/frames/video_file.hpp"
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 
 namespace lodestar {
 namespace {
@@ -50,11 +51,11 @@ FrameInputs::FrameInputs(const std::vector<std::string>& arguments, const FrameI
 }
 
 void FrameInputs::add(const fs::path& path) {
-  if (fs::is_directory(path)) {
+  if (is_folder(path)) {
     for (const fs::path& file : images_in(path)) add_image(file);
   } else if (fs::is_character_file(path)) {
     inputs_.push_back({.kind = Kind::device, .files = {path}});
-  } else if (!fs::is_regular_file(path)) {
+  } else if (!is_file(path)) {
     throw InputError(path, 0, "no regular file", usable_inputs);
   } else if (fs::file_size(path) == 0) {
     throw InputError(path, 0, "an empty file", usable_inputs);

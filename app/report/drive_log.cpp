@@ -10,6 +10,7 @@
 #include <string>
 
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 
 namespace lodestar {
 namespace {
@@ -40,7 +41,7 @@ LoggedImage logged_image(const fs::path& file) {
 }
 
 std::vector<LoggedImage> images_in(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw InputError(folder, 0, "no such folder", "images and wheels.csv");
+  if (!is_folder(folder)) throw InputError(folder, 0, "no such folder", "images and wheels.csv");
   std::vector<LoggedImage> images;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file() && is_image(entry.path())) images.push_back(logged_image(entry.path()));

@@ -125,6 +125,18 @@ TEST(CameraFile, reads_opencv_file_storage) {
   EXPECT_EQ(camera.coefficients[0], -0.2);
 }
 
+TEST(CameraFile, refuses_broken_opencv_file_storage_with_its_line) {
+  const std::string head = "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n";
+  const std::string distortion =
+      "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 4\n   dt: d\n   data: [ 0., 0., 0., 0. "
+      "]\n";
+  const std::string vector =
+      "camera_matrix: !!opencv-matrix\n   rows: 9\n   cols: 1\n   dt: d\n   data: [ 1., 2. ]\n";
+  EXPECT_THAT(error_of(head + vector + distortion), HasSubstr("camera.yaml:6: found 9 x 1 numbers, wanted 3 x 3"));
+  EXPECT_THAT(error_of(head + distortion), HasSubstr("camera_matrix"));
+  EXPECT_THAT(error_of("%YAML:1.0"), HasSubstr("camera.yaml:1"));
+}
+
 TEST(CameraFile, is_read_back_as_it_was_written) {
   Random random(4);
   const TemporaryFolder folder;
@@ -157,7 +169,7 @@ TEST(CameraFile, refuses_what_is_wrong_with_its_line) {
   EXPECT_THAT(error_of(with("plumb_bob", "equidistant")), HasSubstr("camera.yaml:6: found 5 values"));
   EXPECT_THAT(error_of(with("plumb_bob", "magic")), HasSubstr("camera.yaml:5: found 'magic'"));
   EXPECT_THAT(error_of(good + "iso: 100\n"), HasSubstr("camera.yaml:7: found unknown key 'iso'"));
-  EXPECT_THAT(error_of("%YAML:1.0\n---\nimage_width: 640\n"), HasSubstr("camera.yaml: found no image side"));
+  EXPECT_THAT(error_of("%YAML:1.0\n---\nimage_width: 640\n"), HasSubstr("camera.yaml:3: found no key 'image_height'"));
   EXPECT_THAT(error_of("%YAML:1.0\n---\n:[}"), HasSubstr("camera.yaml"));
 }
 
