@@ -7,15 +7,17 @@
 namespace lodestar {
 namespace {
 
-/// Where there is room, a path keeps away from everything, so that a robot which must go some way without a
-/// marker may be unsure of its place.
-constexpr std::array margins_m{0.10, 0.06, 0.03, 0.02, 0.01};
-constexpr std::array margins_when_lost_m{0.12, 0.10, 0.06, 0.03, 0.02, 0.01};
+constexpr std::array usual_margins_m{0.10, 0.06, 0.03, 0.02, 0.01};
+constexpr std::array wide_margins_m{0.25, 0.18, 0.12, 0.10, 0.06, 0.03, 0.02, 0.01};
+
+std::span<const double> in_m(Margins margins) {
+  return margins == Margins::wide ? std::span<const double>(wide_margins_m) : usual_margins_m;
+}
 
 }  // namespace
 
-Ground::Ground(const OccupancyMap& known, const GridPlannerOptions& options)
-    : map(known), planner(map, options, margins_m), free_way(map, options.radius_m) {}
+Ground::Ground(const OccupancyMap& known, const GridPlannerOptions& options, Margins margins)
+    : map(known), planner(map, options, in_m(margins)), free_way(map, options.radius_m) {}
 
 DriveOptions Ground::drive_options(const Path& path, DriveOptions options) const {
   for (std::size_t i = 2; i < path.waypoints_m.size(); ++i) {
@@ -27,11 +29,6 @@ DriveOptions Ground::drive_options(const Path& path, DriveOptions options) const
     if (!planner.is_roomy(begin, end)) options.blend_corridor_m = 0.0;
   }
   return options;
-}
-
-PlanResult plan_for_a_lost_robot(const OccupancyMap& map, const GridPlannerOptions& options,
-                                 const Vec2& start_m, const Vec2& goal_m) {
-  return MarginPlanner(map, options, margins_when_lost_m).plan(start_m, goal_m);
 }
 
 }  // namespace lodestar

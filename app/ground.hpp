@@ -6,9 +6,15 @@
 
 namespace lodestar {
 
+/// How far from everything a path keeps where there is room.
+enum class Margins {
+  usual,
+  wide  ///< for a robot unsure of its place
+};
+
 /// What a robot plans and drives on. Made anew for every map.
 struct Ground {
-  Ground(const OccupancyMap& known, const GridPlannerOptions& options);
+  Ground(const OccupancyMap& known, const GridPlannerOptions& options, Margins margins);
 
   /// For a path over this ground: corners are cut only where there is room for it.
   [[nodiscard]] DriveOptions drive_options(const Path& path, DriveOptions options) const;
@@ -17,9 +23,5 @@ struct Ground {
   MarginPlanner planner;
   FreeWay free_way;
 };
-
-/// A robot unsure of its place keeps a little more to the middle.
-PlanResult plan_for_a_lost_robot(const OccupancyMap& map, const GridPlannerOptions& options,
-                                 const Vec2& start_m, const Vec2& goal_m);
 
 }  // namespace lodestar

@@ -1,23 +1,17 @@
 #include "app/navigation.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "control/differential_drive.hpp"
 
 namespace lodestar {
-namespace {
-
-/// How far the wheels say that the robot has turned, up to a factor near 1.
-std::optional<double> turned_by(const std::vector<WheelTravel>& travel, double track_width_m) {
-  if (travel.empty()) return std::nullopt;
-  return (travel.back().right_m - travel.back().left_m) / track_width_m;
-}
-
-}  // namespace
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
       sight_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix,
              options.filter),
-      ground_(std::make_unique<const Ground>(world.map, options.planner)),
+      ground_(std::make_unique<const Ground>(world.map, options.planner, Margins::usual)),
       known_{PoseFilter(options.filter), MarkerTrust(options.trust), CameraWatch(options.camera),
              Doubt(options.doubt)},
       motion_{.look_around = LookAround(options.look_around),
@@ -43,12 +37,13 @@ NavigationStep Navigation::step(const SensorInput& input) {
   step.rolled_unseen_m = known.doubt.rolled_since_agreement_m();
   step.distrusted = known.trust.distrusted();
   step.wheel_scales = known.filter.wheel_scales();
-  const Situation at{
-      .now = input.now,
-      .elapsed = last_step_ ? input.now - *last_step_ : Duration::zero(),
-      .turned_rad = turned_by(input.base.travel, options_.drive.track_width_m).value_or(turned_rad_),
-      .estimate = step.estimate,
-      .stop_on_retreat = reason_within(options_.retreat.limits)};
+  const Situation at{.now = input.now,
+                     .elapsed = last_step_ ? input.now - *last_step_ : Duration::zero(),
+                     .turned_rad = input.base.travel.empty()
+                                       ? turned_rad_
+                                       : turned_rad(input.base.travel.back(), options_.drive.track_width_m),
+                     .estimate = step.estimate,
+                     .stop_on_retreat = reason_within(options_.retreat.limits)};
   Motion motion = motion_;
   const bool has_agreed =
       std::ranges::find(step.fixes, FixOutcome::accepted, &UsedFix::outcome) != step.fixes.end();
@@ -58,6 +53,9 @@ NavigationStep Navigation::step(const SensorInput& input) {
     if (motion.retreat && motion.places.is_far_from_its_end(step.estimate->map_from_base.position_m))
       motion.retreat->cancel();
   }
+  if (!has_agreed && step.estimate) motion.places.saw_nothing_at(step.estimate->map_from_base.position_m);
+  if (motion.seeks_another_way && motion.drive && !motion.drive->paused() && !motion.retreat && !step.stop)
+    take_another_way(motion, step.estimate->map_from_base, step);
   step.command = move(motion, at, step);
 
   known_ = std::move(known);
@@ -83,8 +81,14 @@ BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationSte
   if (motion.is_lost && !step.stop && drive.at_rest() && !is_stuck(limit_in_doubt(*at.estimate)))
     motion.is_lost = false;
   if (!motion.retreat && motion.is_lost && !at.stop_on_retreat && may_look && motion.places.possible()) {
-    if (!step.stop) step.stop = StopReason::pose_uncertain;
+    const bool may_go_on = !step.stop;
+    if (may_go_on) step.stop = StopReason::pose_uncertain;
     if (!drive.at_rest()) return drive.slow_down(at.elapsed);
+    if (!motion.keeps_to_the_middle && may_go_on) {
+      motion.keeps_to_the_middle = motion.seeks_another_way = true;
+      motion.is_lost = false;
+      return {};
+    }
     motion.retreat = way_back(motion, at.estimate->map_from_base);
     motion.is_lost = false;
   }
@@ -137,9 +141,8 @@ BodyVelocity Navigation::go_back(Motion& motion, const Situation& at, Navigation
   step.stop.reset();
   step.retreats = true;
   motion.is_lost = false;
-  // It has come this way, so much of its error is the same as it was then: two deviations instead of three.
-  const SpareRoom spare{.here_m = 2.0 / 3.0 * room_for_doubt(at.estimate->covariance).here_m};
-  const SpeedLimit limit = speed_limit(*at.estimate, spare, options_.retreat.limits);
+  const SpeedLimit limit =
+      speed_limit(*at.estimate, room_on_the_way_back(at.estimate->covariance), options_.retreat.limits);
   const bool is_blocked = is_stuck(limit) && retreat.phase() == DrivePhase::driving;
   const BodyVelocity command =
       is_blocked ? retreat.slow_down(at.elapsed) : retreat.update(*at.estimate, at.elapsed, limit);
@@ -153,15 +156,45 @@ std::optional<RotateThenDrive> Navigation::way_back(Motion& motion, const Pose2&
   constexpr double beside_leg_m = 0.3;
   const std::optional<Vec2> place_m = motion.places.begin();
   if (!place_m) return std::nullopt;
-  const Vec2 leg_start_m = motion.drive->path_ahead().waypoints_m.front();
-  if (distance_to_path_m({{leg_start_m, pose.position_m}}, *place_m) <= beside_leg_m)
+  motion.seeks_another_way = true;
+  const std::vector<Vec2>& ahead_m = motion.drive->path_ahead().waypoints_m;
+  const bool is_on_leg =
+      ahead_m.size() > 1 && distance_to_path_m({{ahead_m[0], ahead_m[1]}}, pose.position_m) <= beside_leg_m;
+  const Vec2 from_m = is_on_leg ? ahead_m.front() : pose.position_m;
+  if (distance_to_path_m({{from_m, pose.position_m}}, *place_m) <= beside_leg_m)
     return RotateThenDrive({{pose.position_m, *place_m}}, std::nullopt, options_.drive);
-  const PlanResult result = plan_for_a_lost_robot(ground_->map, options_.planner, leg_start_m, *place_m);
+  const Ground ground(ground_->map, options_.planner, Margins::wide);
+  const PlanResult result = ground.planner.plan(from_m, *place_m);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return std::nullopt;
   Path path = plan->path;
-  path.waypoints_m.insert(path.waypoints_m.begin(), pose.position_m);
+  if (is_on_leg) path.waypoints_m.insert(path.waypoints_m.begin(), pose.position_m);
   return RotateThenDrive(path, std::nullopt, options_.drive);
+}
+
+/// An unsure robot keeps away from what it could touch; and where it has found no marker it drives again only
+/// if every other way is far longer.
+void Navigation::take_another_way(Motion& motion, const Pose2& pose, NavigationStep& step) {
+  motion.seeks_another_way = false;
+  motion.reroutes = false;
+  ground_ = ground_over(ground_->map, motion);
+  const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = motion.goal_heading_rad};
+  const Vec2 goal_m = motion.drive->path_ahead().waypoints_m.back();
+  const PlanResult result = ground_->planner.plan(pose.position_m, goal_m, headings);
+  const auto* plan = std::get_if<Plan>(&result);
+  if (plan == nullptr) return;
+  motion.drive.emplace(plan->path, motion.goal_heading_rad,
+                       ground_->drive_options(plan->path, options_.drive));
+  step.reroute = {
+      .route = {plan->path, motion.goal_heading_rad}, .change = RouteChange::surer, .failure = std::nullopt};
+}
+
+std::unique_ptr<const Ground> Navigation::ground_over(const OccupancyMap& map, const Motion& motion) const {
+  GridPlannerOptions options = options_.planner;
+  const std::span<const Vec2> blind_m = motion.places.blind_ground_m();
+  options.shunned.places_m.assign(blind_m.begin(), blind_m.end());
+  const bool is_unsure = motion.keeps_to_the_middle || !blind_m.empty();
+  return std::make_unique<const Ground>(map, options, is_unsure ? Margins::wide : Margins::usual);
 }
 
 /// A path that no longer holds is given up in two steps: the robot comes to rest, and plans from where it
@@ -199,6 +232,8 @@ std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
   motion_.retreat.reset();
   motion_.places.new_goal();
   motion_.looks_again = motion_.reroutes = motion_.is_blocked = motion_.is_lost = false;
+  motion_.seeks_another_way = false;
+  if (std::exchange(motion_.keeps_to_the_middle, false)) ground_ = ground_over(ground_->map, motion_);
   if (!estimate_) return std::nullopt;
   const Pose2& pose = estimate_->map_from_base;
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad};
@@ -211,23 +246,13 @@ std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
 }
 
 void Navigation::map_changed(const OccupancyMap& map) {
-  ground_ = std::make_unique<const Ground>(map, options_.planner);
+  ground_ = ground_over(map, motion_);
   motion_.looks_again = true;
 }
 
-/// The less sure of its pose the slower, and never so fast that the robot could not stop before it meets what
-/// lies straight ahead.
 SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate, const SpareRoom& spare,
                                    const SafetyStopOptions& limits) const {
-  const DriveOptions& drive = options_.drive;
-  const double deceleration = drive.braking_share * drive.max_acceleration_mps2;
-  const double reach_m =
-      drive.max_forward_mps * (drive.response_s + 0.5 * drive.max_forward_mps / deceleration);
-  const double free_m = ground_->free_way.ahead_m(estimate.map_from_base, reach_m, spare);
-  const double share = share_of_speed(estimate.covariance, limits, options_.caution);
-  return {.forward_mps = std::min(share * drive.max_forward_mps,
-                                  speed_to_stop_within(free_m, deceleration, drive.response_s)),
-          .turn_radps = share * drive.max_turn_radps};
+  return safe_speed(ground_->free_way, estimate, spare, {options_.drive, options_.caution, limits});
 }
 
 /// As speed_limit(), with room kept for what the robot does not know of its place; none where it has less.

@@ -111,10 +111,12 @@ class Navigation {
     std::optional<double> goal_heading_rad;
     Retreat places;                          ///< to go back to
     std::optional<RotateThenDrive> retreat;  ///< moves the robot instead of `drive` while it goes back
-    bool is_lost = false;      ///< too unsure of its pose to go on: it comes to rest, to go back
-    bool looks_again = false;  ///< at its path: something has changed
-    bool reroutes = false;     ///< it comes to rest, to plan anew from there
-    bool is_blocked = false;   ///< something stands in front of the robot
+    bool is_lost = false;              ///< too unsure of its pose to go on: it comes to rest, to go back
+    bool keeps_to_the_middle = false;  ///< has been too unsure on the way to this goal
+    bool seeks_another_way = false;    ///< since it was, or went back
+    bool looks_again = false;          ///< at its path: something has changed
+    bool reroutes = false;             ///< it comes to rest, to plan anew from there
+    bool is_blocked = false;           ///< something stands in front of the robot
   };
 
   /// What one step is about, besides the motion.
@@ -128,9 +130,12 @@ class Navigation {
 
   BodyVelocity move(Motion& motion, const Situation& at, NavigationStep& step) const;
   BodyVelocity follow(Motion& motion, const Situation& at, NavigationStep& step) const;
+  void take_another_way(Motion& motion, const Pose2& pose, NavigationStep& step);
   void reroute(Motion& motion, const Pose2& pose, NavigationStep& step) const;
   BodyVelocity go_back(Motion& motion, const Situation& at, NavigationStep& step) const;
   [[nodiscard]] std::optional<RotateThenDrive> way_back(Motion& motion, const Pose2& pose) const;
+  [[nodiscard]] std::unique_ptr<const Ground> ground_over(const OccupancyMap& map,
+                                                          const Motion& motion) const;
   [[nodiscard]] RouteUpdate route_from(const Motion& motion, const Pose2& pose) const;
   [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate, const SpareRoom& spare,
                                        const SafetyStopOptions& limits) const;

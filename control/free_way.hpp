@@ -10,8 +10,10 @@ namespace lodestar {
 /// How far the robot's disc can go straight ahead before it meets something that is not drivable.
 class FreeWay {
  public:
+  static constexpr double usual_tolerance_m = 0.03;
+
   /// `tolerance_m`: the disc is taken to be smaller by so much, for paths that pass at exactly its radius.
-  FreeWay(const OccupancyMap& map, double radius_m, double tolerance_m = 0.03);
+  FreeWay(const OccupancyMap& map, double radius_m, double tolerance_m = usual_tolerance_m);
 
   /// At most `up_to_m`, with some room kept on all sides. A disc that overlaps something already, as after a
   /// pose that was a little off, has a way out of it but none deeper into it; so has one that has less room

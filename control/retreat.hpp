@@ -2,6 +2,8 @@
 
 #include <deque>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "control/safety_stop.hpp"
 #include "maps/geometry.hpp"
@@ -10,7 +12,7 @@ namespace lodestar {
 
 struct RetreatOptions {
   double before_last_m = 0.8;   ///< so far before the last place with a marker in view the robot goes back
-  int most_to_a_goal = 2;       ///< then it stays where it is
+  int most_to_a_goal = 3;       ///< then it stays where it is
   double markers_view_m = 1.5;  ///< from farther away the last marker is not seen
   /// How lost it may be on its way back, which it knows to be free because it has just come that way.
   SafetyStopOptions limits{.max_time_without_fix = std::chrono::seconds(60),
@@ -19,14 +21,17 @@ struct RetreatOptions {
 };
 
 /// Where a robot that has driven too far without a marker goes back to. Under a marker again it knows where
-/// it is, and by the way there and back it has learned its wheels, so that it comes farther the next time. A
-/// value type.
+/// it is; it has learned where no marker is to be found, so that it can take another way; and by the way
+/// there and back it has learned its wheels, so that it comes farther where there is no other. A value type.
 class Retreat {
  public:
   explicit Retreat(const RetreatOptions& options = {}) : options_(options) {}
 
   /// Here the robot has seen a marker that agrees with its estimate.
   void saw_marker_at(const Vec2& position_in_map);
+
+  /// Here it has seen none.
+  void saw_nothing_at(const Vec2& position_in_map);
 
   /// May another be made? Not when no marker was ever seen, nor when too many were made.
   [[nodiscard]] bool possible() const { return !seen_at_m_.empty() && made_ < options_.most_to_a_goal; }
@@ -40,6 +45,9 @@ class Retreat {
     return (position_in_map - towards_m_).norm() > options_.markers_view_m;
   }
 
+  /// The ground on which it has seen no marker before the retreats made so far, in steps.
+  [[nodiscard]] std::span<const Vec2> blind_ground_m() const { return blind_ground_m_; }
+
   /// To another goal.
   void new_goal() { made_ = 0; }
 
@@ -47,6 +55,8 @@ class Retreat {
   RetreatOptions options_;
   std::deque<Vec2> seen_at_m_;  ///< the last places, a step apart
   Vec2 towards_m_ = Vec2::Zero();
+  std::vector<Vec2> unseen_at_m_;     ///< the places since the last marker, a step apart
+  std::vector<Vec2> blind_ground_m_;  ///< those that ended in a retreat
   int made_ = 0;
 };
 

@@ -23,7 +23,10 @@ void Doubt::add_travel(const WheelTravel& reading) {
 void Doubt::add_fix(const FixVerdict& fix) {
   switch (fix.outcome) {
     case FixOutcome::accepted:
+      return agree();
     case FixOutcome::started:
+      if (is_out_of_reach(fix)) for_good_ = DoubtReason::carried_away;
+      blamed_at_.reset();
       return agree();
     case FixOutcome::relocated:
       if (is_gross(fix)) for_good_ = DoubtReason::carried_away;
@@ -60,12 +63,14 @@ void Doubt::contradict(const FixVerdict& fix) {
   if (rolled_m_ - first.rolled_m < options_.rolled_m) {
     for_good_ = DoubtReason::carried_away;
   } else {
-    blame_wheels(fix.stamp);
+    blame_wheels(fix);
   }
 }
 
-void Doubt::blame_wheels(Stamp stamp) {
+void Doubt::blame_wheels(const FixVerdict& fix) {
+  const Stamp stamp = fix.stamp;
   fooled_ = true;
+  blamed_at_ = Blame{fix.expected->position_m, rolled_m_};
   witnesses_.clear();
   gross_in_a_row_ = 0;
   std::erase_if(wheel_errors_, [&](Stamp error) { return stamp - error > options_.memory; });
@@ -77,6 +82,13 @@ bool Doubt::is_gross(const FixVerdict& fix) const {
   return fix.expected &&
          ((fix.map_from_base.position_m - fix.expected->position_m).norm() > options_.gross_m ||
           std::abs(wrap_angle(fix.map_from_base.yaw_rad - fix.expected->yaw_rad)) > options_.gross_rad);
+}
+
+/// The belief that begins anew after wheels were wrong cannot begin farther away than they have rolled since:
+/// there a marker lies, or somebody has carried the robot.
+bool Doubt::is_out_of_reach(const FixVerdict& start) const {
+  return blamed_at_ && (start.map_from_base.position_m - blamed_at_->position_m).norm() >
+                           rolled_m_ - blamed_at_->rolled_m + options_.gross_m;
 }
 
 bool Doubt::wheels_fooled_us() {

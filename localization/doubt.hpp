@@ -68,9 +68,16 @@ class Doubt {
     double rolled_m = 0.0;
   };
 
+  /// Where the estimate had the robot when its wheels turned out wrong.
+  struct Blame {
+    Vec2 position_m;
+    double rolled_m = 0.0;
+  };
+
   void agree();
   void contradict(const FixVerdict& fix);
-  void blame_wheels(Stamp stamp);
+  void blame_wheels(const FixVerdict& fix);
+  [[nodiscard]] bool is_out_of_reach(const FixVerdict& start) const;
   [[nodiscard]] bool is_gross(const FixVerdict& fix) const;
 
   DoubtOptions options_;
@@ -81,6 +88,7 @@ class Doubt {
   std::map<int, Witness> witnesses_;
   std::vector<Stamp> wheel_errors_;
   bool fooled_ = false;
+  std::optional<Blame> blamed_at_;
   std::optional<Stamp> moved_at_;
   std::optional<DoubtReason> for_good_;
 };

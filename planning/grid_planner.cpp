@@ -92,10 +92,16 @@ GridPlanner::GridPlanner(const OccupancyMap& map, const GridPlannerOptions& opti
 
 GridPlanner::~GridPlanner() = default;
 
-/// A cell costs 1 when it is as far from obstacles as preferred, and linearly more the nearer it is.
 void GridPlanner::weigh_cells() {
-  if (!(options_.clearance_weight > 0.0 && options_.preferred_clearance_m > 0.0)) return;
+  const bool keeps_clear = options_.clearance_weight > 0.0 && options_.preferred_clearance_m > 0.0;
+  if (!keeps_clear && options_.shunned.places_m.empty()) return;
   costs_.assign(map_.cells.size(), 1.0F);
+  if (keeps_clear) weigh_near_obstacles();
+  weigh_shunned();
+}
+
+/// A cell costs 1 when it is as far from obstacles as preferred, and linearly more the nearer it is.
+void GridPlanner::weigh_near_obstacles() {
   for (int row = 0; row < map_.rows; ++row) {
     for (int column = 0; column < map_.columns; ++column) {
       const double to_edge_m = (searches_->space.to_obstacle_cells({column, row}) - 0.5) * map_.resolution_m;
@@ -104,6 +110,23 @@ void GridPlanner::weigh_cells() {
           static_cast<float>(1.0 + options_.clearance_weight * std::clamp(missing, 0.0, 1.0));
     }
   }
+}
+
+/// Once, however many of the places are near.
+void GridPlanner::weigh_shunned() {
+  const ShunnedGround& shunned = options_.shunned;
+  const double within = shunned.within_m / map_.resolution_m;
+  std::vector<bool> is_shunned(costs_.size(), false);
+  for (const Vec2& place_m : shunned.places_m) {
+    const Vec2 place = in_grid(place_m);
+    const Cell low = cell_of(place - Vec2::Constant(within));
+    const Cell high = cell_of(place + Vec2::Constant(within));
+    for (int row = std::max(low.row, 0); row <= std::min(high.row, map_.rows - 1); ++row)
+      for (int column = std::max(low.column, 0); column <= std::min(high.column, map_.columns - 1); ++column)
+        if ((center_of({column, row}) - place).norm() <= within) is_shunned[map_.index({column, row})] = true;
+  }
+  for (std::size_t i = 0; i < costs_.size(); ++i)
+    if (is_shunned[i]) costs_[i] *= static_cast<float>(1.0 + shunned.weight);
 }
 
 void GridPlanner::prepare_searches() {

@@ -20,6 +20,13 @@ namespace lodestar {
 
 class OutlinePlanner;
 
+/// Ground to keep away from where there is another way: it costs as much as if it were longer.
+struct ShunnedGround {
+  std::vector<Vec2> places_m;  ///< in the map frame
+  double within_m = 1.0;       ///< cells nearer than this to one of them
+  double weight = 10.0;        ///< cost (1 + weight) times as much
+};
+
 struct GridPlannerOptions {
   PlannerKind kind = PlannerKind::astar;
   double radius_m = 0.25;  ///< of the robot's body; its disc never overlaps a cell that is not drivable
@@ -27,6 +34,7 @@ struct GridPlannerOptions {
   double preferred_clearance_m =
       0.15;                       ///< beyond the radius, cells nearer than this to an obstacle cost more
   double clearance_weight = 1.0;  ///< how much more: up to (1 + weight) times at the very edge; 0: shortest
+  ShunnedGround shunned;          ///< not by a footprint
   double turn_cost_m = 0.2;  ///< of `astar`: the way that a turn is worth to a robot that stops to rotate
   MotionLimits limits;       ///< of `fastest`
   SamplingOptions sampling;  ///< of the planners of OMPL
@@ -110,6 +118,8 @@ class GridPlanner {
   [[nodiscard]] static std::vector<Vec2> points_over(std::span<const Cell> cells, const Ends& ends);
   [[nodiscard]] std::vector<Vec2> jump_path(const Ends& ends, std::size_t& expanded) const;
   void weigh_cells();
+  void weigh_near_obstacles();
+  void weigh_shunned();
   void prepare_searches();
 
   OccupancyMap map_;

@@ -40,6 +40,8 @@ std::string_view to_string(RouteChange change) {
       return "the path was blocked";
     case RouteChange::left_path:
       return "the robot had left the path";
+    case RouteChange::surer:
+      return "planned anew after too long a way without a marker";
     case RouteChange::lost:
       return "no path any more";
   }

@@ -20,6 +20,7 @@ enum class RouteChange {
   better,     ///< a clearly faster one was found
   blocked,    ///< something stands in its way; replaced
   left_path,  ///< the robot is not on it; replaced
+  surer,      ///< it led too far without a marker; planned anew
   lost        ///< it cannot be followed and there is no other: failure says why
 };
 std::string_view to_string(RouteChange change);

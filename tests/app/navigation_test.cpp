@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "app/hardships.hpp"
 #include "app/mission.hpp"
 #include "app/navigation_setup.hpp"
 #include "drivers/base_driver.hpp"
@@ -27,6 +28,7 @@ struct Lab {
   KnownWorld known = known_world(site, "wide");
   MarkerRegistry hung = site.registry;  ///< how the markers really hang
   std::uint64_t seed = 1;
+  Hardships hardships;
   std::function<bool(Stamp)> sees = [](Stamp) { return true; };  ///< or the lens is covered
 
   [[nodiscard]] Simulation simulation() const {
@@ -36,7 +38,7 @@ struct Lab {
     options.robot_radius_m = site.robot.radius_m;
     options.base.track_width_m = site.robot.track_width_m;
     options.seed = seed;
-    return {known.map, hung, known.camera, options};
+    return {known.map, hung, known.camera, made_harder(options, hardships)};
   }
 };
 
@@ -58,6 +60,8 @@ struct Drive {
   int contacts = 0;
   bool looked_around = false;
   bool went_back = false;
+  bool took_another_way = false;
+  bool came_through_the_north = false;
   double most_forward_mps = 0.0;  ///< while looking around
 };
 
@@ -73,6 +77,8 @@ Drive drive(const Lab& lab, const Goal& goal) {
     base.command(step.navigation.command);
     result.distrusted = step.navigation.distrusted;
     result.went_back = result.went_back || step.navigation.retreats;
+    const std::optional<RouteUpdate>& reroute = step.navigation.reroute;
+    result.took_another_way = result.took_another_way || (reroute && reroute->change == RouteChange::surer);
     if (step.navigation.stop && step.navigation.command.turn_radps == LookAroundOptions{}.turn_radps) {
       result.looked_around = true;
       result.most_forward_mps = std::max(result.most_forward_mps, step.navigation.command.forward_mps);
@@ -83,6 +89,10 @@ Drive drive(const Lab& lab, const Goal& goal) {
   result.goal_error_m =
       (simulation.scorer().track().back().map_from_base.position_m - goal.position_m).norm();
   result.contacts = simulation.scorer().contacts();
+  result.came_through_the_north = std::ranges::any_of(simulation.scorer().track(), [](const auto& at) {
+    const Vec2& place_m = at.map_from_base.position_m;
+    return place_m.x() > 7.0 && place_m.x() < 9.0 && place_m.y() > 5.0;
+  });
   return result;
 }
 
@@ -114,6 +124,21 @@ TEST(Navigation, names_a_moved_marker_and_arrives_without_it) {
     EXPECT_EQ(result.distrusted.front().id, marker.id);
     EXPECT_LT((result.distrusted.front().offset_m - moved).norm(), 0.02) << moved.transpose();
   }
+}
+
+TEST(Navigation, takes_another_way_where_it_found_no_marker) {
+  Lab lab;
+  lab.seed = 42;  // no marker on the corridor, some in the north
+  lab.hardships = {.lost_frames = 0.3, .unequal_wheels = 0.03};
+  std::vector<Vec2> places_m{lab.site.start.position_m};
+  for (const Goal& goal : lab.site.goals) places_m.push_back(goal.position_m);
+  lab.hung = with_markers_removed(lab.hung, 0.5, places_m, lab.seed);
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.took_another_way);
+  EXPECT_TRUE(result.came_through_the_north);
+  EXPECT_EQ(result.contacts, 0);
+  EXPECT_LT(result.goal_error_m, 0.02);
 }
 
 TEST(Navigation, when_blind_goes_back_and_drives_on_when_it_sees_again) {

@@ -1,5 +1,6 @@
 #include "control/retreat.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace lodestar {
@@ -23,6 +24,20 @@ TEST(Retreat, is_not_made_for_ever_nor_to_nowhere) {
   EXPECT_FALSE(retreat.begin());
   retreat.new_goal();
   EXPECT_TRUE(retreat.begin());
+}
+
+TEST(Retreat, remembers_where_it_saw_nothing_until_it_sees_something_there) {
+  Retreat retreat;
+  retreat.saw_nothing_at({-1.0, 0.0});
+  retreat.saw_marker_at({0.0, 0.0});
+  for (int centimetre = 0; centimetre <= 100; ++centimetre) retreat.saw_nothing_at({0.01 * centimetre, 0.0});
+  EXPECT_TRUE(retreat.blind_ground_m().empty()) << "it has not failed there";
+  ASSERT_TRUE(retreat.begin());
+  EXPECT_NEAR(static_cast<double>(retreat.blind_ground_m().size()), 11.0, 1.0);
+  retreat.saw_marker_at({0.5, 0.0});
+  for (const Vec2& blind_m : retreat.blind_ground_m()) EXPECT_GT(std::abs(blind_m.x() - 0.5), 0.09);
+  retreat.new_goal();
+  EXPECT_FALSE(retreat.blind_ground_m().empty());
 }
 
 TEST(Retreat, knows_a_marker_on_the_way_from_the_one_at_its_end) {

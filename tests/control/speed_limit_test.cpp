@@ -1,6 +1,9 @@
 #include "control/speed_limit.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
+
+#include "tests/maps/empty_floor.hpp"
 
 namespace lodestar {
 namespace {
@@ -30,6 +33,25 @@ TEST(SpeedLimit, goes_at_full_speed_while_sure_and_slower_without_a_jump_up_to_t
     EXPECT_GT(now, last - 0.01);
     last = now;
   }
+}
+
+TEST(SpeedLimit, is_low_in_a_gap_so_that_a_slipping_wheel_cannot_lead_into_its_side) {
+  const auto speed_mps = [](double gap_m) {
+    OccupancyMap map = empty_floor(120, 80, 0.05);  // two walls end at x = 3, the gap between them at y = 2
+    const int open = static_cast<int>(std::lround(gap_m / map.resolution_m));
+    for (int row = 0; row < map.rows; ++row)
+      if (row < 40 - open / 2 || row >= 40 - open / 2 + open)
+        for (int column = 60; column < 64; ++column)
+          map.cells[map.index({column, row})] = OccupancyMap::occupied;
+    const PoseEstimate sure{.map_from_base = {{2.85, 2.0}, 0.0},
+                            .covariance = 1e-6 * Eigen::Matrix3d::Identity()};
+    return safe_speed(FreeWay(map, 0.25), sure, {}, {}).forward_mps;
+  };
+  EXPECT_NEAR(speed_mps(2.0), DriveOptions{}.max_forward_mps, 1e-9);
+  EXPECT_GT(speed_mps(0.9), 0.45);
+  EXPECT_LT(speed_mps(0.6), 0.4);
+  EXPECT_GE(speed_mps(0.5), CautionOptions{}.creep_mps);
+  EXPECT_LT(speed_mps(0.5), 0.2);
 }
 
 }  // namespace

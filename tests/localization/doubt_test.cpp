@@ -90,6 +90,21 @@ TEST(Doubt, waits_a_moment_where_the_estimate_has_moved_a_little) {
   EXPECT_FALSE(drive.doubt.reason(drive.now() + milliseconds(1001)));
 }
 
+TEST(Doubt, does_not_let_a_belief_begin_anew_out_of_the_wheels_reach) {
+  for (const double aside_m : {0.1, 2.0}) {
+    Drive drive;
+    while (!drive.doubt.wheels_fooled_us()) {
+      Pose2 seen = drive.ahead();
+      seen.position_m.x() *= 0.6;
+      drive.fix(seen, FixOutcome::refused_gate);
+    }
+    drive.fix(Pose2{{0.0, aside_m}, 0.0} * drive.ahead(), FixOutcome::started, {2400});
+    const auto later = drive.now() + std::chrono::hours(1);
+    EXPECT_EQ(drive.doubt.reason(later),
+              aside_m > 1.0 ? std::optional(DoubtReason::carried_away) : std::nullopt);
+  }
+}
+
 TEST(Doubt, knows_a_robot_that_moves_without_its_wheels) {
   Drive drive;
   drive.pace_m = 0.0;

@@ -161,6 +161,29 @@ TEST(GridPlanner, keeps_off_walls_when_clearance_is_preferred) {
   EXPECT_GT(nearest_to_tip(3.0), 0.18);
 }
 
+TEST(GridPlanner, goes_round_shunned_ground_unless_that_is_far_longer) {
+  std::vector<std::string> rows(40, std::string(60, '.'));
+  for (std::size_t row = 10; row < 30; ++row) rows[row].replace(10, 40, std::string(40, '#'));
+  const OccupancyMap map = map_from(rows, 0.1);  // a block with an aisle of 1 m above and below
+  const Vec2 start_m(0.5, 1.2);
+  const Vec2 goal_m(5.5, 1.2);
+  const auto highest_m = [&](PlannerKind kind, double weight) {
+    const GridPlannerOptions options{
+        .kind = kind,
+        .radius_m = 0.2,
+        .shunned = {.places_m = {{3.0, 0.5}}, .within_m = 1.0, .weight = weight}};
+    const PlanResult result = GridPlanner(map, options).plan(start_m, goal_m);
+    double highest = 0.0;
+    for (const Vec2& waypoint_m : std::get<Plan>(result).path.waypoints_m)
+      highest = std::max(highest, waypoint_m.y());
+    return highest;
+  };
+  for (const PlannerKind kind : {PlannerKind::astar, PlannerKind::anyangle, PlannerKind::fastest}) {
+    EXPECT_LT(highest_m(kind, 0.1), 1.3);
+    EXPECT_GT(highest_m(kind, 10.0), 3.0);
+  }
+}
+
 TEST(GridPlanner, answers_the_same_every_time) {
   Random random(5);
   const OccupancyMap map = random_map(random, 80, 60, 0.02);
