@@ -99,6 +99,7 @@ class SimulatedDrive {
     const std::optional<KeptPicture> picture = pictures_.keep(record_, input.frames);
     record_event(record_, mission_, step.event, simulation_.now());
     judge(record_, simulation_.scorer(), mission_, step.event);
+    judge_way_back(step.navigation.retreats);
     if (options_.watch)
       options_.watch({.input = input, .step = step, .mission = mission_, .picture = picture});
     if (options_.progress) options_.progress(share_done(record_, mission_, step.navigation.estimate));
@@ -138,6 +139,13 @@ class SimulatedDrive {
   [[nodiscard]] bool recording() const { return recording_; }
 
  private:
+  /// Its track is no error while it goes back: then it does not follow the path.
+  void judge_way_back(bool goes_back) {
+    if (goes_back) simulation_.scorer().claim_path({});
+    if (!goes_back && went_back_) simulation_.scorer().claim_path(mission_.path());
+    went_back_ = goes_back;
+  }
+
   void take(const StampedCanFrame& frame) {
     if (recording_) record_.can_frames.push_back(frame);
   }
@@ -162,6 +170,7 @@ class SimulatedDrive {
   RunRecord record_;
   PictureKeeper pictures_{{.pictures_hz = options_.pictures_hz, .can_wait = true}};
   bool recording_ = false;
+  bool went_back_ = false;
   Stopwatch watch_;
 };
 /// Keeps the world's time and the clock on the wall together.
