@@ -6,10 +6,11 @@
 
 namespace lodestar {
 
-/// How far from everything a path keeps where there is room.
+/// How far from everything a path keeps where there is room, so that a robot which must go some way without a
+/// marker may be unsure of its place.
 enum class Margins {
   usual,
-  wide  ///< for a robot unsure of its place
+  wide  ///< for one that has been too unsure
 };
 
 /// What a robot plans and drives on. Made anew for every map.
