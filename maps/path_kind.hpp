@@ -4,8 +4,8 @@
 
 namespace lodestar {
 
-// What a path of unknown origin leads to. std::filesystem's own questions throw where it cannot even be asked,
-// as when a name is too long; then there is nothing here.
+// What a path of unknown origin leads to. std::filesystem's own questions throw where it cannot even be
+// asked, as when a name is too long; then there is nothing here.
 
 inline bool is_folder(const std::filesystem::path& path) {
   std::error_code cannot;

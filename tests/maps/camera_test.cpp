@@ -132,7 +132,8 @@ TEST(CameraFile, refuses_broken_opencv_file_storage_with_its_line) {
       "]\n";
   const std::string vector =
       "camera_matrix: !!opencv-matrix\n   rows: 9\n   cols: 1\n   dt: d\n   data: [ 1., 2. ]\n";
-  EXPECT_THAT(error_of(head + vector + distortion), HasSubstr("camera.yaml:6: found 9 x 1 numbers, wanted 3 x 3"));
+  EXPECT_THAT(error_of(head + vector + distortion),
+              HasSubstr("camera.yaml:6: found 9 x 1 numbers, wanted 3 x 3"));
   EXPECT_THAT(error_of(head + distortion), HasSubstr("camera_matrix"));
   EXPECT_THAT(error_of("%YAML:1.0"), HasSubstr("camera.yaml:1"));
 }
@@ -169,7 +170,8 @@ TEST(CameraFile, refuses_what_is_wrong_with_its_line) {
   EXPECT_THAT(error_of(with("plumb_bob", "equidistant")), HasSubstr("camera.yaml:6: found 5 values"));
   EXPECT_THAT(error_of(with("plumb_bob", "magic")), HasSubstr("camera.yaml:5: found 'magic'"));
   EXPECT_THAT(error_of(good + "iso: 100\n"), HasSubstr("camera.yaml:7: found unknown key 'iso'"));
-  EXPECT_THAT(error_of("%YAML:1.0\n---\nimage_width: 640\n"), HasSubstr("camera.yaml:3: found no key 'image_height'"));
+  EXPECT_THAT(error_of("%YAML:1.0\n---\nimage_width: 640\n"),
+              HasSubstr("camera.yaml:3: found no key 'image_height'"));
   EXPECT_THAT(error_of("%YAML:1.0\n---\n:[}"), HasSubstr("camera.yaml"));
 }
 
