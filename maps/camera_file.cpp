@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
-#include <functional>
 #include <span>
 #include <string>
 
@@ -28,15 +27,12 @@ struct Calibration {
   std::vector<double> coefficients;
 };
 
-/// Where in the file a part of the calibration stands, for messages.
-using Refuse =
-    std::function<void(const std::string& key, const std::string& found, const std::string& wanted)>;
-
-Distortion distortion_of(const Calibration& calibration, const Refuse& refuse) {
+Distortion distortion_of(const Calibration& calibration, const StrictYaml& yaml) {
   if (calibration.model == "plumb_bob") return Distortion::plumb_bob;
   if (calibration.model == "rational_polynomial") return Distortion::rational_polynomial;
   if (calibration.model == "equidistant") return Distortion::equidistant;
-  refuse("distortion_model", "'" + calibration.model + "'", "plumb_bob, rational_polynomial or equidistant");
+  yaml.refuse("distortion_model", "'" + calibration.model + "'",
+              "plumb_bob, rational_polynomial or equidistant");
   return Distortion::none;
 }
 
@@ -46,10 +42,10 @@ bool count_fits(Distortion distortion, std::size_t count) {
   return count == 0 || count == 4 || count == 5;
 }
 
-void check_matrix(const Calibration& calibration, const Refuse& refuse) {
+void check_matrix(const Calibration& calibration, const StrictYaml& yaml) {
   const std::vector<double>& k = calibration.matrix;
   const auto wants = [&](bool good, const std::string& found, const std::string& wanted) {
-    if (!good) refuse("camera_matrix", found, wanted);
+    if (!good) yaml.refuse("camera_matrix", found, wanted);
   };
   wants(k[0] > 0.0 && k[4] > 0.0, fmt::format("focal lengths {} and {}", k[0], k[4]), "positive ones");
   wants(k[1] == 0.0, fmt::format("a skew of {}", k[1]), "0");
@@ -59,18 +55,18 @@ void check_matrix(const Calibration& calibration, const Refuse& refuse) {
         fmt::format("a principal point ({}, {}) outside the image", k[2], k[5]), "one inside");
 }
 
-CameraModel model_of(const Calibration& calibration, const Refuse& refuse) {
-  check_matrix(calibration, refuse);
+CameraModel model_of(const Calibration& calibration, const StrictYaml& yaml) {
+  check_matrix(calibration, yaml);
   CameraModel camera{.width_px = calibration.width_px,
                      .height_px = calibration.height_px,
                      .fx_px = calibration.matrix[0],
                      .fy_px = calibration.matrix[4],
                      .cx_px = calibration.matrix[2],
                      .cy_px = calibration.matrix[5]};
-  camera.distortion = distortion_of(calibration, refuse);
+  camera.distortion = distortion_of(calibration, yaml);
   if (!count_fits(camera.distortion, calibration.coefficients.size())) {
-    refuse("distortion_coefficients", fmt::format("{} values", calibration.coefficients.size()),
-           "0, 4 or 5 (plumb_bob), 8 (rational_polynomial), 4 (equidistant)");
+    yaml.refuse("distortion_coefficients", fmt::format("{} values", calibration.coefficients.size()),
+                "0, 4 or 5 (plumb_bob), 8 (rational_polynomial), 4 (equidistant)");
   }
   std::ranges::copy(calibration.coefficients, camera.coefficients.begin());
   const bool is_ideal = std::ranges::all_of(calibration.coefficients, [](double k) { return k == 0.0; });
@@ -113,8 +109,7 @@ CameraModel load_camera_info(const fs::path& file) {
   calibration.coefficients = read_matrix(yaml.mapping("distortion_coefficients"), 1, std::nullopt);
   read_unused(yaml);
   yaml.finish();
-  return model_of(calibration, [&yaml](const std::string& key, const std::string& found,
-                                       const std::string& wanted) { yaml.refuse(key, found, wanted); });
+  return model_of(calibration, yaml);
 }
 
 /// An !!opencv-matrix of so many numbers, in a row or in a column.
@@ -141,8 +136,7 @@ CameraModel load_file_storage(const fs::path& file, std::string text) {
   calibration.matrix = read_opencv_matrix(yaml.mapping("camera_matrix"), 3, 3);
   calibration.coefficients = read_opencv_matrix(yaml.mapping("distortion_coefficients"), 1, std::nullopt);
   if (calibration.coefficients.size() == 8) calibration.model = "rational_polynomial";
-  return model_of(calibration, [&yaml](const std::string& key, const std::string& found,
-                                       const std::string& wanted) { yaml.refuse(key, found, wanted); });
+  return model_of(calibration, yaml);
 }
 
 std::string_view model_name(Distortion distortion) {
