@@ -10,14 +10,14 @@ namespace {
 constexpr std::array usual_margins_m{0.10, 0.06, 0.03, 0.02, 0.01};
 constexpr std::array wide_margins_m{0.25, 0.18, 0.12, 0.10, 0.06, 0.03, 0.02, 0.01};
 
-std::span<const double> in_m(Margins margins) {
+}  // namespace
+
+std::span<const double> margins_m(Margins margins) {
   return margins == Margins::wide ? std::span<const double>(wide_margins_m) : usual_margins_m;
 }
 
-}  // namespace
-
 Ground::Ground(const OccupancyMap& known, const GridPlannerOptions& options, Margins margins)
-    : map(known), planner(map, options, in_m(margins)), free_way(map, options.radius_m) {}
+    : map(known), planner(map, options, margins_m(margins)), free_way(map, options.radius_m) {}
 
 DriveOptions Ground::drive_options(const Path& path, DriveOptions options) const {
   for (std::size_t i = 2; i < path.waypoints_m.size(); ++i) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "control/drive_options.hpp"
 #include "control/free_way.hpp"
 #include "planning/margin_planner.hpp"
@@ -12,6 +14,9 @@ enum class Margins {
   usual,
   wide  ///< for one that has been too unsure
 };
+
+/// They, widest first.
+std::span<const double> margins_m(Margins margins);
 
 /// What a robot plans and drives on. Made anew for every map.
 struct Ground {

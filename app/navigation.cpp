@@ -157,14 +157,14 @@ std::optional<RotateThenDrive> Navigation::way_back(Motion& motion, const Pose2&
   const std::optional<Vec2> place_m = motion.places.begin();
   if (!place_m) return std::nullopt;
   motion.seeks_another_way = true;
-  const std::vector<Vec2>& ahead_m = motion.drive->path_ahead().waypoints_m;
+  const std::vector<Vec2> ahead_m = motion.drive->path_ahead().waypoints_m;
   const bool is_on_leg =
       ahead_m.size() > 1 && distance_to_path_m({{ahead_m[0], ahead_m[1]}}, pose.position_m) <= beside_leg_m;
   const Vec2 from_m = is_on_leg ? ahead_m.front() : pose.position_m;
   if (distance_to_path_m({{from_m, pose.position_m}}, *place_m) <= beside_leg_m)
     return RotateThenDrive({{pose.position_m, *place_m}}, std::nullopt, options_.drive);
-  const Ground ground(ground_->map, options_.planner, Margins::wide);
-  const PlanResult result = ground.planner.plan(from_m, *place_m);
+  const MarginPlanner planner(ground_->map, options_.planner, margins_m(Margins::wide));
+  const PlanResult result = planner.plan(from_m, *place_m);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return std::nullopt;
   Path path = plan->path;

@@ -68,13 +68,12 @@ void Doubt::contradict(const FixVerdict& fix) {
 }
 
 void Doubt::blame_wheels(const FixVerdict& fix) {
-  const Stamp stamp = fix.stamp;
   fooled_ = true;
   blamed_at_ = Blame{fix.expected->position_m, rolled_m_};
   witnesses_.clear();
   gross_in_a_row_ = 0;
-  std::erase_if(wheel_errors_, [&](Stamp error) { return stamp - error > options_.memory; });
-  wheel_errors_.push_back(stamp);
+  std::erase_if(wheel_errors_, [&](Stamp error) { return fix.stamp - error > options_.memory; });
+  wheel_errors_.push_back(fix.stamp);
   if (wheel_errors_.size() >= options_.most_wheel_errors) for_good_ = DoubtReason::wheels_broken;
 }
 
