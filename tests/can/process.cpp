@@ -2,13 +2,17 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
 #include <poll.h>
 #include <stdexcept>
+#include <string_view>
 #include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 
+#include "app/program.hpp"
 #include "drivers/clock.hpp"
 
 namespace lodestar {
@@ -29,6 +33,19 @@ struct Pipe {
   FileDescriptor writing;
 };
 
+/// `lodestar` is not loaded anew: a User-Mode Linux takes seconds for the 250 libraries under it, and half a
+/// minute when its host is busy. This program has the whole of it, and a child of it begins at once.
+[[noreturn]] void become(std::vector<char*>& arguments) {
+  if (std::string_view(arguments[0]) != LODESTAR_BINARY) {
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  close_range(STDERR_FILENO + 1, ~0U, 0);  // as exec does
+  const int exit_code = program(static_cast<int>(arguments.size()) - 1, arguments.data());
+  std::fflush(nullptr);
+  _exit(exit_code);  // what is ours is not the child's to end
+}
+
 }  // namespace
 
 Process::Process(std::vector<std::string> words) {
@@ -37,13 +54,13 @@ Process::Process(std::vector<std::string> words) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  std::fflush(nullptr);  // or both would print what is still to be printed
   id_ = fork();
   if (id_ == 0) {
     dup2(in.reading.get(), STDIN_FILENO);
     dup2(out.writing.get(), STDOUT_FILENO);
     dup2(out.writing.get(), STDERR_FILENO);
-    execvp(arguments[0], arguments.data());
-    _exit(127);
+    become(arguments);
   }
   input_ = std::move(in.writing);
   printed_ = std::move(out.reading);
