@@ -1,5 +1,6 @@
 #include "drivers/pluggable_camera.hpp"
 
+#include <atomic>
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -41,7 +42,7 @@ class PluggableCameraTest : public testing::Test {
 
   VideoScript script;
   Stamp now{seconds(1)};
-  int opened = 0;
+  std::atomic<int> opened = 0;  // by another thread
 };
 
 TEST_F(PluggableCameraTest, is_refused_when_it_is_not_there_at_the_start) {
