@@ -22,7 +22,7 @@ std::optional<DiscLight> light_in_disc(const cv::Mat& gray, const Vec2& center_p
 /// How center_by_edge() weighs pixels. A weight that follows the edge closely lets less noise in; one that is
 /// smooth from pixel to pixel does not depend on where the dot lies between them.
 struct EdgeOptions {
-  double half_width_px = 3.0;
+  double half_width_px = 2.0;
   int most_steps = 2;
   double small_step_px = 0.06;  ///< after such a step the error left is a tenth of it
   double longest_step_px = 1.0;

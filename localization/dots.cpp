@@ -24,15 +24,7 @@ int rounded(double value) {
 constexpr std::size_t ring_samples = 16;
 using Samples [[gnu::vector_size(ring_samples)]] = std::uint8_t;
 
-/// The value that `rank` of the samples are smaller than: the greatest of those that no more than so many
-/// are. Counted for all samples at once; there is nothing to sort.
-LODESTAR_WIDE_REGISTERS
-std::uint8_t of_rank(const std::uint8_t* ring, std::uint8_t rank) {
-  Samples samples;
-  std::memcpy(&samples, ring, sizeof(samples));
-  Samples smaller{};
-  for (std::size_t i = 0; i < ring_samples; ++i) smaller -= static_cast<Samples>(samples > ring[i]);
-  Samples v = smaller <= rank ? samples : Samples{};
+[[gnu::always_inline]] inline std::uint8_t greatest_of(Samples v) {
   const auto greatest = [](const Samples& a, const Samples& b) { return a > b ? a : b; };
   v = greatest(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
   v = greatest(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
@@ -40,10 +32,28 @@ std::uint8_t of_rank(const std::uint8_t* ring, std::uint8_t rank) {
   return std::max(v[0], v[1]);
 }
 
-/// The lower third of the pixels on a ring around the dot: neighbouring dots may reach the others. Nearest
-/// pixels in the frame where the ring leaves it.
-double background_around(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
-  constexpr std::uint8_t third = ring_samples / 3;
+/// What is around a dot. Neighbouring dots may reach the upper half of the pixels there.
+struct Surroundings {
+  std::uint8_t second_darkest = 0;
+  std::uint8_t third = 0;  ///< a third of the pixels is darker
+  std::uint8_t median = 0;
+};
+
+/// Each the greatest of the samples that no more than so many are smaller than. Counted for all samples at
+/// once; there is nothing to sort.
+LODESTAR_WIDE_REGISTERS
+Surroundings surroundings_of(const std::uint8_t* ring) {
+  Samples samples;
+  std::memcpy(&samples, ring, sizeof(samples));
+  Samples smaller{};
+  for (std::size_t i = 0; i < ring_samples; ++i) smaller -= static_cast<Samples>(samples > ring[i]);
+  const auto of_rank = [&](std::uint8_t rank) { return greatest_of(smaller <= rank ? samples : Samples{}); };
+  return {
+      .second_darkest = of_rank(1), .third = of_rank(ring_samples / 3), .median = of_rank(ring_samples / 2)};
+}
+
+/// By a ring of pixels around the dot; the nearest ones in the frame where the ring leaves it.
+Surroundings surroundings(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
   const int u = rounded(center_px.x());
   const int v = rounded(center_px.y());
   const int full = rounded(reach_px);
@@ -66,7 +76,7 @@ double background_around(const cv::Mat& gray, const Vec2& center_px, double reac
     ring[4 * i + 2] = at(u - du, v - dv);
     ring[4 * i + 3] = at(u + dv, v - du);
   }
-  return of_rank(ring.data(), third);
+  return surroundings_of(ring.data());
 }
 
 /// The dot's middle: the mean of the three brightest of the nine pixels there. Less noisy than the brightest
@@ -90,11 +100,23 @@ std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
   return (first + second + third) / 3.0;
 }
 
-/// Noise in the dark, and shot noise for the light above it.
-double sigma_of(const DiscCenter& center, double dark, double variance_per_gray, double background_gray) {
+/// Of what is around a dot, where it is more than the frame's noise: joints and stains of the ceiling. They
+/// pull its middle the same way in every frame.
+double uneven_variance_gray2(const Surroundings& around, double dark) {
+  constexpr double usual_spread = 1.32;  // of 16 normal samples, from the second to the median, in deviations
+  constexpr double clearly_more = 1.8;   // so few samples of noise alone rarely spread so far
+  const double sigma = (around.median - around.second_darkest) / usual_spread;
+  return sigma > clearly_more * dark ? sigma * sigma - dark * dark : 0.0;
+}
+
+/// Noise in the dark, shot noise for the light above it, and what an uneven background does to the dot. Its
+/// pixels are not off independently of each other, but several alike.
+double sigma_of(const DiscCenter& center, double dark, double variance_per_gray, const Surroundings& around) {
+  constexpr double pixels_alike = 2.0;
   const double above_background =
-      std::max(center.variance_per_gray_px2 - background_gray * center.variance_per_variance_px2, 0.0);
-  return std::sqrt(dark * dark * center.variance_per_variance_px2 + variance_per_gray * above_background);
+      std::max(center.variance_per_gray_px2 - around.third * center.variance_per_variance_px2, 0.0);
+  const double dark_variance = dark * dark + pixels_alike * uneven_variance_gray2(around, dark);
+  return std::sqrt(dark_variance * center.variance_per_variance_px2 + variance_per_gray * above_background);
 }
 
 /// The centroid of the gray values above the local background within a disc wide enough to hold all of the
@@ -107,7 +129,8 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
   const std::optional<double> middle = middle_gray(gray, dot.center_px);
   if (!middle) return std::nullopt;
   const double reach_px = std::sqrt(area.area_px / std::numbers::pi) + options.tail_px;
-  dot.background_gray = background_around(gray, dot.center_px, reach_px + 1.0);
+  const Surroundings around = surroundings(gray, dot.center_px, reach_px + 1.0);
+  dot.background_gray = around.third;
   dot.contrast_gray = *middle - dot.background_gray;
   if (!(dot.contrast_gray > 0.0)) return std::nullopt;
   const std::optional<DiscLight> light = light_in_disc(gray, dot.center_px, reach_px, dot.background_gray);
@@ -122,7 +145,7 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
       center_by_edge(gray, light->center_px, dot.radius_px, options.edge);
   if (!center) return std::nullopt;
   dot.center_px = center->center_px;
-  dot.sigma_px = sigma_of(*center, dark_noise_gray, variance_per_gray, dot.background_gray);
+  dot.sigma_px = sigma_of(*center, dark_noise_gray, variance_per_gray, around);
   return dot;
 }
 
