@@ -64,6 +64,41 @@ TEST(Dots, without_noise_a_middle_is_off_by_what_the_model_says) {
   EXPECT_GT(sigma_px, 0.25 * PoseFixOptions{}.model_sigma_px);
 }
 
+/// The same with a dark joint of the ceiling, two pixels wide, that passes 4 px right of the dot's middle.
+cv::Mat with_joint(cv::Mat gray, const OneDot& dot) {
+  for (int v = 0; v < side_px; ++v) {
+    for (int u = 0; u < side_px; ++u) {
+      const double across_px = u - dot.center_px.x() - 4.0;
+      const double loss = 15.0 * std::exp(-0.5 * across_px * across_px);
+      auto& pixel = gray.at<std::uint8_t>(v, u);
+      pixel = cv::saturate_cast<std::uint8_t>(pixel - loss);
+    }
+  }
+  return gray;
+}
+
+// A joint pulls a dot's middle alike in every frame. The dot says that it is less sure, and by how much.
+TEST(Dots, say_what_a_joint_beside_them_may_do) {
+  constexpr double dark_noise_gray = 1.5;
+  Random random(5);
+  DotFinder finder;
+  double squared_error = 0.0;
+  double squared_sigma = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const OneDot dot = some_dot(random, 2.4, 3.0);
+    const cv::Mat plain = picture_of(dot, dark_noise_gray, 0.0, random);
+    const double usual_sigma_px = finder.find(plain).front().sigma_px;
+    const std::span<const Dot> found = finder.find(with_joint(plain, dot));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_GT(found.front().sigma_px, 1.5 * usual_sigma_px);
+    squared_error += (found.front().center_px - dot.center_px).squaredNorm();
+    squared_sigma += found.front().sigma_px * found.front().sigma_px;
+  }
+  RecordProperty("ratio", std::to_string(squared_error / (2.0 * squared_sigma)));
+  EXPECT_LT(squared_error, 2.0 * 2.0 * squared_sigma);
+  EXPECT_GT(squared_error, 0.1 * 2.0 * squared_sigma);
+}
+
 double learned_variance_per_gray(double dark_noise_gray, double variance_per_gray, std::uint64_t seed) {
   Random random(seed);
   constexpr double assumed_shot_noise_gray = 4.0;
