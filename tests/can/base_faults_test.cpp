@@ -108,7 +108,10 @@ TEST_F(BaseFaults, a_silent_base_is_noticed_within_100_ms) {
   ASSERT_FALSE(heard.empty());
   ASSERT_FALSE(moving.empty());
   expect_within(120ms, heard.back().stamp, moving.back().stamp, "the last moving command");
-  EXPECT_TRUE(witness->wait_for(is_zero_command, moving.back().stamp, 1s)) << "send zero anyway";
+  const auto zero = witness->wait_for(is_zero_command, moving.back().stamp, 1s);
+  ASSERT_TRUE(zero) << "send zero anyway";
+  expect_within(40ms, moving.back().stamp, zero->stamp, "the zero command");
+  EXPECT_TRUE(witness->heard(is_moving_command, zero->stamp).empty());
   measure("base silent", heard.back().stamp);
 }
 
