@@ -164,16 +164,16 @@ template <typename Floats>
 }
 
 struct EdgeSums {
-  float along_x = 0.0F;  ///< gray times the weight for x
+  float along_x = 0.0F;  ///< light above the background times the weight for x
   float along_y = 0.0F;  ///< and for y
   float gain = 0.0F;     ///< what both change by together, a pixel
   float squares = 0.0F;  ///< sum of both weights' squares
-  float shots = 0.0F;    ///< and of their products with the gray values
+  float shots = 0.0F;    ///< and of their products with the light
 };
 
 template <typename Floats>
 [[gnu::always_inline]] inline void sum_edge(const Patch& patch, float squared_radius, float per_width,
-                                            EdgeSums& sums) {
+                                            float background, EdgeSums& sums) {
   for (int block = 0; block < patch.blocks; ++block) {
     Floats x;
     std::memcpy(&x, steps.data(), sizeof(x));
@@ -189,24 +189,24 @@ template <typename Floats>
       const float y = patch.top_px + static_cast<float>(v);
       Floats light;
       load(pixels, light);
+      light = light - background;
       const Floats squared_distance = squared_x + y * y;
       const Floats t = (squared_distance - squared_radius) * per_width;
       Floats inside = 1.0F - t * t;
       clamp_to(0.0F, 1.0F, inside);
-      const Floats cubed = inside * inside * inside;
-      const Floats weight = cubed * inside;
+      const Floats weight = inside * inside;
       const Floats light_weight = light * weight;
       columns += light_weight;
       along_y += light_weight * y;
-      change += (light * cubed) * (squared_distance * t);
+      change += (light * inside) * (squared_distance * t);
       const Floats square = weight * weight * squared_distance;
       squares += square;
       shots += square * light;
     }
     sums.along_x += sum_of(columns * x);
     sums.along_y += sum_of(along_y);
-    // d(w x)/dx + d(w y)/dy = 2 w + 2 d^2 dw/d(d^2), and dw/d(d^2) = -8 t (1 - t^2)^3 / width
-    sums.gain += sum_of(2.0F * columns - (16.0F * per_width) * change);
+    // d(w x)/dx + d(w y)/dy = 2 w + 2 d^2 dw/d(d^2), and dw/d(d^2) = -4 t (1 - t^2) / width
+    sums.gain += sum_of(2.0F * columns - (8.0F * per_width) * change);
     sums.squares += sum_of(squares);
     sums.shots += sum_of(shots);
   }
@@ -218,8 +218,9 @@ void sum_light_by_sixteen(const Patch& patch, float edge, float slope, float bac
   sum_light<Sixteen>(patch, edge, slope, background, sums);
 }
 LODESTAR_SIXTEEN_LANES
-void sum_edge_by_sixteen(const Patch& patch, float squared_radius, float per_width, EdgeSums& sums) {
-  sum_edge<Sixteen>(patch, squared_radius, per_width, sums);
+void sum_edge_by_sixteen(const Patch& patch, float squared_radius, float per_width, float background,
+                         EdgeSums& sums) {
+  sum_edge<Sixteen>(patch, squared_radius, per_width, background, sums);
 }
 #endif
 LODESTAR_WIDE_REGISTERS
@@ -227,8 +228,9 @@ void sum_light_by_eight(const Patch& patch, float edge, float slope, float backg
   sum_light<TwoOfEight>(patch, edge, slope, background, sums);
 }
 LODESTAR_WIDE_REGISTERS
-void sum_edge_by_eight(const Patch& patch, float squared_radius, float per_width, EdgeSums& sums) {
-  sum_edge<TwoOfEight>(patch, squared_radius, per_width, sums);
+void sum_edge_by_eight(const Patch& patch, float squared_radius, float per_width, float background,
+                       EdgeSums& sums) {
+  sum_edge<TwoOfEight>(patch, squared_radius, per_width, background, sums);
 }
 
 struct Sums {
@@ -267,7 +269,7 @@ std::optional<DiscLight> light_in_disc(const cv::Mat& gray, const Vec2& center_p
 }
 
 std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_px, double radius_px,
-                                         const EdgeOptions& options) {
+                                         double background_gray, const EdgeOptions& options) {
   const double width = 2.0 * radius_px * options.half_width_px;
   const double squared_radius = radius_px * radius_px;
   const double reach_px = std::sqrt(squared_radius + width);
@@ -277,7 +279,7 @@ std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_
     if (!patch) return std::nullopt;
     EdgeSums sums;
     sums_of_this_processor().edge(*patch, static_cast<float>(squared_radius), static_cast<float>(1.0 / width),
-                                  sums);
+                                  static_cast<float>(background_gray), sums);
     // The sum weighted by w x falls by half the gain as the weight moves on by a pixel.
     const double gain = 0.5 * static_cast<double>(sums.gain);
     const Vec2 step = Vec2(sums.along_x, sums.along_y) / gain;
@@ -285,7 +287,7 @@ std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_
       return std::nullopt;
     center.center_px += step;
     center.variance_per_variance_px2 = 0.5 * static_cast<double>(sums.squares) / (gain * gain);
-    center.variance_per_gray_px2 = 0.5 * static_cast<double>(sums.shots) / (gain * gain);
+    center.variance_per_light_px2 = 0.5 * static_cast<double>(sums.shots) / (gain * gain);
     if (step.squaredNorm() < options.small_step_px * options.small_step_px) break;
   }
   return center;

@@ -113,10 +113,9 @@ double uneven_variance_gray2(const Surroundings& around, double dark) {
 /// pixels are not off independently of each other, but several alike.
 double sigma_of(const DiscCenter& center, double dark, double variance_per_gray, const Surroundings& around) {
   constexpr double pixels_alike = 2.0;
-  const double above_background =
-      std::max(center.variance_per_gray_px2 - around.third * center.variance_per_variance_px2, 0.0);
+  const double by_light = std::max(center.variance_per_light_px2, 0.0);
   const double dark_variance = dark * dark + pixels_alike * uneven_variance_gray2(around, dark);
-  return std::sqrt(dark_variance * center.variance_per_variance_px2 + variance_per_gray * above_background);
+  return std::sqrt(dark_variance * center.variance_per_variance_px2 + variance_per_gray * by_light);
 }
 
 /// The centroid of the gray values above the local background within a disc wide enough to hold all of the
@@ -142,7 +141,7 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
     return dot;
   }
   const std::optional<DiscCenter> center =
-      center_by_edge(gray, light->center_px, dot.radius_px, options.edge);
+      center_by_edge(gray, light->center_px, dot.radius_px, dot.background_gray, options.edge);
   if (!center) return std::nullopt;
   dot.center_px = center->center_px;
   dot.sigma_px = sigma_of(*center, dark_noise_gray, variance_per_gray, around);

@@ -31,9 +31,9 @@ struct PoseFixOptions {
   double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, where the dot does not tell
   /// Added to what a dot tells of noise: how far its measured centre is off without any, in each coordinate.
   /// What pixels that sample an edge, whole gray values and a last step leave of an ideal disc of 1.9 to 4.5
-  /// px: 0.0018 px by the test Dots.without_noise..., more where light falls off towards the corners. Film
+  /// px: 0.001 px by the test Dots.without_noise..., more where light falls off towards the corners. Film
   /// cut and glued as it is adds what nobody knows.
-  double model_sigma_px = 0.0023;
+  double model_sigma_px = 0.0012;
   double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
   /// And one that explains the dots only by a tilt and height that the prior all but excludes (chi-square): a
   /// marker that hangs a few centimetres elsewhere than surveyed leaves small residuals on a tilted robot.
