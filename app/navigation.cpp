@@ -43,7 +43,8 @@ NavigationStep Navigation::step(const SensorInput& input) {
                                        ? turned_rad_
                                        : turned_rad(input.base.travel.back(), options_.drive.track_width_m),
                      .estimate = step.estimate,
-                     .stop_on_retreat = reason_within(options_.retreat.limits)};
+                     .stop_on_retreat = reason_within(options_.retreat.limits),
+                     .is_contradicted = known.doubt.is_contradicted()};
   Motion motion = motion_;
   const bool has_agreed =
       std::ranges::find(step.fixes, FixOutcome::accepted, &UsedFix::outcome) != step.fixes.end();
@@ -54,6 +55,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
       motion.retreat->cancel();
   }
   if (!has_agreed && step.estimate) motion.places.saw_nothing_at(step.estimate->map_from_base.position_m);
+  if (motion.places.was_in_vain() && !motion.retreat && !step.stop) step.stop = StopReason::pose_stale;
   if (motion.seeks_another_way && motion.drive && !motion.drive->paused() && !motion.retreat && !step.stop)
     take_another_way(motion, step.estimate->map_from_base, step);
   step.command = move(motion, at, step);
@@ -78,7 +80,7 @@ BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationSte
   const bool may_look = !drive.paused() && !drive.arrived();
   motion.is_lost = motion.is_lost || (may_look && step.stop && would_a_marker_mend(*step.stop));
   // While it braked it may have passed the narrow place that it was too unsure for.
-  if (motion.is_lost && !step.stop && drive.at_rest() && !is_stuck(limit_in_doubt(*at.estimate)))
+  if (motion.is_lost && !step.stop && drive.at_rest() && !is_stuck(limit_in_doubt(at)))
     motion.is_lost = false;
   if (!motion.retreat && motion.is_lost && !at.stop_on_retreat && may_look && motion.places.possible()) {
     const bool may_go_on = !step.stop;
@@ -115,10 +117,10 @@ BodyVelocity Navigation::follow(Motion& motion, const Situation& at, NavigationS
   if (!motion.drive) return {};
   if (motion.reroutes) return motion.drive->slow_down(at.elapsed);
 
-  const SpeedLimit limit = limit_in_doubt(*at.estimate);
+  const SpeedLimit limit = limit_in_doubt(at);
   const BodyVelocity command = motion.drive->update(*at.estimate, at.elapsed, limit);
   const bool is_blocked = is_stuck(limit) && motion.drive->phase() == DrivePhase::driving;
-  if (is_blocked && !is_stuck(speed_limit(*at.estimate, {}, options_.safety))) {
+  if (is_blocked && !is_stuck(speed_limit(at, {}, options_.safety))) {
     step.stop = StopReason::pose_uncertain;
     motion.is_lost = true;
     return command;
@@ -142,10 +144,11 @@ BodyVelocity Navigation::go_back(Motion& motion, const Situation& at, Navigation
   step.retreats = true;
   motion.is_lost = false;
   const SpeedLimit limit =
-      speed_limit(*at.estimate, room_on_the_way_back(at.estimate->covariance), options_.retreat.limits);
+      speed_limit(at, room_on_the_way_back(at.estimate->covariance), options_.retreat.limits);
   const bool is_blocked = is_stuck(limit) && retreat.phase() == DrivePhase::driving;
   const BodyVelocity command =
       is_blocked ? retreat.slow_down(at.elapsed) : retreat.update(*at.estimate, at.elapsed, limit);
+  if (retreat.arrived()) motion.places.came_back();
   const bool has_ended = retreat.arrived() || retreat.phase() == DrivePhase::cancelled;
   if (has_ended || (is_blocked && retreat.at_rest())) motion.retreat.reset();
   return command;
@@ -250,16 +253,18 @@ void Navigation::map_changed(const OccupancyMap& map) {
   motion_.looks_again = true;
 }
 
-SpeedLimit Navigation::speed_limit(const PoseEstimate& estimate, const SpareRoom& spare,
+SpeedLimit Navigation::speed_limit(const Situation& at, const SpareRoom& spare,
                                    const SafetyStopOptions& limits) const {
-  return safe_speed(ground_->free_way, estimate, spare, {options_.drive, options_.caution, limits});
+  CautionOptions caution = options_.caution;
+  if (at.is_contradicted) caution.swing_per_m = caution.contradicted_swing_per_m;
+  return safe_speed(ground_->free_way, *at.estimate, spare, {options_.drive, caution, limits});
 }
 
 /// As speed_limit(), with room kept for what the robot does not know of its place; none where it has less.
-SpeedLimit Navigation::limit_in_doubt(const PoseEstimate& estimate) const {
-  const SpareRoom spare = room_for_doubt(estimate.covariance);
-  SpeedLimit limit = speed_limit(estimate, spare, options_.safety);
-  const double room_m = ground_->free_way.room_m(estimate.map_from_base.position_m);
+SpeedLimit Navigation::limit_in_doubt(const Situation& at) const {
+  const SpareRoom spare = room_for_doubt(at.estimate->covariance);
+  SpeedLimit limit = speed_limit(at, spare, options_.safety);
+  const double room_m = ground_->free_way.room_m(at.estimate->map_from_base.position_m);
   if (spare.here_m > 0.0 && room_m < spare.here_m) limit.forward_mps = 0.0;
   return limit;
 }

@@ -126,6 +126,7 @@ class Navigation {
     double turned_rad = 0.0;
     std::optional<PoseEstimate> estimate;
     std::optional<StopReason> stop_on_retreat;  ///< why it may not even go back
+    bool is_contradicted = false;               ///< the estimate, by what was seen last
   };
 
   BodyVelocity move(Motion& motion, const Situation& at, NavigationStep& step) const;
@@ -137,9 +138,9 @@ class Navigation {
   [[nodiscard]] std::unique_ptr<const Ground> ground_over(const OccupancyMap& map,
                                                           const Motion& motion) const;
   [[nodiscard]] RouteUpdate route_from(const Motion& motion, const Pose2& pose) const;
-  [[nodiscard]] SpeedLimit speed_limit(const PoseEstimate& estimate, const SpareRoom& spare,
+  [[nodiscard]] SpeedLimit speed_limit(const Situation& at, const SpareRoom& spare,
                                        const SafetyStopOptions& limits) const;
-  [[nodiscard]] SpeedLimit limit_in_doubt(const PoseEstimate& estimate) const;
+  [[nodiscard]] SpeedLimit limit_in_doubt(const Situation& at) const;
   [[nodiscard]] bool is_stuck(const SpeedLimit& limit) const {
     return limit.forward_mps < options_.drive.min_forward_mps;
   }

@@ -12,6 +12,8 @@ bool is_a_step_away(const Vec2& from_m, const Vec2& to_m) {
 }  // namespace
 
 void Retreat::saw_marker_at(const Vec2& position_in_map) {
+  has_seen_ = true;
+  is_in_vain_ = false;
   unseen_at_m_.clear();
   if (!seen_at_m_.empty() && !is_a_step_away(seen_at_m_.back(), position_in_map)) return;
   std::erase_if(blind_ground_m_,
@@ -28,6 +30,7 @@ void Retreat::saw_nothing_at(const Vec2& position_in_map) {
 std::optional<Vec2> Retreat::begin() {
   if (!possible()) return std::nullopt;
   ++made_;
+  has_seen_ = false;
   blind_ground_m_.insert(blind_ground_m_.end(), unseen_at_m_.begin(), unseen_at_m_.end());
   unseen_at_m_.clear();
   towards_m_ = seen_at_m_.front();

@@ -33,11 +33,20 @@ class Retreat {
   /// Here it has seen none.
   void saw_nothing_at(const Vec2& position_in_map);
 
-  /// May another be made? Not when no marker was ever seen, nor when too many were made.
-  [[nodiscard]] bool possible() const { return !seen_at_m_.empty() && made_ < options_.most_to_a_goal; }
+  /// May another be made? Not before another marker was seen, nor when too many were made.
+  [[nodiscard]] bool possible() const {
+    return !seen_at_m_.empty() && has_seen_ && made_ < options_.most_to_a_goal;
+  }
 
   /// Counts a retreat: where to. Nothing when none may be made.
   std::optional<Vec2> begin();
+
+  /// It is where the last one led to.
+  void came_back() { is_in_vain_ = !has_seen_; }
+
+  /// It went back to where it had seen markers, and has seen none since it left. Then it is not the ceiling:
+  /// the camera sees nothing, or the robot is not where it thinks. It must not go on.
+  [[nodiscard]] bool was_in_vain() const { return is_in_vain_; }
 
   /// Is this place of a robot that goes back far from the one it goes to? A marker seen here is another, and
   /// saves the rest of the way.
@@ -58,6 +67,8 @@ class Retreat {
   std::vector<Vec2> unseen_at_m_;     ///< the places since the last marker, a step apart
   std::vector<Vec2> blind_ground_m_;  ///< those that ended in a retreat
   int made_ = 0;
+  bool has_seen_ = false;  ///< a marker, since the last one began
+  bool is_in_vain_ = false;
 };
 
 }  // namespace lodestar

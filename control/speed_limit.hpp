@@ -26,6 +26,8 @@ struct CautionOptions {
   double slowest = 0.15;      ///< share of the full speed that is left just below the limit
   /// So far aside, for each metre, a wheel that slips may lead the robot before it comes to rest.
   double swing_per_m = 0.25;
+  /// The same while what is seen contradicts: one may be slipping now.
+  double contradicted_swing_per_m = 1.0;
   double creep_mps = 0.1;  ///< not slower than this for that reason alone, however narrow the way
 };
 

@@ -140,15 +140,15 @@ double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFi
 
 Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   const Innovation innovation = innovation_of(belief, fix, options);
-  const Eigen::Matrix<double, 9, 3> gain =
-      innovation.covariance.ldlt().solve(innovation.with_state).transpose();
+  Eigen::Matrix<double, 9, 3> gain = innovation.covariance.ldlt().solve(innovation.with_state).transpose();
+  gain.middleRows<3>(3) *= options.scales_learned_by_one_fix;
   Belief::Covariance keep = Belief::Covariance::Identity();
   keep.leftCols<3>() -= gain;
   keep.rightCols<3>() -= gain;
   Belief result = belief;
   result.mean += gain * innovation.error;
   result.mean[2] = wrap_angle(result.mean[2]);
-  // Joseph's form, which keeps the covariance symmetric and positive.
+  // Joseph's form, which keeps the covariance symmetric and positive, and is right for any gain.
   result.covariance =
       keep * belief.covariance * keep.transpose() + gain * own_covariance(fix, options) * gain.transpose();
   return result;

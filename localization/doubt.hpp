@@ -58,6 +58,9 @@ class Doubt {
   /// Nothing when there is no doubt. For good means: until somebody makes a new Doubt.
   [[nodiscard]] std::optional<DoubtReason> reason(Stamp now) const;
 
+  /// Have fixes contradicted the estimate, and none agreed since?
+  [[nodiscard]] bool is_contradicted() const { return !witnesses_.empty(); }
+
   /// How far the wheels have rolled since a fix agreed with the estimate.
   [[nodiscard]] double rolled_since_agreement_m() const { return rolled_m_ - rolled_at_agreement_m_; }
 

@@ -13,6 +13,9 @@ struct PoseFilterOptions {
   double initial_wheel_scale_sigma = 0.02;  ///< how unequal the wheels may be before anything is learned
   double initial_turn_scale_sigma = 0.02;   ///< how wrong the track width may be before anything is learned
   double wheel_scale_drift_per_sqrt_m = 0.0003;  ///< how fast these scales may change
+  /// Of what one fix says about these scales only this share is taken: a rare jerk of a wheel between two
+  /// fixes looks like wheels of unequal size, and would turn a robot that then drives blind.
+  double scales_learned_by_one_fix = 0.8;
   /// Survey, mount and floor are not perfect: an error that fixes share as long as the robot stays about
   /// where it is. It is another one after rolling `fix_bias_reach_m`.
   double fix_sigma_floor_m = 0.002;

@@ -69,6 +69,18 @@ TEST(Campaign, misleads_no_robot_that_has_seen_nothing_yet) {
   EXPECT_GT(together, 0);
 }
 
+// 6692: a wheel slips right before a gap of 55 cm. 8476: one frame in twenty seconds teaches a robot with a
+// blurred camera its wheels.
+TEST(Campaign, touches_nothing_in_missions_that_once_did) {
+  const TemporaryFolder folder;
+  for (const std::uint64_t mission : {6692U, 8476U}) {
+    const auto outcomes = run_campaign(lab(), {.first = mission, .missions = 1},
+                                       folder / std::to_string(mission), [](double) {});
+    ASSERT_EQ(outcomes.size(), 1U);
+    EXPECT_EQ(outcomes.front().contacts, 0) << mission;
+  }
+}
+
 TEST(Campaign, goes_on_where_it_was_cut_off) {
   const TemporaryFolder folder;
   const Site robot = lab();

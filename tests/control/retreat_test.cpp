@@ -20,10 +20,28 @@ TEST(Retreat, is_not_made_for_ever_nor_to_nowhere) {
   EXPECT_FALSE(retreat.begin()) << "no marker was ever seen";
   retreat.saw_marker_at(Vec2::Zero());
   EXPECT_TRUE(retreat.begin());
+  EXPECT_FALSE(retreat.begin()) << "no marker since";
+  retreat.saw_marker_at(Vec2::Zero());
   EXPECT_TRUE(retreat.begin());
-  EXPECT_FALSE(retreat.begin());
+  retreat.saw_marker_at(Vec2::Zero());
+  EXPECT_FALSE(retreat.begin()) << "two were made";
   retreat.new_goal();
   EXPECT_TRUE(retreat.begin());
+}
+
+TEST(Retreat, was_in_vain_when_no_marker_is_seen_where_it_led_to) {
+  Retreat retreat;
+  retreat.saw_marker_at(Vec2::Zero());
+  retreat.begin();
+  EXPECT_FALSE(retreat.was_in_vain()) << "it is still on its way";
+  retreat.came_back();
+  EXPECT_TRUE(retreat.was_in_vain());
+  retreat.saw_marker_at(Vec2::Zero());
+  EXPECT_FALSE(retreat.was_in_vain());
+  retreat.begin();
+  retreat.saw_marker_at(Vec2::Zero());
+  retreat.came_back();
+  EXPECT_FALSE(retreat.was_in_vain());
 }
 
 TEST(Retreat, remembers_where_it_saw_nothing_until_it_sees_something_there) {

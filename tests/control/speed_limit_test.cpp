@@ -36,7 +36,7 @@ TEST(SpeedLimit, goes_at_full_speed_while_sure_and_slower_without_a_jump_up_to_t
 }
 
 TEST(SpeedLimit, is_low_in_a_gap_so_that_a_slipping_wheel_cannot_lead_into_its_side) {
-  const auto speed_mps = [](double gap_m) {
+  const auto speed_mps = [](double gap_m, const CautionOptions& caution = {}) {
     OccupancyMap map = empty_floor(120, 80, 0.05);  // two walls end at x = 3, the gap between them at y = 2
     const int open = static_cast<int>(std::lround(gap_m / map.resolution_m));
     for (int row = 0; row < map.rows; ++row)
@@ -45,13 +45,16 @@ TEST(SpeedLimit, is_low_in_a_gap_so_that_a_slipping_wheel_cannot_lead_into_its_s
           map.cells[map.index({column, row})] = OccupancyMap::occupied;
     const PoseEstimate sure{.map_from_base = {{2.85, 2.0}, 0.0},
                             .covariance = 1e-6 * Eigen::Matrix3d::Identity()};
-    return safe_speed(FreeWay(map, 0.25), sure, {}, {}).forward_mps;
+    return safe_speed(FreeWay(map, 0.25), sure, {}, {.caution = caution}).forward_mps;
   };
   EXPECT_NEAR(speed_mps(2.0), DriveOptions{}.max_forward_mps, 1e-9);
   EXPECT_GT(speed_mps(0.9), 0.45);
   EXPECT_LT(speed_mps(0.6), 0.4);
   EXPECT_GE(speed_mps(0.5), CautionOptions{}.creep_mps);
   EXPECT_LT(speed_mps(0.5), 0.2);
+  const CautionOptions contradicted{.swing_per_m = CautionOptions{}.contradicted_swing_per_m};
+  EXPECT_NEAR(speed_mps(2.0, contradicted), DriveOptions{}.max_forward_mps, 1e-9);
+  EXPECT_LT(speed_mps(0.7, contradicted), 0.5 * speed_mps(0.7));
 }
 
 }  // namespace

@@ -61,6 +61,28 @@ TEST(Belief, way_in_parts_is_the_way_as_a_whole) {
   EXPECT_LT((at_once.covariance - in_parts.covariance).cwiseAbs().maxCoeff(), 1e-5);
 }
 
+// A jerk of one wheel between two fixes looks like wheels of unequal size.
+TEST(Belief, takes_from_one_fix_only_a_share_of_what_it_says_about_the_wheels) {
+  PoseFilterOptions options;
+  const PlanarFix start{.covariance = 1e-6 * Eigen::Matrix3d::Identity()};
+  const Belief before =
+      moved(belief_from(start, {}, scales_as_built(options), options), {{}, 1.0, 1.0}, options);
+  PlanarFix turned = start;
+  turned.map_from_base = before.map_from_base();
+  turned.map_from_base.yaw_rad +=
+      0.05;  // by wheels that are two per cent unequal, or by a jerk of two centimetres
+  const auto unequal = [](const Belief& belief) { return belief.mean[4] - belief.mean[3]; };
+  const Belief after = corrected(before, turned, options);
+  options.scales_learned_by_one_fix = 1.0;
+  const Belief at_once = corrected(before, turned, options);
+  EXPECT_NEAR(unequal(after), PoseFilterOptions{}.scales_learned_by_one_fix * unequal(at_once), 1e-12);
+  EXPECT_GT(unequal(at_once), 0.015);
+  EXPECT_GT(after.covariance(3, 3) - after.covariance(3, 4),
+            at_once.covariance(3, 3) - at_once.covariance(3, 4))
+      << "and it stays as unsure as that leaves it";
+  EXPECT_TRUE(after.map_from_base().position_m == at_once.map_from_base().position_m);
+}
+
 TEST(Belief, by_one_fix_is_as_unsure_as_fix_and_survey_together) {
   PoseFilterOptions options = without_noise();
   options.fix_sigma_floor_m = 0.003;

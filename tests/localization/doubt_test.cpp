@@ -46,6 +46,18 @@ TEST(Doubt, lets_a_marker_that_hangs_elsewhere_contradict_as_long_as_it_likes) {
   EXPECT_NEAR(drive.doubt.rolled_since_agreement_m(), 39 * 0.03, 1e-9) << "the first reading is no travel";
 }
 
+TEST(Doubt, calls_an_estimate_contradicted_from_the_first_refused_fix_until_one_agrees) {
+  Drive drive;
+  drive.fix(drive.ahead(), FixOutcome::accepted);
+  EXPECT_FALSE(drive.doubt.is_contradicted());
+  drive.fix(Pose2{{0.1, -0.1}, 0.05} * drive.ahead(), FixOutcome::refused_gate);
+  EXPECT_TRUE(drive.doubt.is_contradicted());
+  drive.fix(Pose2{{0.1, -0.1}, 0.05} * drive.ahead(), FixOutcome::refused_late);
+  EXPECT_TRUE(drive.doubt.is_contradicted());
+  drive.fix(drive.ahead(), FixOutcome::accepted);
+  EXPECT_FALSE(drive.doubt.is_contradicted());
+}
+
 TEST(Doubt, blames_the_wheels_when_what_one_marker_says_changes) {
   Drive drive;
   int fixes = 0;
