@@ -95,16 +95,36 @@ Sight::Sight(const MarkerRegistry& registry, const CameraModel& camera,
       fix_options_(fix),
       tracker_(registry, camera, detector),
       fixer_(registry, camera),
-      filter_options_(filter) {}
+      filter_options_(filter) {
+  if (const std::optional<double> height_m = ceiling_height_m(registry))
+    ceiling_.emplace(camera, base_from_camera, *height_m, fix.prior);
+}
 
 std::optional<UsedFix> Sight::see(const Frame& frame, Stamp now, Whereabouts& known) {
   if (known.camera.take_in(frame, now)) return std::nullopt;
+  follow_ceiling(frame, known);
   std::optional<UsedFix> used = look(frame, known);
   if (known.doubt.wheels_fooled_us()) {
     known.filter = PoseFilter(filter_options_);
     known.trust.estimate_moved();
   }
   return used;
+}
+
+/// Lays the frame over the picture that is kept. When too little of that one is in view, or another belief
+/// has begun, which knows no picture, this frame is kept instead.
+void Sight::follow_ceiling(const Frame& frame, Whereabouts& known) {
+  if (!ceiling_) return;
+  ceiling_->look(frame);
+  const std::optional<PictureExpectation> expected = known.filter.expected_motion(frame.stamp);
+  if (expected && expected->from == ceiling_->kept_at()) {
+    const std::optional<SeenMotion> motion = ceiling_->motion(expected->then_from_now);
+    const bool is_far = ceiling_->leaves_view(expected->then_from_now);
+    const bool agrees = motion && known.filter.add_motion(*motion, is_far);
+    if (is_far && agrees) ceiling_->keep();
+    if (!is_far || agrees) return;
+  }
+  if (known.filter.keep_picture(frame.stamp, ceiling_->sway_m())) ceiling_->keep();
 }
 
 std::optional<UsedFix> Sight::look(const Frame& frame, Whereabouts& known) {

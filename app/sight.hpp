@@ -5,6 +5,7 @@
 
 #include "control/safety_stop.hpp"
 #include "localization/camera_watch.hpp"
+#include "localization/ceiling_motion.hpp"
 #include "localization/doubt.hpp"
 #include "localization/marker_tracker.hpp"
 #include "localization/marker_trust.hpp"
@@ -40,7 +41,7 @@ std::optional<StopReason> with_doubts(const std::optional<StopReason>& reason, c
 
 /// From a camera frame to a better belief: reads the markers, first where the belief says that they must be,
 /// takes the pose from those that are trusted, and calls a marker to account that contradicts the others or
-/// the estimate.
+/// the estimate. How the ceiling itself moves tells how the robot does, where no marker hangs too.
 class Sight {
  public:
   Sight(const MarkerRegistry& registry, const CameraModel& camera, const Eigen::Isometry3d& base_from_camera,
@@ -55,6 +56,7 @@ class Sight {
   [[nodiscard]] std::optional<UsedFix> fix_by(const Frame& frame, std::span<const DetectedMarker> markers);
   [[nodiscard]] std::vector<UsedFix> fixes_by_each(const Frame& frame,
                                                    std::span<const DetectedMarker> markers);
+  void follow_ceiling(const Frame& frame, Whereabouts& known);
   std::optional<UsedFix> look(const Frame& frame, Whereabouts& known);
   void judge(const UsedFix& single, Whereabouts& known) const;
 
@@ -63,6 +65,7 @@ class Sight {
   PoseFixOptions fix_options_;
   MarkerTracker tracker_;
   PoseFixer fixer_;
+  std::optional<CeilingMotion> ceiling_;  ///< where there is one ceiling to all markers
   PoseFilterOptions filter_options_;
 };
 

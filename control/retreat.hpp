@@ -15,7 +15,7 @@ struct RetreatOptions {
   int most_to_a_goal = 3;       ///< then it stays where it is
   double markers_view_m = 1.5;  ///< from farther away the last marker is not seen
   /// How lost it may be on its way back, which it knows to be free because it has just come that way.
-  SafetyStopOptions limits{.max_time_without_fix = std::chrono::seconds(60),
+  SafetyStopOptions limits{.max_time_unseen = std::chrono::seconds(60),
                            .max_position_sigma_m = 0.20,
                            .max_heading_sigma_rad = radians(12.0)};
 };

@@ -70,7 +70,7 @@ std::optional<StopReason> reason_to_stop(Stamp now, const std::optional<PoseEsti
                                          const SafetyStopOptions& options) {
   if (!estimate) return StopReason::no_pose;
   if (now - estimate->stamp > options.max_travel_age) return StopReason::base_silent;
-  if (now - estimate->last_fix > options.max_time_without_fix) return StopReason::pose_stale;
+  if (now - estimate->last_agreed > options.max_time_unseen) return StopReason::pose_stale;
   const bool finite =
       estimate->map_from_base.position_m.allFinite() && std::isfinite(estimate->map_from_base.yaw_rad);
   if (!finite || !is_certain(estimate->covariance, options)) return StopReason::pose_uncertain;

@@ -8,8 +8,9 @@
 namespace lodestar {
 
 struct SafetyStopOptions {
-  /// How lost the robot is its covariance tells; this is for one that believes itself sure for ever.
-  Duration max_time_without_fix = std::chrono::seconds(20);
+  /// Without any frame that confirms the estimate, by a marker or the ceiling's own motion. How lost the
+  /// robot is its covariance tells; this is for one that believes itself sure for ever.
+  Duration max_time_unseen = std::chrono::seconds(20);
   Duration max_travel_age =
       std::chrono::milliseconds(100);  ///< wheel travel older than this: the base is silent
   double max_position_sigma_m = 0.10;  ///< largest principal deviation

@@ -1,6 +1,7 @@
 #include "localization/belief.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace lodestar {
@@ -58,17 +59,65 @@ Mat3 own_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
 struct Innovation {
   Vec3 error;
   Mat3 covariance;
-  Eigen::Matrix<double, 3, 9> with_state;  ///< covariance of the expected fix and the state
+  Eigen::Matrix<double, 3, 12> with_state;  ///< covariance of the expected fix and the state
 };
 
 Innovation innovation_of(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   Innovation innovation;
-  const Vec3 expected = belief.mean.head<3>() + belief.mean.tail<3>();
+  const Vec3 expected = belief.mean.head<3>() + belief.mean.segment<3>(6);
   innovation.error << fix.map_from_base.position_m - expected.head<2>(),
       wrap_angle(fix.map_from_base.yaw_rad - expected.z());
-  innovation.with_state = belief.covariance.topRows<3>() + belief.covariance.bottomRows<3>();
-  innovation.covariance = innovation.with_state.leftCols<3>() + innovation.with_state.rightCols<3>() +
+  innovation.with_state = belief.covariance.topRows<3>() + belief.covariance.middleRows<3>(6);
+  innovation.covariance = innovation.with_state.leftCols<3>() + innovation.with_state.middleCols<3>(6) +
                           own_covariance(fix, options);
+  return innovation;
+}
+
+/// A belief, and beside it the place that a picture of its time shows.
+struct WithPicture {
+  using State = Eigen::Matrix<double, 15, 1>;
+  using Covariance = Eigen::Matrix<double, 15, 15>;
+
+  State mean;
+  Covariance covariance;
+};
+
+WithPicture with_picture(const Belief& belief, double sway_m, const PoseFilterOptions& options) {
+  WithPicture both;
+  both.mean << belief.mean, belief.mean.head<3>();
+  both.covariance << belief.covariance, belief.covariance.leftCols<3>(), belief.covariance.topRows<3>(),
+      belief.covariance.topLeftCorner<3, 3>() + rounding_covariance(options);
+  both.covariance.diagonal().segment<2>(12).array() += square(sway_m);
+  return both;
+}
+
+/// The belief when the picture beside it takes the place of the one before.
+void keep_picture(const WithPicture& both, Belief& belief) {
+  belief.mean << both.mean.head<9>(), both.mean.tail<3>();
+  belief.covariance << both.covariance.topLeftCorner<9, 9>(), both.covariance.topRightCorner<9, 3>(),
+      both.covariance.bottomLeftCorner<3, 9>(), both.covariance.bottomRightCorner<3, 3>();
+}
+
+struct MotionInnovation {
+  Vec3 error;
+  Mat3 covariance;
+  Eigen::Matrix<double, 3, 15> by_state;
+};
+
+MotionInnovation innovation_of(const WithPicture& both, const SeenMotion& motion) {
+  const Pose2 then{both.mean.segment<2>(9), both.mean[11]};
+  const Pose2 expected = inverse(then) * Pose2{both.mean.segment<2>(12), both.mean[14]};
+  const Eigen::Matrix2d then_from_map = Eigen::Rotation2Dd(-then.yaw_rad).toRotationMatrix();
+  MotionInnovation innovation;
+  innovation.error << motion.then_from_now.position_m - expected.position_m,
+      wrap_angle(motion.then_from_now.yaw_rad - expected.yaw_rad);
+  innovation.by_state.setZero();
+  innovation.by_state.block<2, 2>(0, 9) = -then_from_map;
+  innovation.by_state.block<2, 2>(0, 12) = then_from_map;
+  innovation.by_state.col(11) << expected.position_m.y(), -expected.position_m.x(), -1.0;
+  innovation.by_state(2, 14) = 1.0;
+  innovation.covariance =
+      innovation.by_state * both.covariance * innovation.by_state.transpose() + motion.covariance;
   return innovation;
 }
 
@@ -85,12 +134,13 @@ Belief belief_from(const PlanarFix& fix, const WheelTravel& travel, const WheelS
                    const PoseFilterOptions& options) {
   Belief belief;
   belief.travel = travel;
-  belief.mean << fix.map_from_base.position_m, fix.map_from_base.yaw_rad, scales.mean, Vec3::Zero();
+  belief.mean << fix.map_from_base.position_m, fix.map_from_base.yaw_rad, scales.mean, Vec3::Zero(),
+      Vec3::Zero();
   const Mat3 shared = shared_covariance(options);
   belief.covariance.topLeftCorner<3, 3>() = own_covariance(fix, options) + shared;
-  belief.covariance.topRightCorner<3, 3>() = -shared;
-  belief.covariance.bottomLeftCorner<3, 3>() = -shared;
-  belief.covariance.bottomRightCorner<3, 3>() = shared;
+  belief.covariance.block<3, 3>(0, 6) = -shared;
+  belief.covariance.block<3, 3>(6, 0) = -shared;
+  belief.covariance.block<3, 3>(6, 6) = shared;
   belief.covariance.block<3, 3>(3, 3) = scales.covariance;
   return belief;
 }
@@ -107,9 +157,10 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
   const double kept = std::exp(-way_m / options.fix_bias_reach_m);  // of the shared error
 
-  Belief to;
+  Belief to = from;
   to.travel = travel;
-  to.mean << pose.position_m, pose.yaw_rad, from.mean.segment<3>(3), kept * from.mean.tail<3>();
+  to.mean.head<3>() << pose.position_m, pose.yaw_rad;
+  to.mean.segment<3>(6) *= kept;
 
   const Eigen::Matrix<double, 3, 2> by_arc = pose_by_arc(from.mean[2], arc);
   Eigen::Matrix2d arc_by_wheels;
@@ -123,13 +174,13 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   transition.block<3, 1>(0, 3) = by_wheels.col(0) * left_m;
   transition.block<3, 1>(0, 4) = by_wheels.col(1) * right_m;
   transition.block<3, 1>(0, 5) = by_arc.col(1) * turn_as_built;
-  transition.diagonal().tail<3>().setConstant(kept);
+  transition.diagonal().segment<3>(6).setConstant(kept);
 
   const Vec2 noise = square(options.wheel_noise_m_per_sqrt_m) * Vec2(std::abs(left_m), std::abs(right_m));
   to.covariance.noalias() = transition * from.covariance * transition.transpose();
   to.covariance.topLeftCorner<3, 3>() += by_wheels * noise.asDiagonal() * by_wheels.transpose();
   to.covariance.diagonal().segment<3>(3).array() += square(options.wheel_scale_drift_per_sqrt_m) * way_m;
-  to.covariance.bottomRightCorner<3, 3>() += (1.0 - kept * kept) * shared_covariance(options);
+  to.covariance.block<3, 3>(6, 6) += (1.0 - kept * kept) * shared_covariance(options);
   return to;
 }
 
@@ -140,17 +191,51 @@ double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFi
 
 Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   const Innovation innovation = innovation_of(belief, fix, options);
-  Eigen::Matrix<double, 9, 3> gain = innovation.covariance.ldlt().solve(innovation.with_state).transpose();
+  Eigen::Matrix<double, 12, 3> gain = innovation.covariance.ldlt().solve(innovation.with_state).transpose();
   gain.middleRows<3>(3) *= options.scales_learned_by_one_fix;
   Belief::Covariance keep = Belief::Covariance::Identity();
   keep.leftCols<3>() -= gain;
-  keep.rightCols<3>() -= gain;
+  keep.middleCols<3>(6) -= gain;
   Belief result = belief;
   result.mean += gain * innovation.error;
   result.mean[2] = wrap_angle(result.mean[2]);
   // Joseph's form, which keeps the covariance symmetric and positive, and is right for any gain.
   result.covariance =
       keep * belief.covariance * keep.transpose() + gain * own_covariance(fix, options) * gain.transpose();
+  return result;
+}
+
+Belief pictured(const Belief& belief, double sway_m, const PoseFilterOptions& options) {
+  Belief result = belief;
+  keep_picture(with_picture(belief, sway_m, options), result);
+  result.pictured = belief.travel.stamp;
+  return result;
+}
+
+double squared_distance(const Belief& belief, const SeenMotion& motion, const PoseFilterOptions& options) {
+  const MotionInnovation innovation = innovation_of(with_picture(belief, motion.sway_m, options), motion);
+  return innovation.error.dot(innovation.covariance.ldlt().solve(innovation.error));
+}
+
+Belief corrected(const Belief& belief, const SeenMotion& motion, bool keeps,
+                 const PoseFilterOptions& options) {
+  WithPicture both = with_picture(belief, motion.sway_m, options);
+  const MotionInnovation innovation = innovation_of(both, motion);
+  const Eigen::Matrix<double, 15, 3> gain =
+      innovation.covariance.ldlt().solve(innovation.by_state * both.covariance).transpose();
+  const WithPicture::Covariance keep = WithPicture::Covariance::Identity() - gain * innovation.by_state;
+  both.mean += gain * innovation.error;
+  both.covariance =
+      (keep * both.covariance * keep.transpose() + gain * motion.covariance * gain.transpose()).eval();
+  Belief result = belief;
+  result.mean = both.mean.head<12>();
+  result.covariance = both.covariance.topLeftCorner<12, 12>();
+  if (keeps) {
+    keep_picture(both, result);
+    result.pictured = belief.travel.stamp;
+  }
+  result.mean[2] = wrap_angle(result.mean[2]);
+  result.mean[11] = wrap_angle(result.mean[11]);
   return result;
 }
 

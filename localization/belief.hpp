@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "localization/mount.hpp"
 #include "localization/pose_filter_options.hpp"
+#include "localization/seen_motion.hpp"
 #include "maps/motion.hpp"
 
 // What the pose filter believes at one time, and how wheel travel and camera fixes change it: the prediction
@@ -20,17 +22,19 @@ struct WheelScales {
 WheelScales scales_as_built(const PoseFilterOptions& options);
 
 struct Belief {
-  /// Three parts of three: the pose (x_m, y_m, yaw_rad), the scales, and the error (x_m, y_m, yaw_rad) that
-  /// all fixes about here have in common.
-  using State = Eigen::Matrix<double, 9, 1>;
-  using Covariance = Eigen::Matrix<double, 9, 9>;
+  /// Four parts of three: the pose (x_m, y_m, yaw_rad), the scales, the error (x_m, y_m, yaw_rad) that all
+  /// fixes about here have in common, and the place (x_m, y_m, yaw_rad) that a picture of the ceiling shows.
+  using State = Eigen::Matrix<double, 12, 1>;
+  using Covariance = Eigen::Matrix<double, 12, 12>;
 
   WheelTravel travel;
+  std::optional<Stamp> pictured;  ///< when that picture was taken; nothing when there is none
   State mean = State::Zero();
   Covariance covariance = Covariance::Zero();
 
   [[nodiscard]] Pose2 map_from_base() const { return {mean.head<2>(), mean[2]}; }
   [[nodiscard]] WheelScales scales() const { return {mean.segment<3>(3), covariance.block<3, 3>(3, 3)}; }
+  [[nodiscard]] Pose2 map_from_pictured() const { return {mean.segment<2>(9), mean[11]}; }
 };
 
 /// The pose by one fix alone.
@@ -45,6 +49,19 @@ double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFi
 
 /// The belief corrected by a fix of the same time.
 Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options);
+
+/// The belief with a picture of the ceiling, taken at the same time, in place of the one before.
+Belief pictured(const Belief& belief, double sway_m, const PoseFilterOptions& options);
+
+/// How far what two pictures of the ceiling show lies off, squared Mahalanobis distance with 3 degrees of
+/// freedom: the last one pictured and another of the belief's time.
+double squared_distance(const Belief& belief, const SeenMotion& motion, const PoseFilterOptions& options);
+
+/// The belief corrected by what two pictures of the ceiling show; `keeps`: the later one takes the place of
+/// the earlier, which it knows better than the base's pose does, for that sways. Cloned states of one camera:
+/// Roumeliotis and Burdick 2002.
+Belief corrected(const Belief& belief, const SeenMotion& motion, bool keeps,
+                 const PoseFilterOptions& options);
 
 /// How sure the pose (x_m, y_m, yaw_rad) is.
 Eigen::Matrix3d pose_covariance(const Belief& belief, const PoseFilterOptions& options);

@@ -35,18 +35,41 @@ std::optional<Belief> BeliefHistory::at(const WheelTravel& travel, const PoseFil
 
 bool BeliefHistory::add_fix(const PlanarFix& fix, const WheelTravel& travel,
                             const PoseFilterOptions& options) {
-  const auto later = std::ranges::upper_bound(beliefs_, travel.stamp, {},
-                                              [](const Belief& belief) { return belief.travel.stamp; });
-  if (later == beliefs_.begin()) return false;
-  const Belief expected = moved(*std::prev(later), travel, options);
-  if (squared_distance(expected, fix, options) > options.gate_chi2) return false;
+  const std::optional<Belief> expected = at(travel, options);
+  if (!expected || squared_distance(*expected, fix, options) > options.gate_chi2) return false;
   PlanarFix weighed = fix;
   weighed.covariance *= variance_growth(std::chrono::abs(travel.stamp - last_fix_), options);
   last_fix_ = std::max(last_fix_, travel.stamp);
-  auto belief = beliefs_.insert(later, corrected(expected, weighed, options));
-  for (auto next = std::next(belief); next != beliefs_.end(); belief = next++)
-    *next = moved(*belief, next->travel, options);
+  put(corrected(*expected, weighed, options), options);
   return true;
+}
+
+bool BeliefHistory::keep_picture(const WheelTravel& travel, double sway_m, const PoseFilterOptions& options) {
+  const std::optional<Belief> expected = at(travel, options);
+  if (!expected) return false;
+  put(pictured(*expected, sway_m, options), options);
+  return true;
+}
+
+bool BeliefHistory::add_motion(const SeenMotion& motion, const WheelTravel& travel, bool keeps,
+                               const PoseFilterOptions& options) {
+  const std::optional<Belief> expected = at(travel, options);
+  if (!expected || expected->pictured != motion.from) return false;
+  if (squared_distance(*expected, motion, options) > options.gate_chi2) return false;
+  SeenMotion weighed = motion;
+  weighed.sway_m *= std::sqrt(variance_growth(std::chrono::abs(travel.stamp - last_motion_), options));
+  last_motion_ = std::max(last_motion_, travel.stamp);
+  put(corrected(*expected, weighed, keeps, options), options);
+  return true;
+}
+
+/// At its time, and lets those that follow be moved from it.
+void BeliefHistory::put(const Belief& belief, const PoseFilterOptions& options) {
+  const auto later = std::ranges::upper_bound(beliefs_, belief.travel.stamp, {},
+                                              [](const Belief& other) { return other.travel.stamp; });
+  auto last = beliefs_.insert(later, belief);
+  for (auto next = std::next(last); next != beliefs_.end(); last = next++)
+    *next = moved(*last, next->travel, options);
 }
 
 }  // namespace lodestar

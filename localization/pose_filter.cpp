@@ -29,6 +29,8 @@ FixOutcome PoseFilter::add_fix(const PlanarFix& fix, std::span<const int> ids) {
   if (believed_ && believed_->add_fix(at->fix, at->travel, options_)) {
     rival_.reset();
     last_fix_ = std::max(last_fix_, fix.stamp);
+    last_agreed_ = std::max(last_agreed_, fix.stamp);
+    motions_refused_ = 0;
     return FixOutcome::accepted;
   }
 
@@ -39,7 +41,8 @@ FixOutcome PoseFilter::add_fix(const PlanarFix& fix, std::span<const int> ids) {
   if (!rival_prevails()) return relocating ? FixOutcome::refused_gate : FixOutcome::collecting;
   believed_ = std::move(rival_->history);
   rival_.reset();
-  last_fix_ = fix.stamp;
+  last_fix_ = last_agreed_ = fix.stamp;
+  motions_refused_ = 0;
   return relocating ? FixOutcome::relocated : FixOutcome::started;
 }
 
@@ -67,7 +70,8 @@ bool PoseFilter::start_at(const PlanarFix& fix) {
   if (!at) return false;
   believed_ = rival_from(*at).history;
   rival_.reset();
-  last_fix_ = fix.stamp;
+  last_fix_ = last_agreed_ = fix.stamp;
+  motions_refused_ = 0;
   return true;
 }
 
@@ -85,18 +89,47 @@ std::optional<FixExpectation> PoseFilter::expectation(const PlanarFix& fix) cons
                         distance <= options_.gate_chi2};
 }
 
-/// Nothing for a fix that is out of the readings' reach.
-std::optional<PoseFilter::PlacedFix> PoseFilter::placed(const PlanarFix& fix) const {
-  if (readings_.size() < 2) return std::nullopt;
-  const Stamp newest = readings_.back().stamp;
-  if (fix.stamp < readings_.front().stamp || fix.stamp < newest - options_.history ||
-      fix.stamp > newest + options_.max_ahead) {
+std::optional<PictureExpectation> PoseFilter::expected_motion(Stamp stamp) const {
+  const std::optional<WheelTravel> travel = travel_at(stamp);
+  if (!travel || !believed_) return std::nullopt;
+  const std::optional<Belief> belief = believed_->at(*travel, options_);
+  if (!belief || !belief->pictured) return std::nullopt;
+  return PictureExpectation{*belief->pictured,
+                            inverse(belief->map_from_pictured()) * belief->map_from_base()};
+}
+
+bool PoseFilter::keep_picture(Stamp stamp, double sway_m) {
+  const std::optional<WheelTravel> travel = travel_at(stamp);
+  return travel && believed_ && believed_->keep_picture(*travel, sway_m, options_);
+}
+
+bool PoseFilter::add_motion(const SeenMotion& motion, bool keeps) {
+  const std::optional<WheelTravel> travel = travel_at(motion.to);
+  if (!travel || !believed_) return false;
+  const bool agrees = believed_->add_motion(motion, *travel, keeps, options_);
+  if (motions_refused_ < options_.motions_refused_to_doubt) {
+    motions_refused_ = agrees ? 0 : motions_refused_ + 1;
+    if (agrees) last_agreed_ = std::max(last_agreed_, motion.to);
+  }
+  return agrees;
+}
+
+/// Between readings; nothing beyond them and for what is older than the history.
+std::optional<WheelTravel> PoseFilter::travel_at(Stamp stamp) const {
+  if (readings_.size() < 2 || stamp < readings_.front().stamp || stamp > readings_.back().stamp ||
+      stamp < readings_.back().stamp - options_.history) {
     return std::nullopt;
   }
-  if (fix.stamp > newest) return brought_back(fix);
-  const auto after = std::ranges::lower_bound(readings_, fix.stamp, {}, &WheelTravel::stamp);
-  if (after->stamp == fix.stamp) return PlacedFix{fix, *after};
-  return PlacedFix{fix, interpolated(*std::prev(after), *after, fix.stamp)};
+  const auto after = std::ranges::lower_bound(readings_, stamp, {}, &WheelTravel::stamp);
+  return after->stamp == stamp ? *after : interpolated(*std::prev(after), *after, stamp);
+}
+
+/// Nothing for a fix that is out of the readings' reach.
+std::optional<PoseFilter::PlacedFix> PoseFilter::placed(const PlanarFix& fix) const {
+  if (const std::optional<WheelTravel> travel = travel_at(fix.stamp)) return PlacedFix{fix, *travel};
+  const bool is_ahead = readings_.size() >= 2 && fix.stamp > readings_.back().stamp &&
+                        fix.stamp <= readings_.back().stamp + options_.max_ahead;
+  return is_ahead ? std::optional(brought_back(fix)) : std::nullopt;
 }
 
 /// A fix that is ahead of the wheels' last word, brought back to it at the wheels' last pace. Of the way
@@ -130,7 +163,8 @@ std::optional<PoseEstimate> PoseFilter::estimate() const {
   return PoseEstimate{.stamp = newest.travel.stamp,
                       .map_from_base = newest.map_from_base(),
                       .covariance = pose_covariance(newest, options_),
-                      .last_fix = last_fix_};
+                      .last_fix = last_fix_,
+                      .last_agreed = last_agreed_};
 }
 
 std::optional<PoseEstimate> PoseFilter::estimate_at(Stamp stamp) const {
@@ -141,7 +175,8 @@ std::optional<PoseEstimate> PoseFilter::estimate_at(Stamp stamp) const {
   return PoseEstimate{.stamp = stamp,
                       .map_from_base = belief->map_from_base() * inverse(origin->fix.map_from_base),
                       .covariance = pose_covariance(*belief, options_) + origin->fix.covariance,
-                      .last_fix = last_fix_};
+                      .last_fix = last_fix_,
+                      .last_agreed = last_agreed_};
 }
 
 WheelScales PoseFilter::scales() const {

@@ -29,9 +29,16 @@ struct FixExpectation {
   bool agrees = false;            ///< near enough for the filter to accept it
 };
 
+/// What the estimate expects two pictures of the ceiling to show.
+struct PictureExpectation {
+  Stamp from;  ///< when the kept one was taken
+  Pose2 then_from_now;
+};
+
 /// Fuses wheel travel and camera fixes by covariance: an extended Kalman filter over the pose, what the
 /// wheels' readings must be scaled by, and the error that neighbouring fixes share. A fix is applied at its
-/// capture time and the travel since then is replayed over it. A value type: copying it copies the belief.
+/// capture time and the travel since then is replayed over it. Where fixes are missing, pictures of the plain
+/// ceiling may tell how the robot moves. A value type: copying it copies the belief.
 class PoseFilter {
  public:
   explicit PoseFilter(const PoseFilterOptions& options = {})
@@ -45,6 +52,18 @@ class PoseFilter {
   /// marker alone contradicts the estimate by little it may itself have moved, and the estimate stays until a
   /// second marker says the same.
   FixOutcome add_fix(const PlanarFix& fix, std::span<const int> ids = {});
+
+  /// Where the picture of the ceiling that is kept was taken, and how the robot has moved since, at another
+  /// time. Nothing while none is kept, and beyond the wheels' readings.
+  [[nodiscard]] std::optional<PictureExpectation> expected_motion(Stamp stamp) const;
+
+  /// From now on later pictures of the ceiling are laid over one of that time. False, and nothing changes,
+  /// before the start and beyond the wheels' readings.
+  bool keep_picture(Stamp stamp, double sway_m);
+
+  /// Corrects the belief by what the kept picture and a later one show; `keeps`: the later one is kept
+  /// instead. False, and nothing changes, where that contradicts the wheels or another picture is kept.
+  bool add_motion(const SeenMotion& motion, bool keeps);
 
   /// Begins anew at a pose that somebody vouches for, whatever was believed. False, and nothing changes, when
   /// the fix is out of the readings' reach.
@@ -84,6 +103,7 @@ class PoseFilter {
     std::set<int> ids;  ///< of the markers that the fixes rest on
   };
 
+  [[nodiscard]] std::optional<WheelTravel> travel_at(Stamp stamp) const;
   [[nodiscard]] std::optional<PlacedFix> placed(const PlanarFix& fix) const;
   [[nodiscard]] PlacedFix brought_back(const PlanarFix& fix) const;
   void add_to_rival(const PlacedFix& placed, std::span<const int> ids);
@@ -97,6 +117,8 @@ class PoseFilter {
   std::optional<BeliefHistory> believed_;
   std::optional<Rival> rival_;
   Stamp last_fix_;
+  Stamp last_agreed_;
+  int motions_refused_ = 0;  ///< in a row since a fix agreed; enough of them, and the ceiling is not heard
 };
 
 }  // namespace lodestar

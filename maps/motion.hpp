@@ -27,7 +27,8 @@ struct PoseEstimate {
   Stamp stamp;
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Stamp last_fix;  ///< capture time of the newest camera fix that the estimate contains
+  Stamp last_fix;     ///< capture time of the newest camera fix that the estimate contains
+  Stamp last_agreed;  ///< of the newest frame that confirms it: a fix, or the ceiling that moves as it must
 };
 
 /// Straight legs in the map frame; the first waypoint is the start, the last the goal.

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "localization/bright_areas.hpp"
+#include "localization/ceiling_motion.hpp"
 #include "localization/marker_detector.hpp"
 #include "localization/pose_fixer.hpp"
 #include "maps/marker.hpp"
@@ -123,6 +124,36 @@ void pose_of_a_frame(benchmark::State& state) {
   }
 }
 BENCHMARK(pose_of_a_frame)->Unit(benchmark::kMicrosecond);
+
+/// Stains of a few centimetres with a frame's noise: what the camera sees 10 cm further on.
+void motion_by_the_ceiling(benchmark::State& state) {
+  cv::setNumThreads(1);
+  const CameraModel camera = paper_camera();
+  constexpr int way_px = 29;
+  cv::Mat1f stains(camera.height_px, camera.width_px + way_px);
+  cv::RNG random(1);
+  random.fill(stains, cv::RNG::NORMAL, 0.0, 120.0);
+  cv::GaussianBlur(stains, stains, {}, 8.0);
+  const auto frame_at = [&](int left_px, double time_s) {
+    cv::Mat1f noise(camera.height_px, camera.width_px);
+    random.fill(noise, cv::RNG::NORMAL, 40.0, 2.0);
+    Frame frame{Stamp(from_seconds(time_s)), {}};
+    cv::Mat(noise + stains(cv::Rect(left_px, 0, noise.cols, noise.rows))).convertTo(frame.gray, CV_8U);
+    return frame;
+  };
+  CeilingMotion ceiling(camera, Eigen::Isometry3d::Identity(), ceiling_m, {.tilt_sigma_rad = 0.002});
+  ceiling.look(frame_at(0, 0.0));
+  if (!ceiling.keep()) return state.SkipWithError("too plain a ceiling");
+  const Frame frame = frame_at(way_px, 0.05);
+  const Pose2 expected{{ceiling_m * way_px / camera.fx_px + 0.004, -0.003}, 0.005};
+  for ([[maybe_unused]] auto _ : state) {
+    ceiling.look(frame);
+    const std::optional<SeenMotion> motion = ceiling.motion(expected);
+    if (!motion) state.SkipWithError("the pictures do not agree");
+    benchmark::DoNotOptimize(motion);
+  }
+}
+BENCHMARK(motion_by_the_ceiling)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 

@@ -203,7 +203,7 @@ TEST(SafetyStop, names_what_is_missing) {
   const Stamp now = Stamp(std::chrono::seconds(100));
   PoseEstimate good;
   good.stamp = now;
-  good.last_fix = now;
+  good.last_agreed = now;
   good.covariance = 1e-6 * Eigen::Matrix3d::Identity();
   EXPECT_FALSE(reason_to_stop(now, good, {}));
   EXPECT_EQ(reason_to_stop(now, std::nullopt, {}), StopReason::no_pose);
@@ -211,7 +211,7 @@ TEST(SafetyStop, names_what_is_missing) {
   silent.stamp = now - std::chrono::milliseconds(200);
   EXPECT_EQ(reason_to_stop(now, silent, {}), StopReason::base_silent);
   PoseEstimate stale = good;
-  stale.last_fix = now - std::chrono::seconds(21);
+  stale.last_agreed = now - std::chrono::seconds(21);
   EXPECT_EQ(reason_to_stop(now, stale, {}), StopReason::pose_stale);
   PoseEstimate vague = good;
   vague.covariance(0, 0) = vague.covariance(1, 1) = 0.0102;

@@ -8,7 +8,7 @@ namespace {
 /// Somewhere, turning, with wheels that are not as built.
 Belief some_belief() {
   Belief belief;
-  belief.mean << 1.0, -2.0, 0.7, 1.01, 0.98, 1.02, 0.003, -0.002, 0.001;
+  belief.mean << 1.0, -2.0, 0.7, 1.01, 0.98, 1.02, 0.003, -0.002, 0.001, 0.9, -2.1, 0.6;
   belief.covariance.setIdentity();
   return belief;
 }
@@ -37,7 +37,7 @@ TEST(Belief, moves_its_covariance_as_finite_differences_say) {
   const WheelTravel travel{Stamp(from_seconds(0.02)), 0.010, 0.013};
   const Belief after = moved(belief, travel, options);
   Belief::Covariance transition;
-  for (Eigen::Index k = 0; k < 9; ++k) {
+  for (Eigen::Index k = 0; k < belief.mean.size(); ++k) {
     constexpr double step = 1e-6;
     Belief more = belief;
     Belief less = belief;
@@ -69,8 +69,8 @@ TEST(Belief, takes_from_one_fix_only_a_share_of_what_it_says_about_the_wheels) {
       moved(belief_from(start, {}, scales_as_built(options), options), {{}, 1.0, 1.0}, options);
   PlanarFix turned = start;
   turned.map_from_base = before.map_from_base();
-  turned.map_from_base.yaw_rad +=
-      0.05;  // by wheels that are two per cent unequal, or by a jerk of two centimetres
+  // By wheels that are two per cent unequal, or by a jerk of two centimetres.
+  turned.map_from_base.yaw_rad += 0.05;
   const auto unequal = [](const Belief& belief) { return belief.mean[4] - belief.mean[3]; };
   const Belief after = corrected(before, turned, options);
   options.scales_learned_by_one_fix = 1.0;

@@ -54,10 +54,11 @@ double true_way_m(const RunRecord& record, Stamp from, double longest_step_m = 0
   return way_m;
 }
 
-TEST(Faults, row_1_without_markers_it_drives_on_then_stops_gently) {
+// Where the ceiling is plain too: Navigation.when_blind_goes_back_...
+TEST(Faults, row_1_without_markers_it_drives_on_by_the_ceiling) {
   const RunRecord record = drive({{.kind = FaultKind::markers_occluded, .lasts = std::chrono::seconds(10)}});
   expect_arrival(record);
-  EXPECT_TRUE(ever_had_to_stop(record));
+  EXPECT_FALSE(ever_had_to_stop(record));
   for (std::size_t i = 1; i < record.steps.size(); ++i) {
     const double change_mps =
         std::abs(record.steps[i].commanded.forward_mps - record.steps[i - 1].commanded.forward_mps);
