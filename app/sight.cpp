@@ -96,8 +96,9 @@ Sight::Sight(const MarkerRegistry& registry, const CameraModel& camera,
       tracker_(registry, camera, detector),
       fixer_(registry, camera),
       filter_options_(filter) {
-  if (const std::optional<double> height_m = ceiling_height_m(registry))
-    ceiling_.emplace(camera, base_from_camera, *height_m, fix.prior);
+  const std::optional<double> height_m = ceiling_height_m(registry);
+  if (height_m && fix.prior.tilt_sigma_rad)
+    ceiling_.emplace(camera, base_from_camera, *height_m, *fix.prior.tilt_sigma_rad);
 }
 
 std::optional<UsedFix> Sight::see(const Frame& frame, Stamp now, Whereabouts& known) {

@@ -65,7 +65,7 @@ class Sight {
   PoseFixOptions fix_options_;
   MarkerTracker tracker_;
   PoseFixer fixer_;
-  std::optional<CeilingMotion> ceiling_;  ///< where there is one ceiling to all markers
+  std::optional<CeilingMotion> ceiling_;  ///< where all markers hang on one, and the sway is known
   PoseFilterOptions filter_options_;
 };
 

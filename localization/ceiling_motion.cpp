@@ -56,10 +56,10 @@ std::optional<double> ceiling_height_m(const MarkerRegistry& registry) {
 }
 
 CeilingMotion::CeilingMotion(const CameraModel& camera, const Eigen::Isometry3d& base_from_camera,
-                             double ceiling_height_m, const PosePrior& prior,
+                             double ceiling_height_m, double lean_sigma_rad,
                              const CeilingMotionOptions& options)
     : view_(camera, base_from_camera, ceiling_height_m, options.view),
-      lean_sigma_rad_(prior.tilt_sigma_rad.value_or(0.0)),
+      lean_sigma_rad_(lean_sigma_rad),
       sway_m_(lean_sigma_rad_ * ceiling_height_m),
       options_(options) {}
 
@@ -160,16 +160,20 @@ bool CeilingMotion::sample(const Lie& lie, std::vector<Sample>& seen) const {
              options_.least_share_in_view * static_cast<double>(points_.size());
 }
 
-/// One step of Gauss and Newton, with weights after Geman and McClure. How the camera leans is known
-/// beforehand, a little.
-std::optional<CeilingMotion::Fit> CeilingMotion::fit(std::span<const Sample> seen,
-                                                     const Vec2& lean_rad) const {
+/// Of the difference of both pictures (standard deviation), whatever less than half of the points say.
+double CeilingMotion::noise_of(std::span<const Sample> seen) {
   std::vector<double> misses;
   misses.reserve(seen.size());
   for (const Sample& sample : seen) misses.push_back(std::abs(sample.gray - sample.point->gray));
   constexpr double sigma_of_median = 1.4826;
-  const double noise_gray = std::max(sigma_of_median * median(std::move(misses)), least_noise_gray);
+  return std::max(sigma_of_median * median(std::move(misses)), least_noise_gray);
+}
 
+/// One step of Gauss and Newton, with weights after Geman and McClure. How the camera leans is known
+/// beforehand, a little.
+std::optional<CeilingMotion::Fit> CeilingMotion::fit(std::span<const Sample> seen,
+                                                     const Vec2& lean_rad) const {
+  const double noise_gray = noise_of(seen);
   Eigen::Matrix<double, 5, 5> information = Eigen::Matrix<double, 5, 5>::Zero();
   Change right = Change::Zero();
   double squares = 0.0;

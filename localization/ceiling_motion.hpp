@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "localization/ceiling_view.hpp"
-#include "localization/pose_fix.hpp"
 #include "localization/seen_motion.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/frame.hpp"
@@ -48,8 +47,9 @@ std::optional<double> ceiling_height_m(const MarkerRegistry& registry);
 /// kept picture is in view. What the camera itself carries along, or a shadow, is outvoted.
 class CeilingMotion {
  public:
+  /// `lean_sigma_rad`: of a swaying body's camera, about each of two axes.
   CeilingMotion(const CameraModel& camera, const Eigen::Isometry3d& base_from_camera, double ceiling_height_m,
-                const PosePrior& prior, const CeilingMotionOptions& options = {});
+                double lean_sigma_rad, const CeilingMotionOptions& options = {});
 
   /// From now on this is the current picture. CV_8UC1 of the camera's size.
   void look(const Frame& frame);
@@ -106,13 +106,14 @@ class CeilingMotion {
 
   [[nodiscard]] Overlap overlap(const Pose2& kept_from_now) const;
   [[nodiscard]] bool sample(const Lie& lie, std::vector<Sample>& seen) const;
+  [[nodiscard]] static double noise_of(std::span<const Sample> seen);
   [[nodiscard]] std::optional<Fit> fit(std::span<const Sample> seen, const Vec2& lean_rad) const;
   [[nodiscard]] SeenMotion concluded(const Lie& lie, const Eigen::Matrix3d& covariance_of_shift) const;
   [[nodiscard]] std::optional<Point> point_at(int row, int column) const;
   void choose_points_of_cell(const cv::Rect& cell);
 
   CeilingView view_;
-  double lean_sigma_rad_;  ///< of a swaying body's camera, each axis
+  double lean_sigma_rad_;
   double sway_m_;
   CeilingMotionOptions options_;
   cv::Mat1f current_;

@@ -141,7 +141,7 @@ void motion_by_the_ceiling(benchmark::State& state) {
     cv::Mat(noise + stains(cv::Rect(left_px, 0, noise.cols, noise.rows))).convertTo(frame.gray, CV_8U);
     return frame;
   };
-  CeilingMotion ceiling(camera, Eigen::Isometry3d::Identity(), ceiling_m, {.tilt_sigma_rad = 0.002});
+  CeilingMotion ceiling(camera, Eigen::Isometry3d::Identity(), ceiling_m, 0.002);
   ceiling.look(frame_at(0, 0.0));
   if (!ceiling.keep()) return state.SkipWithError("too plain a ceiling");
   const Frame frame = frame_at(way_px, 0.05);

@@ -10,6 +10,7 @@ namespace lodestar {
 namespace {
 
 constexpr double ceiling_m = 2.6;
+constexpr double lean_sigma_rad = 0.002;
 constexpr double texel_m = 0.002;
 constexpr int texels = 2600;  // along a side; the map's origin lies in the middle
 
@@ -61,11 +62,7 @@ struct Picture {
     return frame;
   }
 
-  [[nodiscard]] CeilingMotion motion() const {
-    PosePrior prior;
-    prior.tilt_sigma_rad = 0.002;
-    return {camera, base_from_camera, ceiling_m, prior};
-  }
+  [[nodiscard]] CeilingMotion motion() const { return {camera, base_from_camera, ceiling_m, lean_sigma_rad}; }
 };
 
 const Pose2 before{{0.2, -0.1}, radians(25.0)};
@@ -102,7 +99,7 @@ TEST(CeilingMotion, lies_where_both_pictures_agree) {
   expect_right(motion, 0.001, radians(0.1));
   EXPECT_EQ(motion->from, Stamp(from_seconds(1.0)));
   EXPECT_EQ(motion->to, Stamp(from_seconds(1.5)));
-  EXPECT_NEAR(motion->sway_m, 0.002 * ceiling_m, 1e-12);
+  EXPECT_NEAR(motion->sway_m, lean_sigma_rad * ceiling_m, 1e-12);
 }
 
 TEST(CeilingMotion, is_the_same_through_a_lens_that_bends) {
