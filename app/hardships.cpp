@@ -28,6 +28,10 @@ SimulationOptions made_harder(SimulationOptions options, const Hardships& hardsh
     options.base.left_wheel_scale = 1.0 + 0.5 * *hardships.unequal_wheels;
     options.base.right_wheel_scale = 1.0 - 0.5 * *hardships.unequal_wheels;
   }
+  if (hardships.plain_ceiling) {
+    options.camera.texture_gray = 0.0;
+    options.camera.tubes = options.camera.lamps = options.camera.glints = false;
+  }
   return options;
 }
 

@@ -14,6 +14,7 @@ struct Hardships {
   /// The left wheel rolls farther than its encoder says and the right one less: so much, in all, of the way.
   std::optional<double> unequal_wheels;
   double removed_markers = 0.0;  ///< this share of the markers no longer hangs; the robot does not know it
+  bool plain_ceiling = false;    ///< nothing else is to be seen on it: no joints, stains or lamps
 };
 
 /// The simulated world's options with these hardships.

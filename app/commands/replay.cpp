@@ -86,6 +86,7 @@ std::string hardship_flags(const Hardships& hardships) {
   if (hardships.unequal_wheels) flags += fmt::format(" --unequal-wheels {}", *hardships.unequal_wheels);
   if (hardships.removed_markers > 0.0)
     flags += fmt::format(" --remove-markers {}", hardships.removed_markers);
+  if (hardships.plain_ceiling) flags += " --plain-ceiling";
   return flags;
 }
 
@@ -282,6 +283,8 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
           "--remove-markers", arguments->hardships.removed_markers,
           "Share of markers that no longer hang, drawn from the seed; those nearest to start and goals stay")
       ->check(share);
+  command->add_flag("--plain-ceiling", arguments->hardships.plain_ceiling,
+                    "Nothing on the ceiling but markers: no joints, stains or lamps");
   command->add_option("--faults", arguments->faults,
                       "What goes wrong: a file, or a name of the library as wheel-slip");
   command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");

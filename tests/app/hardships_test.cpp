@@ -37,6 +37,13 @@ TEST(Hardships, leave_the_markers_nearest_to_start_and_goals) {
   EXPECT_EQ(ids_of(with_markers_removed(row_of_markers(40), 1.0, places_m, 1)), (std::vector{100, 139}));
 }
 
+TEST(Hardships, make_the_ceiling_plain_only_when_asked) {
+  EXPECT_GT(made_harder({}, {}).camera.texture_gray, 0.0);
+  const SimulatedCameraOptions plain = made_harder({}, {.plain_ceiling = true}).camera;
+  EXPECT_EQ(plain.texture_gray, 0.0);
+  EXPECT_FALSE(plain.tubes || plain.lamps || plain.glints);
+}
+
 TEST(Hardships, make_wheels_unequal_and_lose_frames_only_when_asked) {
   const SimulationOptions usual;
   const SimulationOptions same = made_harder(usual, {});

@@ -39,10 +39,6 @@ struct Lab {
     options.robot_radius_m = site.robot.radius_m;
     options.base.track_width_m = site.robot.track_width_m;
     options.seed = seed;
-    if (has_plain_ceiling) {
-      options.camera.texture_gray = 0.0;
-      options.camera.tubes = options.camera.lamps = options.camera.glints = false;
-    }
     return {known.map, hung, known.camera, made_harder(options, hardships)};
   }
 };
@@ -138,9 +134,8 @@ TEST(Navigation, names_a_moved_marker_and_arrives_without_it) {
 
 TEST(Navigation, takes_another_way_where_it_found_no_marker) {
   Lab lab;
-  lab.has_plain_ceiling = true;
   lab.seed = 72;  // no marker on the corridor, some in the north
-  lab.hardships = {.lost_frames = 0.3, .unequal_wheels = 0.03};
+  lab.hardships = {.lost_frames = 0.3, .unequal_wheels = 0.03, .plain_ceiling = true};
   std::vector<Vec2> places_m{lab.site.start.position_m};
   for (const Goal& goal : lab.site.goals) places_m.push_back(goal.position_m);
   lab.hung = with_markers_removed(lab.hung, 0.5, places_m, lab.seed);
@@ -154,7 +149,7 @@ TEST(Navigation, takes_another_way_where_it_found_no_marker) {
 
 TEST(Navigation, when_blind_goes_back_and_drives_on_when_it_sees_again) {
   Lab lab;
-  lab.has_plain_ceiling = true;
+  lab.hardships.plain_ceiling = true;
   lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0 || seconds(stamp) > 34.0; };
   const Drive result = drive(lab, lab.site.goals.front());
   EXPECT_TRUE(result.arrived) << result.failure;
@@ -170,7 +165,7 @@ TEST(Navigation, goes_back_to_learn_its_wheels_when_the_next_marker_is_too_far) 
   for (const std::uint64_t seed : {2U, 3U, 4U}) {
     Lab lab;
     lab.seed = seed;
-    lab.has_plain_ceiling = true;
+    lab.hardships.plain_ceiling = true;
     std::erase_if(lab.hung.markers,
                   [&](const RegisteredMarker& marker) { return !left.contains(marker.id); });
     const Drive result = drive(lab, lab.site.goals.front());
@@ -210,7 +205,7 @@ TEST(Navigation, turns_to_find_its_first_marker) {
 
 TEST(Navigation, gives_up_in_place_when_it_stays_blind) {
   Lab lab;
-  lab.has_plain_ceiling = true;
+  lab.hardships.plain_ceiling = true;
   lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0; };
   const Drive result = drive(lab, lab.site.goals.front());
   EXPECT_FALSE(result.arrived);
