@@ -297,12 +297,11 @@ describe('gaps', () => {
     await page.locator('[data-kind="blind-route"]').first().waitFor();
     assert.ok(await page.locator('[data-kind="gap"]').count() >= 1);
     await page.locator('[data-kind="blind-route"]').first().click();
-    const shown = await page.evaluate(() => {
+    await page.waitForFunction(() => {
       const { view, routes } = window.lodestar.console;
       const ends = routes[0].map((p) => view.toScreen(p));
       return ends.every((p) => p.x > 0 && p.y > 0 && p.x < view.width && p.y < view.height);
-    });
-    assert.ok(shown);
+    }, undefined, { polling: 50 });
     await page.keyboard.press('Control+z');
     await page.waitForFunction(() => document.querySelectorAll('[data-kind="gap"]').length > 3, undefined, { polling: 50 });
   });
