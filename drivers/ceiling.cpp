@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "drivers/ceiling_texture.hpp"
 #include "maps/marker.hpp"
+#include "maps/median.hpp"
 #include "maps/random.hpp"
 
 namespace lodestar {
@@ -53,9 +55,7 @@ double median_height_m(const std::vector<CeilingMarker>& markers) {
   if (markers.empty()) return default_height_m;
   std::vector<double> heights;
   for (const CeilingMarker& marker : markers) heights.push_back(marker.middle_m.z());
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  return median(std::move(heights));
 }
 
 Extent extent_of(const std::vector<CeilingMarker>& markers) {

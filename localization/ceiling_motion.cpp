@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/median.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -16,12 +18,6 @@ constexpr double outlier_sigmas = 3.5;
 
 constexpr double square(double x) {
   return x * x;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 /// Correlation of weighted pairs, made sum by sum.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/median.hpp"
 #include "app/stopwatch.hpp"
+#include "maps/median.hpp"
 #include "planning/grid_search.hpp"
 #include "planning/jump_search.hpp"
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "app/median.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/stopwatch.hpp"
+#include "maps/median.hpp"
 #include "maps/random.hpp"
 #include "planning/jump_search.hpp"
 

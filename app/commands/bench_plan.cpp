@@ -8,8 +8,8 @@
 #include "app/bench/plan_scenario.hpp"
 #include "app/bench/plan_site.hpp"
 #include "app/commands/planner_options.hpp"
-#include "app/median.hpp"
 #include "maps/input_error.hpp"
+#include "maps/median.hpp"
 
 namespace lodestar {
 namespace {
