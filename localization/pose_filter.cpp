@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lodestar {
 namespace {
@@ -39,10 +40,7 @@ FixOutcome PoseFilter::add_fix(const PlanarFix& fix, std::span<const int> ids) {
   add_to_rival(*at, ids);
   const bool relocating = believed_.has_value();
   if (!rival_prevails()) return relocating ? FixOutcome::refused_gate : FixOutcome::collecting;
-  believed_ = std::move(rival_->history);
-  rival_.reset();
-  last_fix_ = last_agreed_ = fix.stamp;
-  motions_refused_ = 0;
+  begin_with(std::move(*rival_), fix.stamp);
   return relocating ? FixOutcome::relocated : FixOutcome::started;
 }
 
@@ -65,13 +63,17 @@ bool PoseFilter::rival_prevails() const {
          (!by_one_marker || apart_m >= options_.relocation_by_one_marker_m);
 }
 
+void PoseFilter::begin_with(Rival rival, Stamp last_fix) {
+  believed_ = std::move(rival.history);
+  rival_.reset();
+  last_fix_ = last_agreed_ = last_fix;
+  motions_refused_ = 0;
+}
+
 bool PoseFilter::start_at(const PlanarFix& fix) {
   const std::optional<PlacedFix> at = placed(fix);
   if (!at) return false;
-  believed_ = rival_from(*at).history;
-  rival_.reset();
-  last_fix_ = last_agreed_ = fix.stamp;
-  motions_refused_ = 0;
+  begin_with(rival_from(*at), fix.stamp);
   return true;
 }
 

@@ -108,6 +108,7 @@ class PoseFilter {
   [[nodiscard]] PlacedFix brought_back(const PlanarFix& fix) const;
   void add_to_rival(const PlacedFix& placed, std::span<const int> ids);
   [[nodiscard]] bool rival_prevails() const;
+  void begin_with(Rival rival, Stamp last_fix);
   [[nodiscard]] Rival rival_from(const PlacedFix& placed) const;
   [[nodiscard]] WheelScales scales() const;
 
