@@ -31,11 +31,11 @@ KnownWorld known_world(const Site& site, const std::string& camera) {
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
   options.fix.prior = pose_prior(robot);
-  // Assumed, not measured: film is cut and glued to some 0.05 mm, which 2.6 m below is 0.016 px of the
-  // paper's camera (755 px). Simulated ceilings have no such error, there fixes are trusted less than they
-  // deserve. On a real one the fixes' residual_px (run.mcap and the live viewers) show it: half their square
-  // is about this one's and that of the frame's noise, some 0.01 px, together.
-  options.fix.model_sigma_px = 0.016;
+  // Assumed, not measured: film is cut and glued to some 0.05 mm, and as much again is what the ceiling's own
+  // pattern beside a dot makes of its middle. 2.6 m below that is 0.02 px of the paper's camera (755 px). On
+  // a real ceiling the fixes' residual_px (run.mcap and the live viewers) show it: half their square is about
+  // this one's and that of the frame's noise, some 0.01 px, together.
+  options.fix.dot_place_sigma_m = 0.00007;
   options.filter.track_width_m = robot.track_width_m;
   options.filter.fix_sigma_floor_m = robot.shared_fix_sigma_m.value_or(options.filter.fix_sigma_floor_m);
   options.filter.fix_sigma_floor_rad =

@@ -25,7 +25,7 @@ std::optional<UsedFix> most_expected(const std::vector<UsedFix>& fixes, const Wh
 void take_in(UsedFix& used, Whereabouts& known) {
   const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
   if (expected) used.expected = expected->map_from_base;
-  used.outcome = known.filter.add_fix(used.planar, used.fix.ids);
+  used.outcome = known.filter.add_fix(used.planar);
   if (used.outcome == FixOutcome::accepted) known.trust.support(used.fix.ids);
   if (used.outcome == FixOutcome::started || used.outcome == FixOutcome::relocated)
     known.trust.estimate_moved();

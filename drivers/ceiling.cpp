@@ -13,7 +13,13 @@
 namespace lodestar {
 namespace {
 
-enum Purpose : std::uint64_t { dots_of_markers = 11, places_of_lamps, places_of_glints };
+enum Purpose : std::uint64_t {
+  dots_of_markers = 11,
+  places_of_lamps,
+  places_of_glints,
+  places_of_dots,
+  place_of_tiles
+};
 
 constexpr double margin_m = 3.0;  ///< of ceiling beyond the outermost markers
 constexpr double default_height_m = 2.5;
@@ -21,10 +27,9 @@ constexpr double default_height_m = 2.5;
 constexpr double tube_half_length_m = 0.59;  ///< a T8 tube of 36 W
 constexpr double tube_radius_m = 0.016;      ///< with the glow of its reflector
 constexpr double tube_gray = 330.0;
-constexpr double tube_row_spacing_m = 4 * ceiling_tile_m;
-constexpr double tube_spacing_m = 5 * ceiling_tile_m;
+const Vec2 tube_spacing_m(5 * ceiling_tile_m, 4 * ceiling_tile_m);
 
-constexpr double lamp_spacing_m = 4 * ceiling_tile_m;
+const Vec2 lamp_spacing_m(4 * ceiling_tile_m, 4 * ceiling_tile_m);
 constexpr double light_clearance_m = 0.3;  ///< between a light and the middle of a marker
 
 constexpr double glints_per_m2 = 0.4;
@@ -36,8 +41,9 @@ struct Extent {
   Vec2 high_m = Vec2::Zero();
 };
 
-CeilingMarker hang(const MarkerRegistry& registry, const RegisteredMarker& marker, double dot_gray,
-                   double dot_gray_sigma, Random random) {
+CeilingMarker hang(const MarkerRegistry& registry, const RegisteredMarker& marker,
+                   const SimulatedCameraOptions& options, Random random) {
+  Random places = random.stream(places_of_dots);
   CeilingMarker result;
   result.map_from_marker = map_from_marker(registry, marker);
   const auto in_map = [&](const Vec2& in_marker) -> Vec3 {
@@ -45,8 +51,10 @@ CeilingMarker hang(const MarkerRegistry& registry, const RegisteredMarker& marke
   };
   result.middle_m = in_map(Vec2::Constant(0.5 * (marker_grid_size - 1) * marker_pitch_m));
   for (const GridCell cell : dots_of(marker.id)) {
+    Vec2 glued = cell_in_marker(cell);
+    for (double& coordinate : glued) coordinate += options.dot_place_sigma_m * places.normal();
     result.dots.push_back(
-        {in_map(cell_in_marker(cell)), marker_dot_radius_m, dot_gray + dot_gray_sigma * random.normal()});
+        {in_map(glued), marker_dot_radius_m, options.dot_gray + options.dot_gray_sigma * random.normal()});
   }
   return result;
 }
@@ -101,27 +109,40 @@ bool is_off_film(const CeilingDisc& glint, const CeilingMarker& marker) {
          marker_film_half_side_m + glint.radius_m + glint_clearance_m;
 }
 
-/// First line at or above `low` of a grid of this spacing that runs through the middles of tiles.
-double first_tile_middle_m(double low, double spacing) {
-  return spacing * std::ceil(low / spacing) + 0.5 * ceiling_tile_m;
+/// Along one axis, every so many metres: the middle of a tile.
+std::vector<double> tile_middles_m(double low, double high, double spacing, double tile_corner) {
+  std::vector<double> middles;
+  const double first = tile_corner + spacing * std::ceil((low - tile_corner) / spacing);
+  for (double middle = first + 0.5 * ceiling_tile_m; middle < high; middle += spacing)
+    middles.push_back(middle);
+  return middles;
+}
+
+std::vector<Vec2> tile_middles_m(const Extent& extent, const Vec2& spacing_m, const Vec2& tile_corner_m) {
+  std::vector<Vec2> middles;
+  for (const double y : tile_middles_m(extent.low_m.y(), extent.high_m.y(), spacing_m.y(), tile_corner_m.y()))
+    for (const double x :
+         tile_middles_m(extent.low_m.x(), extent.high_m.x(), spacing_m.x(), tile_corner_m.x()))
+      middles.emplace_back(x, y);
+  return middles;
+}
+
+Vec2 lay_tiles(Random random) {
+  const double x_m = random.uniform(0.0, ceiling_tile_m);
+  return {x_m, random.uniform(0.0, ceiling_tile_m)};
 }
 
 std::vector<CeilingTube> fit_tubes(const Ceiling& ceiling, const Extent& extent) {
   std::vector<CeilingTube> tubes;
-  for (double y = first_tile_middle_m(extent.low_m.y(), tube_row_spacing_m); y < extent.high_m.y();
-       y += tube_row_spacing_m) {
-    for (double x = first_tile_middle_m(extent.low_m.x(), tube_spacing_m); x < extent.high_m.x();
-         x += tube_spacing_m) {
-      // Where a marker is in the way the fitting moves on by a tile.
-      for (const double shift : {0.0, ceiling_tile_m, -ceiling_tile_m}) {
-        const CeilingTube tube{{x - tube_half_length_m, y + shift, ceiling.height_m},
-                               {x + tube_half_length_m, y + shift, ceiling.height_m},
-                               tube_radius_m,
-                               tube_gray};
-        if (!is_clear(tube, ceiling.markers)) continue;
-        tubes.push_back(tube);
-        break;
-      }
+  for (const Vec2& middle : tile_middles_m(extent, tube_spacing_m, ceiling.tile_corner_m)) {
+    // Where a marker is in the way the fitting moves on by a tile.
+    for (const double shift : {0.0, ceiling_tile_m, -ceiling_tile_m}) {
+      const Vec3 at(middle.x(), middle.y() + shift, ceiling.height_m);
+      const Vec3 half_length(tube_half_length_m, 0.0, 0.0);
+      const CeilingTube tube{at - half_length, at + half_length, tube_radius_m, tube_gray};
+      if (!is_clear(tube, ceiling.markers)) continue;
+      tubes.push_back(tube);
+      break;
     }
   }
   return tubes;
@@ -130,15 +151,12 @@ std::vector<CeilingTube> fit_tubes(const Ceiling& ceiling, const Extent& extent)
 std::vector<CeilingDisc> fit_lamps(const Ceiling& ceiling, const Extent& extent, Random random) {
   constexpr double share_of_places = 0.5;
   std::vector<CeilingDisc> lamps;
-  for (double y = first_tile_middle_m(extent.low_m.y(), lamp_spacing_m); y < extent.high_m.y();
-       y += lamp_spacing_m) {
-    for (double x = first_tile_middle_m(extent.low_m.x(), lamp_spacing_m); x < extent.high_m.x();
-         x += lamp_spacing_m) {
-      const double radius_m = random.uniform(0.035, 0.08);
-      const double gray = random.uniform(280.0, 400.0);
-      const CeilingDisc lamp{{x, y + 2 * ceiling_tile_m, ceiling.height_m}, radius_m, gray};
-      if (random.uniform() < share_of_places && is_clear(lamp, ceiling)) lamps.push_back(lamp);
-    }
+  for (const Vec2& middle : tile_middles_m(extent, lamp_spacing_m, ceiling.tile_corner_m)) {
+    const double radius_m = random.uniform(0.035, 0.08);
+    const double gray = random.uniform(280.0, 400.0);
+    const Vec3 between_tubes(middle.x(), middle.y() + 2 * ceiling_tile_m, ceiling.height_m);
+    const CeilingDisc lamp{between_tubes, radius_m, gray};
+    if (random.uniform() < share_of_places && is_clear(lamp, ceiling)) lamps.push_back(lamp);
   }
   return lamps;
 }
@@ -173,8 +191,7 @@ std::vector<CeilingMarker> hang_markers(const MarkerRegistry& registry, const Si
   const Random random = Random(seed).stream(dots_of_markers);
   std::vector<CeilingMarker> markers;
   for (std::size_t i = 0; i < registry.markers.size(); ++i) {
-    markers.push_back(
-        hang(registry, registry.markers[i], options.dot_gray, options.dot_gray_sigma, random.stream(i)));
+    markers.push_back(hang(registry, registry.markers[i], options, random.stream(i)));
   }
   return markers;
 }
@@ -185,6 +202,7 @@ Ceiling fit_ceiling(const MarkerRegistry& registry, const SimulatedCameraOptions
   Ceiling ceiling;
   ceiling.markers = hang_markers(registry, options, seed);
   ceiling.height_m = median_height_m(ceiling.markers);
+  ceiling.tile_corner_m = lay_tiles(random.stream(place_of_tiles));
   const Extent extent = extent_of(ceiling.markers);
   if (options.tubes) ceiling.tubes = fit_tubes(ceiling, extent);
   if (options.lamps) ceiling.lamps = fit_lamps(ceiling, extent, random.stream(places_of_lamps));

@@ -32,7 +32,8 @@ struct CeilingMarker {
 };
 
 struct Ceiling {
-  double height_m = 0.0;  ///< of the plain ceiling: the median of the markers
+  double height_m = 0.0;              ///< of the plain ceiling: the median of the markers
+  Vec2 tile_corner_m = Vec2::Zero();  ///< of some tile: where the first one was laid
   std::vector<CeilingMarker> markers;
   std::vector<CeilingTube> tubes;
   std::vector<CeilingDisc> lamps;
@@ -48,7 +49,7 @@ std::vector<CeilingMarker> hang_markers(const MarkerRegistry& registry, const Si
 
 /// Fits the ceiling around the registry's markers, some metres beyond them to all sides. Tubes and lamps keep
 /// clear of the markers, as an electrician and a surveyor would; glints keep off their film only. Markers
-/// that share an ID all hang there. Deterministic in the seed.
+/// that share an ID all hang there. Where the tiles lie is by the seed too: a survey knows nothing of them.
 Ceiling fit_ceiling(const MarkerRegistry& registry, const SimulatedCameraOptions& options,
                     std::uint64_t seed);
 

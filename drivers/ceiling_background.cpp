@@ -124,7 +124,8 @@ void CeilingBackground::look_at_nodes(const Ceiling& ceiling, const Eigen::Isome
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Vec2 point = point_seen(i);
     const double gray = std::clamp(background_gray_ + glow_of_lights(lights, point), 0.0, 255.0);
-    nodes_[i] = {CeilingTexture::wrapped(point.x()), CeilingTexture::wrapped(point.y()),
+    const Vec2 from_corner = point - ceiling.tile_corner_m;
+    nodes_[i] = {CeilingTexture::wrapped(from_corner.x()), CeilingTexture::wrapped(from_corner.y()),
                  static_cast<std::int32_t>(gray * falloff_[i] * light_scale),
                  static_cast<std::int32_t>(texture_gray_ * falloff_[i] * light_scale /
                                            CeilingTexture::units_per_amplitude)};

@@ -74,8 +74,8 @@ CeilingTexture::CeilingTexture(std::uint64_t seed) : texels_(static_cast<std::si
   }
 }
 
-std::uint32_t CeilingTexture::wrapped(double position_m) {
-  const double periods = position_m / period_m;
+std::uint32_t CeilingTexture::wrapped(double from_corner_m) {
+  const double periods = from_corner_m / period_m;
   return static_cast<std::uint32_t>((periods - std::floor(periods)) * 0x1.0p32);
 }
 

@@ -19,8 +19,8 @@ class CeilingTexture {
 
   explicit CeilingTexture(std::uint64_t seed);
 
-  /// Coordinate along x or y of the map, in 2^-32 of the period.
-  static std::uint32_t wrapped(double position_m);
+  /// Coordinate along x or y from a tile's corner, in 2^-32 of the period.
+  static std::uint32_t wrapped(double from_corner_m);
 
   /// In units of the texture's amplitude; about -3..2, mean near 0.
   [[nodiscard]] std::int8_t at(std::uint32_t x, std::uint32_t y) const {

@@ -10,11 +10,13 @@ struct SimulatedCameraOptions {
   Duration period = std::chrono::milliseconds(50);   ///< from one opening of the shutter to the next
   Duration latency = std::chrono::milliseconds(45);  ///< from mid-exposure to arrival
   Duration exposure = std::chrono::milliseconds(4);  ///< motion blur while the robot moves
-  double dot_gray = 246.0;        ///< of a dot's middle on the axis; 246 is ordinary light, 120..200 is hard
-  double dot_gray_sigma = 2.0;    ///< from dot to dot
-  double background_gray = 35.0;  ///< of the plain ceiling on the axis; ambient light makes it brighter
-  double blur_sigma_px = 0.5;     ///< point spread of the lens, besides the pixel's own area
-  double read_noise_gray = 1.5;   ///< standard deviation in the dark
+  double dot_gray = 246.0;      ///< of a dot's middle on the axis; 246 is ordinary light, 120..200 is hard
+  double dot_gray_sigma = 2.0;  ///< from dot to dot
+  /// How far a dot is off its place in the marker, in each coordinate: film is cut and glued by hand.
+  double dot_place_sigma_m = 0.00005;
+  double background_gray = 35.0;        ///< of the plain ceiling on the axis; ambient light makes it brighter
+  double blur_sigma_px = 0.5;           ///< point spread of the lens, besides the pixel's own area
+  double read_noise_gray = 1.5;         ///< standard deviation in the dark
   double shot_noise_gray_at_255 = 4.0;  ///< grows with the square root of the signal
   double vignetting = 0.3;              ///< loss of light in the corners
   double texture_gray = 6.0;            ///< amplitude of the ceiling's texture

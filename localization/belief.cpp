@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace lodestar {
@@ -37,10 +38,13 @@ constexpr double square(double x) {
   return x * x;
 }
 
-/// Of the error that fixes about here have in common.
-Mat3 shared_covariance(const PoseFilterOptions& options) {
-  const double position = square(options.fix_sigma_floor_m);
-  return Vec3(position, position, square(options.fix_sigma_floor_rad)).asDiagonal();
+/// Of the error that fixes about here have in common: what is known of the site, and what this one says of
+/// its markers.
+Mat3 shared_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
+  constexpr double least_sigma = 1e-6;  // m, rad: sharing() divides by it
+  const double position = square(std::max(options.fix_sigma_floor_m, least_sigma));
+  const Vec3 of_site(position, position, square(std::max(options.fix_sigma_floor_rad, least_sigma)));
+  return fix.shared_covariance + Mat3(of_site.asDiagonal());
 }
 
 /// Between pose and wheel readings, for these are rounded. It is another one at each time and does not add
@@ -52,7 +56,48 @@ Mat3 rounding_covariance(const PoseFilterOptions& options) {
 
 /// Of the error that each fix has for itself.
 Mat3 own_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
-  return 0.5 * (fix.covariance + fix.covariance.transpose()) + rounding_covariance(options);
+  const Mat3 own = fix.covariance - fix.shared_covariance;
+  return 0.5 * (own + own.transpose()) + rounding_covariance(options);
+}
+
+double rolled_m(const WheelTravel& travel) {
+  return 0.5 * (travel.left_m + travel.right_m);
+}
+
+bool rests_on(const PlanarFix& fix, int id) {
+  return std::ranges::find(fix.ids, id) != fix.ids.end();
+}
+
+/// Of the error that fixes have in common this one has so much: each marker errs for itself, and one that
+/// was not seen about here brings an error of its own.
+double share_kept(const std::vector<MarkerOnTheWay>& markers, const PlanarFix& fix) {
+  if (fix.ids.empty()) return 1.0;
+  const auto known =
+      std::ranges::count_if(markers, [&](const MarkerOnTheWay& marker) { return rests_on(fix, marker.id); });
+  return std::sqrt(static_cast<double>(known) / static_cast<double>(fix.ids.size()));
+}
+
+/// The belief where fixes have in common what this one says: as far as its markers were seen about here, so
+/// many sigmas as it was.
+Belief sharing(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
+  Belief result = belief;
+  const double here_m = rolled_m(belief.travel);
+  std::erase_if(result.markers, [&](const MarkerOnTheWay& marker) {
+    return std::abs(here_m - marker.rolled_m) > options.fix_bias_reach_m;
+  });
+  const double kept = share_kept(result.markers, fix);
+  std::erase_if(result.markers, [&](const MarkerOnTheWay& marker) { return rests_on(fix, marker.id); });
+  for (const int id : fix.ids) result.markers.push_back({id, here_m});
+
+  result.shared = shared_covariance(fix, options);
+  const Mat3 before = belief.shared.llt().matrixL();
+  const Mat3 after = result.shared.llt().matrixL();
+  const Mat3 scale = kept * after * before.inverse();
+  result.mean.segment<3>(6) = scale * belief.mean.segment<3>(6);
+  result.covariance.middleRows<3>(6) = scale * result.covariance.middleRows<3>(6);
+  result.covariance.middleCols<3>(6) = result.covariance.middleCols<3>(6) * scale.transpose();
+  result.covariance.block<3, 3>(6, 6) += (1.0 - kept * kept) * result.shared;
+  return result;
 }
 
 /// A fix shows the pose plus the shared error.
@@ -136,7 +181,9 @@ Belief belief_from(const PlanarFix& fix, const WheelTravel& travel, const WheelS
   belief.travel = travel;
   belief.mean << fix.map_from_base.position_m, fix.map_from_base.yaw_rad, scales.mean, Vec3::Zero(),
       Vec3::Zero();
-  const Mat3 shared = shared_covariance(options);
+  const Mat3 shared = shared_covariance(fix, options);
+  for (const int id : fix.ids) belief.markers.push_back({id, rolled_m(travel)});
+  belief.shared = shared;
   belief.covariance.topLeftCorner<3, 3>() = own_covariance(fix, options) + shared;
   belief.covariance.block<3, 3>(0, 6) = -shared;
   belief.covariance.block<3, 3>(6, 0) = -shared;
@@ -180,16 +227,17 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   to.covariance.noalias() = transition * from.covariance * transition.transpose();
   to.covariance.topLeftCorner<3, 3>() += by_wheels * noise.asDiagonal() * by_wheels.transpose();
   to.covariance.diagonal().segment<3>(3).array() += square(options.wheel_scale_drift_per_sqrt_m) * way_m;
-  to.covariance.block<3, 3>(6, 6) += (1.0 - kept * kept) * shared_covariance(options);
+  to.covariance.block<3, 3>(6, 6) += (1.0 - kept * kept) * from.shared;
   return to;
 }
 
 double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
-  const Innovation innovation = innovation_of(belief, fix, options);
+  const Innovation innovation = innovation_of(sharing(belief, fix, options), fix, options);
   return innovation.error.dot(innovation.covariance.ldlt().solve(innovation.error));
 }
 
-Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
+Belief corrected(const Belief& before, const PlanarFix& fix, const PoseFilterOptions& options) {
+  const Belief belief = sharing(before, fix, options);
   const Innovation innovation = innovation_of(belief, fix, options);
   Eigen::Matrix<double, 12, 3> gain = innovation.covariance.ldlt().solve(innovation.with_state).transpose();
   gain.middleRows<3>(3) *= options.scales_learned_by_one_fix;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "localization/mount.hpp"
 #include "localization/pose_filter_options.hpp"
@@ -21,6 +22,12 @@ struct WheelScales {
 
 WheelScales scales_as_built(const PoseFilterOptions& options);
 
+/// A marker, and what the wheels had rolled when a fix last rested on it.
+struct MarkerOnTheWay {
+  int id = 0;
+  double rolled_m = 0.0;
+};
+
 struct Belief {
   /// Four parts of three: the pose (x_m, y_m, yaw_rad), the scales, the error (x_m, y_m, yaw_rad) that all
   /// fixes about here have in common, and the place (x_m, y_m, yaw_rad) that a picture of the ceiling shows.
@@ -28,7 +35,9 @@ struct Belief {
   using Covariance = Eigen::Matrix<double, 12, 12>;
 
   WheelTravel travel;
-  std::optional<Stamp> pictured;  ///< when that picture was taken; nothing when there is none
+  std::optional<Stamp> pictured;        ///< when that picture was taken; nothing when there is none
+  std::vector<MarkerOnTheWay> markers;  ///< that fixes about here rested on
+  Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();  ///< covariance of such fixes' common error, before any
   State mean = State::Zero();
   Covariance covariance = Covariance::Zero();
 

@@ -38,7 +38,8 @@ bool BeliefHistory::add_fix(const PlanarFix& fix, const WheelTravel& travel,
   const std::optional<Belief> expected = at(travel, options);
   if (!expected || squared_distance(*expected, fix, options) > options.gate_chi2) return false;
   PlanarFix weighed = fix;
-  weighed.covariance *= variance_growth(std::chrono::abs(travel.stamp - last_fix_), options);
+  weighed.covariance += (variance_growth(std::chrono::abs(travel.stamp - last_fix_), options) - 1.0) *
+                        (fix.covariance - fix.shared_covariance);
   last_fix_ = std::max(last_fix_, travel.stamp);
   put(corrected(*expected, weighed, options), options);
   return true;

@@ -1,10 +1,10 @@
 #include "localization/map_estimate.hpp"
 
 #include <Eigen/Cholesky>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "localization/arc_covariance.hpp"
 #include "maps/marker.hpp"
 
 namespace lodestar {
@@ -38,7 +38,8 @@ Vec6 step_between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
 /// The normal equations of the posterior at one pose.
 struct Normal {
   Mat6 information = Mat6::Zero();
-  Vec6 gradient = Vec6::Zero();  ///< of half the cost
+  Mat6 information_of_dots = Mat6::Zero();  ///< without the prior's
+  Vec6 gradient = Vec6::Zero();             ///< of half the cost
   double cost = 0.0;
   bool is_quadratic = true;  ///< no dot is so far off that its loss is linear
 };
@@ -127,6 +128,7 @@ bool add_dots(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, 
     }
   }
   turn(normal, pose.linear());
+  normal.information_of_dots = normal.information;
   return true;
 }
 
@@ -205,27 +207,16 @@ std::optional<Mat6> covariance_of(const Normal& normal, bool exact_tilt) {
   return Mat6(0.5 * (covariance + covariance.transpose()));
 }
 
-/// What the linear view leaves out: with its tilt in doubt the camera swings about the dots on an arc, not on
-/// a straight line. Turned by d with the dots' centre held at u from the camera, it leaves the tangent by
-/// s = -d x (d x u) / 2, a quadratic form of d for each coordinate, so that the mean of s s^T follows from
-/// the covariance of d (Isserlis' theorem for the fourth moments of a Gaussian).
-Eigen::Matrix3d arc_covariance(const Vec3& center_from_camera, const Eigen::Matrix3d& rotation_covariance) {
-  std::array<Eigen::Matrix3d, 3> form_times_covariance;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    Eigen::Matrix3d form = center_from_camera[k] * Eigen::Matrix3d::Identity();
-    form.row(k) -= 0.5 * center_from_camera.transpose();
-    form.col(k) -= 0.5 * center_from_camera;
-    form_times_covariance[static_cast<std::size_t>(k)] = form * rotation_covariance;
+/// What all frames have in common of the variance of dots, by their weight in a fix.
+double shared_part(std::span<const SurveyedDot> dots) {
+  double shared = 0.0;
+  double sum = 0.0;
+  for (const SurveyedDot& dot : dots) {
+    const double weight = 1.0 / square(dot.sigma_px);
+    shared += weight * square(dot.shared_sigma_px / dot.sigma_px);
+    sum += weight;
   }
-  Eigen::Matrix3d result;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j < 3; ++j) {
-      const Eigen::Matrix3d& a = form_times_covariance[static_cast<std::size_t>(i)];
-      const Eigen::Matrix3d& b = form_times_covariance[static_cast<std::size_t>(j)];
-      result(i, j) = 0.25 * (a.trace() * b.trace() + 2.0 * a.cwiseProduct(b.transpose()).sum());
-    }
-  }
-  return result;
+  return shared / sum;
 }
 
 Vec3 center_of(std::span<const SurveyedDot> dots) {
@@ -323,9 +314,13 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   }
   std::optional<Mat6> covariance = covariance_of(*normal, exact_tilt);
   if (!covariance) return std::nullopt;
+  const Mat6 of_dots = *covariance * normal->information_of_dots * *covariance;
   covariance->topLeftCorner<3, 3>() +=
       arc_covariance(center_of(dots) - pose.translation(), covariance->bottomRightCorner<3, 3>());
-  return MapEstimate{.map_from_camera = pose, .covariance = *covariance, .cost = normal->cost};
+  return MapEstimate{.map_from_camera = pose,
+                     .covariance = *covariance,
+                     .shared_covariance = shared_part(dots) * of_dots,
+                     .cost = normal->cost};
 }
 
 /// Laplace's approximation of each mode: its share of the probability is density times volume.
@@ -340,6 +335,7 @@ MapEstimate likelier(const MapEstimate& a, const MapEstimate& b) {
   MapEstimate result = best;
   result.covariance =
       (1.0 - share) * best.covariance + share * (other.covariance + apart * apart.transpose());
+  result.shared_covariance = (1.0 - share) * best.shared_covariance + share * other.shared_covariance;
   return result;
 }
 

@@ -13,12 +13,14 @@ namespace lodestar {
 struct SurveyedDot {
   Vec3 point_in_map = Vec3::Zero();
   Vec2 center_px = Vec2::Zero();
-  double sigma_px = 0.03;  ///< standard deviation of each coordinate of the centre
+  double sigma_px = 0.03;        ///< standard deviation of each coordinate of the centre
+  double shared_sigma_px = 0.0;  ///< the part of it that is the same in all frames: the dot is off its place
 };
 
 struct MapEstimate {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< as in PoseFix
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();         ///< as in PoseFix
+  Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< as in PoseFix
   double cost = 0.0;  ///< minus twice the logarithm of the posterior density, up to a constant
 };
 

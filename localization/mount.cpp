@@ -46,7 +46,9 @@ PlanarFix compensate_mount(const PoseFix& fix, const Eigen::Isometry3d& base_fro
   const Eigen::Matrix<double, 3, 6> jacobian = base_by_camera(fix.map_from_camera, map_from_base);
   return {.stamp = fix.stamp,
           .map_from_base = flattened(map_from_base),
-          .covariance = jacobian * fix.covariance * jacobian.transpose()};
+          .covariance = jacobian * fix.covariance * jacobian.transpose(),
+          .shared_covariance = jacobian * fix.shared_covariance * jacobian.transpose(),
+          .ids = fix.ids};
 }
 
 std::optional<Circle> fit_circle(const std::vector<Vec2>& points) {

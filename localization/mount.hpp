@@ -10,11 +10,13 @@
 
 namespace lodestar {
 
-/// Where the robot is by one camera fix. The covariance is of (x_m, y_m, yaw_rad) in the map frame.
+/// Where the robot is by one camera fix. Covariances are of (x_m, y_m, yaw_rad) in the map frame.
 struct PlanarFix {
   Stamp stamp;
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d shared_covariance = Eigen::Matrix3d::Zero();  ///< the part of it that neighbours share
+  std::vector<int> ids;                                         ///< of the markers that it rests on
 };
 
 /// Mount compensation, Eq. (17) for any mount: map_from_base = map_from_camera * camera_from_base. With the

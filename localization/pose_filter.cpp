@@ -24,7 +24,7 @@ void PoseFilter::add_travel(const WheelTravel& reading) {
   if (rival_) rival_->history.add_travel(travel, options_);
 }
 
-FixOutcome PoseFilter::add_fix(const PlanarFix& fix, std::span<const int> ids) {
+FixOutcome PoseFilter::add_fix(const PlanarFix& fix) {
   const std::optional<PlacedFix> at = placed(fix);
   if (!at || (believed_ && at->travel.stamp < believed_->oldest())) return FixOutcome::refused_late;
   if (believed_ && believed_->add_fix(at->fix, at->travel, options_)) {
@@ -37,20 +37,20 @@ FixOutcome PoseFilter::add_fix(const PlanarFix& fix, std::span<const int> ids) {
 
   // What the estimate contradicts may be an outlier, or the truth after the robot has been carried away. Only
   // fixes that agree among themselves, given the wheels' travel between them, can tell.
-  add_to_rival(*at, ids);
+  add_to_rival(*at);
   const bool relocating = believed_.has_value();
   if (!rival_prevails()) return relocating ? FixOutcome::refused_gate : FixOutcome::collecting;
   begin_with(std::move(*rival_), fix.stamp);
   return relocating ? FixOutcome::relocated : FixOutcome::started;
 }
 
-void PoseFilter::add_to_rival(const PlacedFix& placed, std::span<const int> ids) {
+void PoseFilter::add_to_rival(const PlacedFix& placed) {
   if (rival_ && rival_->history.add_fix(placed.fix, placed.travel, options_)) {
     ++rival_->fixes;
   } else {
     rival_ = rival_from(placed);
   }
-  rival_->ids.insert(ids.begin(), ids.end());
+  rival_->ids.insert(placed.fix.ids.begin(), placed.fix.ids.end());
 }
 
 bool PoseFilter::rival_prevails() const {

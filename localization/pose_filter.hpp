@@ -3,7 +3,6 @@
 #include <deque>
 #include <optional>
 #include <set>
-#include <span>
 
 #include "localization/belief_history.hpp"
 #include "localization/mount.hpp"
@@ -48,10 +47,9 @@ class PoseFilter {
   /// than the last one is ignored.
   void add_travel(const WheelTravel& reading);
 
-  /// Corrects the belief at the fix's capture time. `ids` are the markers that the fix rests on: where one
-  /// marker alone contradicts the estimate by little it may itself have moved, and the estimate stays until a
-  /// second marker says the same.
-  FixOutcome add_fix(const PlanarFix& fix, std::span<const int> ids = {});
+  /// Corrects the belief at the fix's capture time. Where one marker alone contradicts the estimate by little
+  /// it may itself have moved, and the estimate stays until a second marker says the same.
+  FixOutcome add_fix(const PlanarFix& fix);
 
   /// Where the picture of the ceiling that is kept was taken, and how the robot has moved since, at another
   /// time. Nothing while none is kept, and beyond the wheels' readings.
@@ -106,7 +104,7 @@ class PoseFilter {
   [[nodiscard]] std::optional<WheelTravel> travel_at(Stamp stamp) const;
   [[nodiscard]] std::optional<PlacedFix> placed(const PlanarFix& fix) const;
   [[nodiscard]] PlacedFix brought_back(const PlanarFix& fix) const;
-  void add_to_rival(const PlacedFix& placed, std::span<const int> ids);
+  void add_to_rival(const PlacedFix& placed);
   [[nodiscard]] bool rival_prevails() const;
   void begin_with(Rival rival, Stamp last_fix);
   [[nodiscard]] Rival rival_from(const PlacedFix& placed) const;

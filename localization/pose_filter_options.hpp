@@ -16,14 +16,15 @@ struct PoseFilterOptions {
   /// Of what one fix says about these scales only this share is taken: a rare jerk of a wheel between two
   /// fixes looks like wheels of unequal size, and would turn a robot that then drives blind.
   double scales_learned_by_one_fix = 0.8;
-  /// Survey, mount and floor are not perfect: an error that fixes share as long as the robot stays about
-  /// where it is. It is another one after rolling `fix_bias_reach_m`.
+  /// Survey, mount and floor are not perfect: an error that fixes share, beside what they say of their
+  /// markers, as long as the robot stays about where it is and sees the same markers. It is another one after
+  /// rolling `fix_bias_reach_m`.
   double fix_sigma_floor_m = 0.002;
   double fix_sigma_floor_rad = radians(0.1);
   double fix_bias_reach_m = 1.0;
   /// A body sways slowly on its floor, and the camera's tilt with it: fixes much nearer to each other in time
   /// than this have the same error, not two. Chosen by the NEES of simulated drives.
-  Duration fix_correlation = std::chrono::milliseconds(150);
+  Duration fix_correlation = std::chrono::milliseconds(60);
   double gate_chi2 = 16.27;   ///< a fix farther away (Mahalanobis, 3 dof, 99.9 %) is refused
   int fixes_to_start = 2;     ///< consecutive consistent fixes that a start takes
   int fixes_to_relocate = 5;  ///< consecutive refused fixes that agree among themselves and move the estimate

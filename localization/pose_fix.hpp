@@ -31,9 +31,10 @@ struct PoseFixOptions {
   double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, where the dot does not tell
   /// Added to what a dot tells of noise: how far its measured centre is off without any, in each coordinate.
   /// What pixels that sample an edge, whole gray values and a last step leave of an ideal disc of 1.9 to 4.5
-  /// px: 0.001 px by the test Dots.without_noise..., more where light falls off towards the corners. Film
-  /// cut and glued as it is adds what nobody knows.
+  /// px: 0.001 px by the test Dots.without_noise..., more where light falls off towards the corners.
   double model_sigma_px = 0.0012;
+  /// How far a dot may be off its place in the marker, in each coordinate: film is cut and glued by hand.
+  double dot_place_sigma_m = 0.0;
   double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
   /// And one that explains the dots only by a tilt and height that the prior all but excludes (chi-square): a
   /// marker that hangs a few centimetres elsewhere than surveyed leaves small residuals on a tilted robot.
@@ -47,6 +48,9 @@ struct PoseFix {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   /// Of (x_m, y_m, z_m, rotation about the map's x, y, z axes in rad); zero where the prior is exact.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// The part of it that comes from dots off their places: fixes by the same dots, from about the same place,
+  /// share that error.
+  Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<int> ids;      ///< of the markers used, the optimal one first
   double confidence = 0.0;   ///< of the optimal marker, Eq. (3)
   int dots = 0;              ///< dots used

@@ -15,13 +15,21 @@ double root_of_squares(double a, double b) {
   return std::sqrt(a * a + b * b);
 }
 
+/// How large a metre of the marker's plane is in the picture, by the edges that its frame spans.
+double px_per_m(const DetectedMarker& seen) {
+  constexpr double edges_m = 2 * (marker_grid_size - 1) * marker_pitch_m;
+  return ((seen.x_px - seen.o_px).norm() + (seen.y_px - seen.o_px).norm()) / edges_m;
+}
+
 KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
                          const PoseFixOptions& options) {
+  const double place_px = options.dot_place_sigma_m * px_per_m(seen);
   const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
     const Vec2 in_marker = cell_in_marker(cell);
-    return SurveyedDot{
-        map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
-        sigma_px > 0.0 ? root_of_squares(sigma_px, options.model_sigma_px) : options.dot_sigma_px};
+    const double own_px =
+        sigma_px > 0.0 ? root_of_squares(sigma_px, options.model_sigma_px) : options.dot_sigma_px;
+    return SurveyedDot{map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
+                       root_of_squares(own_px, place_px), place_px};
   };
   KnownMarker known{.id = seen.id,
                     .confidence = seen.confidence,
@@ -191,6 +199,7 @@ void PoseFixer::conclude(Stamp stamp, const MapEstimate& estimate) {
   fix_.stamp = stamp;
   fix_.map_from_camera = estimate.map_from_camera;
   fix_.covariance = estimate.covariance;
+  fix_.shared_covariance = estimate.shared_covariance;
   fix_.ids.clear();
   for (const KnownMarker& marker : known_) fix_.ids.push_back(marker.id);
   fix_.confidence = known_.front().confidence;

@@ -81,6 +81,7 @@ SimulatedCameraOptions light_of(const BenchScene& scene) {
   light.blur_sigma_px = scene.blur_sigma_px;
   light.read_noise_gray = scene.noise_gray;
   light.shot_noise_gray_at_255 = 0.0;
+  light.dot_place_sigma_m = 0.0;
   light.tubes = light.lamps = light.glints = false;
   return light;
 }

@@ -67,7 +67,7 @@ class Reroute : public testing::Test {
 TEST_F(Reroute, plans_anew_when_pushed_off_its_path_and_arrives) {
   bool pushed = false;
   drive([&](double time_s) {
-    if (!pushed && time_s > 8.0) {
+    if (!pushed && time_s > 9.0) {
       simulation.push({{0.0, -0.27}, 0.2});  // farther, and it would believe itself carried away
       pushed = true;
     }

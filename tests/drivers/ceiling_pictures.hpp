@@ -53,6 +53,7 @@ inline MarkerRegistry many_markers(double height_m, double spacing_m, std::uint6
 inline SimulatedCameraOptions plain_light() {
   SimulatedCameraOptions options;
   options.dot_gray_sigma = 0.0;
+  options.dot_place_sigma_m = 0.0;
   options.read_noise_gray = 0.0;
   options.shot_noise_gray_at_255 = 0.0;
   options.vignetting = 0.0;

@@ -1,7 +1,10 @@
 #include "drivers/ceiling.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
+
+#include "drivers/ceiling_texture.hpp"
 
 #include "tests/drivers/ceiling_pictures.hpp"
 
@@ -23,7 +26,7 @@ TEST(Ceiling, hangs_every_dot_where_the_registry_says) {
   // Marker 0x020 has one coded dot, right of Y; its yaw of 90 degrees turns x to map y, and y to map x.
   MarkerRegistry registry = testing::one_marker(0x020, {1.0, 2.0, 2.6}, radians(90.0));
   registry.map_from_registry.position_m = {10.0, 0.0};
-  const Ceiling ceiling = fit_ceiling(registry, {}, 1);
+  const Ceiling ceiling = fit_ceiling(registry, testing::plain_light(), 1);
   ASSERT_EQ(ceiling.markers.size(), 1U);
   const std::vector<CeilingDisc>& dots = ceiling.markers[0].dots;
   const auto has_dot_at = [&](const Vec3& point) {
@@ -35,6 +38,40 @@ TEST(Ceiling, hangs_every_dot_where_the_registry_says) {
   EXPECT_TRUE(has_dot_at({11.0, 2.12, 2.6}));  // X
   EXPECT_TRUE(has_dot_at({11.12, 2.0, 2.6}));  // Y
   EXPECT_TRUE(has_dot_at({11.12, 2.04, 2.6}));
+}
+
+TEST(Ceiling, glues_dots_as_exactly_as_hands_do) {
+  SimulatedCameraOptions options;
+  options.dot_place_sigma_m = 0.0;
+  const MarkerRegistry registry = many_markers(2.6, 1.3, 1);
+  const std::vector<CeilingMarker> exact = hang_markers(registry, options, 7);
+  options.dot_place_sigma_m = 0.0002;
+  const std::vector<CeilingMarker> glued = hang_markers(registry, options, 7);
+  double sum_m2 = 0.0;
+  double dots = 0.0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    for (std::size_t k = 0; k < exact[i].dots.size(); ++k) {
+      const Vec3 off_m = glued[i].dots[k].center_m - exact[i].dots[k].center_m;
+      EXPECT_EQ(off_m.z(), 0.0) << "film is flat";
+      EXPECT_EQ(glued[i].dots[k].gray, exact[i].dots[k].gray);
+      sum_m2 += off_m.squaredNorm();
+      ++dots;
+    }
+  }
+  EXPECT_GT(dots, 300.0);
+  EXPECT_NEAR(std::sqrt(sum_m2 / (2.0 * dots)), 0.0002, 0.00002);
+}
+
+TEST(Ceiling, tiles_lie_by_the_seed_and_lights_in_their_middles) {
+  const MarkerRegistry registry = many_markers(2.6, 1.3, 1);
+  const Ceiling ceiling = fit_ceiling(registry, {}, 5);
+  EXPECT_EQ(ceiling.tile_corner_m, fit_ceiling(registry, {}, 5).tile_corner_m);
+  EXPECT_NE(ceiling.tile_corner_m, fit_ceiling(registry, {}, 6).tile_corner_m);
+  ASSERT_FALSE(ceiling.lamps.empty());
+  for (const CeilingDisc& lamp : ceiling.lamps) {
+    const Vec2 tiles = (lamp.center_m.head<2>() - ceiling.tile_corner_m) / ceiling_tile_m;
+    for (const double place : tiles) EXPECT_NEAR(place - std::floor(place), 0.5, 1e-9);
+  }
 }
 
 TEST(Ceiling, lights_keep_clear_of_markers_and_glints_off_their_film) {

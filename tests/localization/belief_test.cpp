@@ -100,5 +100,59 @@ TEST(Belief, by_one_fix_is_as_unsure_as_fix_and_survey_together) {
   EXPECT_NEAR(squared_distance(belief, again, options), 0.008 * 0.008 / (2.0 * 16e-6), 1e-9);
 }
 
+/// Of a fix of 5 mm 3 mm come from how its markers hang.
+PlanarFix fix_that_shares() {
+  PlanarFix fix;
+  fix.map_from_base = {{1.0, 2.0}, 3.0};
+  fix.covariance = Vec3(25e-6, 25e-6, 13e-6).asDiagonal();
+  fix.shared_covariance = Vec3(9e-6, 9e-6, 4e-6).asDiagonal();
+  return fix;
+}
+
+TEST(Belief, does_not_average_away_what_the_same_markers_err_by) {
+  const PoseFilterOptions options = without_noise();
+  const PlanarFix fix = fix_that_shares();
+  Belief belief = belief_from(fix, {}, scales_as_built(options), options);
+  EXPECT_NEAR(belief.covariance(0, 0), 25e-6, 1e-11);
+  for (int i = 1; i < 1000; ++i) belief = corrected(belief, fix, options);
+  EXPECT_NEAR(belief.covariance(0, 0), 9e-6 + 16e-6 / 1000.0, 1e-10);
+  EXPECT_NEAR(belief.covariance(2, 2), 4e-6 + 9e-6 / 1000.0, 1e-10);
+}
+
+TEST(Belief, takes_another_marker_to_err_for_itself_but_the_same_one_only_once) {
+  const PoseFilterOptions options = without_noise();
+  PlanarFix fix = fix_that_shares();
+  fix.ids = {7};
+  Belief belief = belief_from(fix, {}, scales_as_built(options), options);
+  for (int i = 0; i < 1000; ++i) belief = corrected(belief, fix, options);
+  EXPECT_NEAR(belief.covariance(0, 0), 9e-6, 1e-7);
+  fix.ids = {8};
+  for (int i = 0; i < 1000; ++i) belief = corrected(belief, fix, options);
+  EXPECT_NEAR(belief.covariance(0, 0), 0.5 * 9e-6, 1e-7) << "the mean of two";
+  for (int i = 0; i < 1000; ++i) {
+    fix.ids = i % 3 == 0 ? std::vector<int>{7, 8} : std::vector<int>{7 + i % 2};
+    belief = corrected(belief, fix, options);
+  }
+  EXPECT_NEAR(belief.covariance(0, 0), 0.5 * 9e-6, 1e-7) << "which come and go";
+  belief = moved(belief, {{}, 2.0, 2.0}, options);
+  const double far = belief.covariance(0, 0);
+  for (int i = 0; i < 1000; ++i) belief = corrected(belief, fix, options);
+  EXPECT_LT(belief.covariance(0, 0), 0.8 * far) << "from elsewhere they show other errors";
+}
+
+TEST(Belief, takes_fewer_markers_to_err_as_these_did_and_by_more) {
+  const PoseFilterOptions options = without_noise();
+  PlanarFix by_three = fix_that_shares();
+  by_three.shared_covariance *= 0.25;
+  Belief belief = belief_from(by_three, {}, scales_as_built(options), options);
+  for (int i = 1; i < 1000; ++i) belief = corrected(belief, by_three, options);
+  PlanarFix by_one = fix_that_shares();
+  by_one.covariance += 1e6 * Eigen::Matrix3d::Identity();  // of its own it tells nothing
+  const Belief after = corrected(belief, by_one, options);
+  EXPECT_NEAR(after.covariance(0, 0), belief.covariance(0, 0), 1e-12);
+  EXPECT_NEAR(after.covariance(6, 6), 9e-6, 1e-7);
+  EXPECT_NEAR(after.covariance(0, 6), -0.5 * 9e-6, 1e-7) << "the pose's error is half of it";
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -51,7 +51,8 @@ struct RoundTrip {
     const Pose2 map_from_surveyed{surveyed.at(i), 0.0};
     PlanarFix fix{.stamp = travel.stamp,
                   .map_from_base = map_from_surveyed * inverse(map_from_hung) * truth,
-                  .covariance = Vec3(1.6e-5, 1.6e-5, 4e-6).asDiagonal()};
+                  .covariance = Vec3(1.6e-5, 1.6e-5, 4e-6).asDiagonal(),
+                  .ids = {static_cast<int>(i)}};
     fix.map_from_base.position_m += 0.004 * Vec2(random.normal(), random.normal());
     fix.map_from_base.yaw_rad = wrap_angle(fix.map_from_base.yaw_rad + 0.002 * random.normal());
     return fix;
@@ -63,7 +64,7 @@ struct RoundTrip {
       if ((hung.at(i) - truth.position_m).norm() > sight_m || !trust.trusts(id)) continue;
       const PlanarFix fix = fix_by(i);
       const std::optional<FixExpectation> expected = filter.expectation(fix);
-      const FixOutcome outcome = filter.add_fix(fix, std::array{id});
+      const FixOutcome outcome = filter.add_fix(fix);
       if (outcome == FixOutcome::accepted) trust.support(std::array{id});
       if (outcome == FixOutcome::relocated) {
         ++relocations;

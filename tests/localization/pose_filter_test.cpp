@@ -1,4 +1,3 @@
-#include <array>
 #include <deque>
 #include <gtest/gtest.h>
 
@@ -152,15 +151,15 @@ TEST(PoseFilter, moves_a_little_only_when_two_markers_say_so) {
   PoseFilter filter(without_floor());
   drive(world, filter, 0.0, 2.0, true);
   const Pose2 before = filter.estimate()->map_from_base;
-  const auto displaced_fix = [&] {
+  const auto displaced_fix = [&](int id) {
     PlanarFix fix = world.fix(0.002, 0.002);
     fix.map_from_base.position_m.x() += 0.3;
+    fix.ids = {id};
     return fix;
   };
-  for (int i = 0; i < 50; ++i)
-    EXPECT_EQ(filter.add_fix(displaced_fix(), std::array{7}), FixOutcome::refused_gate);
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(filter.add_fix(displaced_fix(7)), FixOutcome::refused_gate);
   EXPECT_EQ(filter.estimate()->map_from_base.position_m, before.position_m) << "that marker may have moved";
-  EXPECT_EQ(filter.add_fix(displaced_fix(), std::array{8}), FixOutcome::relocated);
+  EXPECT_EQ(filter.add_fix(displaced_fix(8)), FixOutcome::relocated);
   EXPECT_NEAR(filter.estimate()->map_from_base.position_m.x(), before.position_m.x() + 0.3, 0.01);
 }
 
@@ -169,9 +168,13 @@ TEST(PoseFilter, moves_far_when_one_marker_says_so_often_enough) {
   PoseFilter filter(without_floor());
   drive(world, filter, 0.0, 2.0, true);
   world.truth.position_m.x() += 3.0;
-  for (int i = 1; i < 5; ++i)
-    EXPECT_EQ(filter.add_fix(world.fix(0.002, 0.002), std::array{7}), FixOutcome::refused_gate);
-  EXPECT_EQ(filter.add_fix(world.fix(0.002, 0.002), std::array{7}), FixOutcome::relocated);
+  const auto fix = [&] {
+    PlanarFix by_one_marker = world.fix(0.002, 0.002);
+    by_one_marker.ids = {7};
+    return by_one_marker;
+  };
+  for (int i = 1; i < 5; ++i) EXPECT_EQ(filter.add_fix(fix()), FixOutcome::refused_gate);
+  EXPECT_EQ(filter.add_fix(fix()), FixOutcome::relocated);
 }
 
 TEST(PoseFilter, tells_what_it_expects_of_a_fix) {
@@ -358,12 +361,14 @@ TEST(PoseFilter, takes_a_fix_a_little_ahead_of_the_wheels_but_not_far) {
 
 /// Mean NEES of independent drives: six seconds under markers, then one without.
 double mean_nees(int runs, double bias_sigma_m, double bias_sigma_rad, double wheel_step_m,
-                 double sway_s = 0.0) {
+                 double sway_s = 0.0, bool fixes_tell_bias = false) {
   double sum = 0.0;
   for (int run = 1; run <= runs; ++run) {
     PoseFilterOptions options = without_floor();
-    options.fix_sigma_floor_m = bias_sigma_m;
-    options.fix_sigma_floor_rad = bias_sigma_rad;
+    if (!fixes_tell_bias) {
+      options.fix_sigma_floor_m = bias_sigma_m;
+      options.fix_sigma_floor_rad = bias_sigma_rad;
+    }
     options.wheel_step_m = wheel_step_m;
     options.wheel_scale_drift_per_sqrt_m = 0.0;
     options.fix_correlation = from_seconds(sway_s);
@@ -379,6 +384,7 @@ double mean_nees(int runs, double bias_sigma_m, double bias_sigma_rad, double wh
     world.bias_sigma_m = bias_sigma_m;
     world.bias_sigma_rad = bias_sigma_rad;
     world.bias = world.fresh_bias();
+    world.fixes_tell_bias = fixes_tell_bias;
     PoseFilter filter(options);
     drive(world, filter, 0.0, 6.0, true, 0.003, 0.003);
     drive(world, filter, 6.0, 1.0, false);
@@ -393,6 +399,7 @@ TEST(PoseFilter, is_as_sure_as_it_may_be) {
   const double band = 1.96 * std::sqrt(6.0 / runs);
   EXPECT_NEAR(mean_nees(runs, 0.0, 0.0, 0.0), 3.0, band);
   EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.0), 3.0, band) << "fixes share an error";
+  EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.0, 0.0, true), 3.0, band) << "and say by how much";
   // At a steady pace the rounding of one reading resembles that of the next, which the filter takes for new.
   EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.001), 3.0, 2.0 * band) << "and readings are rounded";
   EXPECT_NEAR(mean_nees(runs, 0.0, 0.0, 0.0, 0.25), 3.0, 2.0 * band) << "the errors of fixes change slowly";

@@ -190,6 +190,53 @@ TEST(FixPose, covariance_is_honest_in_every_mode) {
   }
 }
 
+/// The registry's markers as hands have hung them: every dot somewhat off its place.
+std::vector<DetectedMarker> seen_glued(const Eigen::Isometry3d& view, const MarkerRegistry& registry,
+                                       const CameraModel& camera, double off_m, Random& random) {
+  std::vector<DetectedMarker> markers = seen(view, registry, camera, 0.0, random);
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    const Eigen::Isometry3d map_from_marker = lodestar::map_from_marker(registry, registry.markers[i]);
+    for (MarkerDot& dot : markers[i].dots) {
+      Vec2 glued = cell_in_marker(dot.cell);
+      for (double& coordinate : glued) coordinate += off_m * random.normal();
+      dot.center_px = *camera.project(view.inverse() * map_from_marker * Vec3(glued.x(), glued.y(), 0.0));
+      dot.sigma_px = 0.01;
+    }
+  }
+  return markers;
+}
+
+TEST(FixPose, says_what_all_frames_share_where_dots_are_off_their_places) {
+  Random random(5);
+  const CameraModel camera = paper_camera();
+  const Eigen::Isometry3d view = view_from({1.1, 1.9, 1.1}, 0.4);
+  for (const std::size_t markers : {1U, 3U}) {
+    MarkerRegistry registry = ceiling();
+    registry.markers.resize(markers);
+    PoseFixOptions options = with_tilt_sigma(radians(0.1), 0.0);
+    options.dot_place_sigma_m = 0.0001;
+    double sum = 0.0;
+    constexpr int trials = 2000;
+    for (int i = 0; i < trials; ++i) {
+      const auto fix =
+          fix_pose(Stamp{}, seen_glued(view, registry, camera, 0.0001, random), registry, camera, options);
+      ASSERT_TRUE(fix);
+      const Vec6 error = error_of(*fix, view);
+      sum += error.dot(fix->shared_covariance.ldlt().solve(error));
+    }
+    EXPECT_NEAR(sum / trials, 6.0, 1.96 * std::sqrt(12.0 / trials) + 0.02 * 6.0) << markers;
+  }
+}
+
+TEST(FixPose, shares_nothing_where_dots_are_where_they_should_be) {
+  Random random(5);
+  const auto fix =
+      fix_pose(Stamp{}, seen(view_from({1.1, 1.9, 0.3}, 0.4), ceiling(), paper_camera(), 0.1, random),
+               ceiling(), paper_camera(), with_tilt_sigma(radians(0.3), 0.1));
+  ASSERT_TRUE(fix);
+  EXPECT_EQ(fix->shared_covariance.norm(), 0.0);
+}
+
 TEST(FixPose, covariance_covers_the_mirrored_view_of_a_lonely_marker) {
   // With the tilt free, 12 cm at 2.3 m look almost alike from two sides. The errors are not Gaussian then,
   // but the truth must not be far outside of what the covariance says. Without the second view every third

@@ -26,7 +26,8 @@ struct World {
   double bias_sigma_m = 0.0;  ///< of the error that fixes share, which changes along the way
   double bias_sigma_rad = 0.0;
   Vec3 bias = Vec3::Zero();
-  double sway_s = 0.0;  ///< time over which the errors of fixes resemble each other
+  bool fixes_tell_bias = false;  ///< how large it may be
+  double sway_s = 0.0;           ///< time over which the errors of fixes resemble each other
   Vec3 sway = Vec3::Zero();
   Stamp last_fix;
   Random random{1};
@@ -36,6 +37,10 @@ struct World {
     if (wheel_step_m == 0.0) return reported;
     return {reported.stamp, wheel_step_m * std::round(reported.left_m / wheel_step_m),
             wheel_step_m * std::round(reported.right_m / wheel_step_m)};
+  }
+
+  static Vec3 variances(double sigma_m, double sigma_rad) {
+    return {sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad};
   }
 
   [[nodiscard]] Vec3 fresh_bias() {
@@ -71,7 +76,11 @@ struct World {
     sway_on();
     result.map_from_base.position_m += bias.head<2>() + sigma_m * sway.head<2>();
     result.map_from_base.yaw_rad = wrap_angle(truth.yaw_rad + bias.z() + sigma_rad * sway.z());
-    result.covariance = Vec3(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+    result.covariance = variances(sigma_m, sigma_rad).asDiagonal();
+    if (fixes_tell_bias) {
+      result.shared_covariance = variances(bias_sigma_m, bias_sigma_rad).asDiagonal();
+      result.covariance += result.shared_covariance;
+    }
     return result;
   }
 };

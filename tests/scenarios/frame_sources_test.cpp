@@ -121,8 +121,9 @@ TEST_F(FrameSources, colour_alpha_and_16_bits_give_the_same_pose) {
   cv::imwrite(path("deep.png"), deep);
   cv::imwrite(path("deep.pgm"), deep);
   const std::string wanted = column(rows_of(run(localize_ + "frames/0.5.png").out), 3).at(0);
-  const auto rows = rows_of(run(localize_ + "colour.png alpha.png deep.png deep.pgm").out);
-  EXPECT_THAT(column(rows, 3), ElementsAre(wanted, wanted, wanted, wanted));
+  // Each for itself: from frame to frame the camera's noise is learned, and poses change by a micrometre.
+  for (const char* same : {"colour.png", "alpha.png", "deep.png", "deep.pgm"})
+    EXPECT_EQ(column(rows_of(run(localize_ + same).out), 3).at(0), wanted) << same;
 }
 
 TEST_F(FrameSources, damaged_images_are_refused_by_name) {
