@@ -46,15 +46,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
                      .stop_on_retreat = reason_within(options_.retreat.limits),
                      .is_contradicted = known.doubt.is_contradicted()};
   Motion motion = motion_;
-  const bool has_agreed =
-      std::ranges::find(step.fixes, FixOutcome::accepted, &UsedFix::outcome) != step.fixes.end();
-  if (has_agreed && step.estimate) {
-    motion.places.saw_marker_at(step.estimate->map_from_base.position_m);
-    motion.is_lost = false;
-    if (motion.retreat && motion.places.is_far_from_its_end(step.estimate->map_from_base.position_m))
-      motion.retreat->cancel();
-  }
-  if (!has_agreed && step.estimate) motion.places.saw_nothing_at(step.estimate->map_from_base.position_m);
+  if (step.estimate) remember_place(motion, step);
   if (motion.places.was_in_vain() && !motion.retreat && !step.stop) step.stop = StopReason::pose_stale;
   if (motion.seeks_another_way && motion.drive && !motion.drive->paused() && !motion.retreat && !step.stop)
     take_another_way(motion, step.estimate->map_from_base, step);
@@ -66,6 +58,20 @@ NavigationStep Navigation::step(const SensorInput& input) {
   turned_rad_ = at.turned_rad;
   last_step_ = input.now;
   return step;
+}
+
+/// As one where a marker was seen, or none.
+void Navigation::remember_place(Motion& motion, const NavigationStep& step) {
+  const Vec2& here_m = step.estimate->map_from_base.position_m;
+  const bool has_agreed =
+      std::ranges::find(step.fixes, FixOutcome::accepted, &UsedFix::outcome) != step.fixes.end();
+  if (!has_agreed) {
+    motion.places.saw_nothing_at(here_m);
+    return;
+  }
+  motion.places.saw_marker_at(here_m);
+  motion.is_lost = false;
+  if (motion.retreat && motion.places.is_far_from_its_end(here_m)) motion.retreat->cancel();
 }
 
 BodyVelocity Navigation::move(Motion& motion, const Situation& at, NavigationStep& step) const {
@@ -175,6 +181,10 @@ std::optional<RotateThenDrive> Navigation::way_back(Motion& motion, const Pose2&
   return RotateThenDrive(path, std::nullopt, options_.drive);
 }
 
+void Navigation::drive_along(const Path& path, Motion& motion) const {
+  motion.drive.emplace(path, motion.goal_heading_rad, ground_->drive_options(path, options_.drive));
+}
+
 /// An unsure robot keeps away from what it could touch; and where it has found no marker it drives again only
 /// if every other way is far longer.
 void Navigation::take_another_way(Motion& motion, const Pose2& pose, NavigationStep& step) {
@@ -186,8 +196,7 @@ void Navigation::take_another_way(Motion& motion, const Pose2& pose, NavigationS
   const PlanResult result = ground_->planner.plan(pose.position_m, goal_m, headings);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return;
-  motion.drive.emplace(plan->path, motion.goal_heading_rad,
-                       ground_->drive_options(plan->path, options_.drive));
+  drive_along(plan->path, motion);
   step.reroute = {
       .route = {plan->path, motion.goal_heading_rad}, .change = RouteChange::surer, .failure = std::nullopt};
 }
@@ -216,10 +225,7 @@ void Navigation::reroute(Motion& motion, const Pose2& pose, NavigationStep& step
   const RouteUpdate update = route_from(motion, pose);
   if (update.change == RouteChange::kept) return;
   motion.drive.reset();
-  if (update.change != RouteChange::lost) {
-    motion.drive.emplace(update.route.path, update.route.goal_heading_rad,
-                         ground_->drive_options(update.route.path, options_.drive));
-  }
+  if (update.change != RouteChange::lost) drive_along(update.route.path, motion);
   step.reroute = update;
 }
 
@@ -242,8 +248,8 @@ std::optional<PlanResult> Navigation::go_to(const Goal& goal) {
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal.heading_rad};
   PlanResult result = ground_->planner.plan(pose.position_m, goal.position_m, headings);
   if (const auto* plan = std::get_if<Plan>(&result)) {
-    motion_.drive.emplace(plan->path, goal.heading_rad, ground_->drive_options(plan->path, options_.drive));
     motion_.goal_heading_rad = goal.heading_rad;
+    drive_along(plan->path, motion_);
   }
   return result;
 }

@@ -129,9 +129,11 @@ class Navigation {
     bool is_contradicted = false;               ///< the estimate, by what was seen last
   };
 
+  static void remember_place(Motion& motion, const NavigationStep& step);
   BodyVelocity move(Motion& motion, const Situation& at, NavigationStep& step) const;
   BodyVelocity follow(Motion& motion, const Situation& at, NavigationStep& step) const;
   void take_another_way(Motion& motion, const Pose2& pose, NavigationStep& step);
+  void drive_along(const Path& path, Motion& motion) const;
   void reroute(Motion& motion, const Pose2& pose, NavigationStep& step) const;
   BodyVelocity go_back(Motion& motion, const Situation& at, NavigationStep& step) const;
   [[nodiscard]] std::optional<RotateThenDrive> way_back(Motion& motion, const Pose2& pose) const;
