@@ -1,6 +1,7 @@
 #include "localization/map_estimate.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -207,6 +208,10 @@ std::optional<Mat6> covariance_of(const Normal& normal, bool exact_tilt) {
   return Mat6(0.5 * (covariance + covariance.transpose()));
 }
 
+bool are_off_their_places(std::span<const SurveyedDot> dots) {
+  return std::ranges::any_of(dots, [](const SurveyedDot& dot) { return dot.shared_sigma_px > 0.0; });
+}
+
 /// What all frames have in common of the variance of dots, by their weight in a fix.
 double shared_part(std::span<const SurveyedDot> dots) {
   double shared = 0.0;
@@ -314,13 +319,14 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   }
   std::optional<Mat6> covariance = covariance_of(*normal, exact_tilt);
   if (!covariance) return std::nullopt;
-  const Mat6 of_dots = *covariance * normal->information_of_dots * *covariance;
+  MapEstimate estimate{.map_from_camera = pose, .cost = normal->cost};
+  if (are_off_their_places(dots))
+    estimate.shared_covariance =
+        shared_part(dots) * (*covariance * normal->information_of_dots * *covariance);
   covariance->topLeftCorner<3, 3>() +=
       arc_covariance(center_of(dots) - pose.translation(), covariance->bottomRightCorner<3, 3>());
-  return MapEstimate{.map_from_camera = pose,
-                     .covariance = *covariance,
-                     .shared_covariance = shared_part(dots) * of_dots,
-                     .cost = normal->cost};
+  estimate.covariance = *covariance;
+  return estimate;
 }
 
 /// Laplace's approximation of each mode: its share of the probability is density times volume.

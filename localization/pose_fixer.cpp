@@ -23,13 +23,13 @@ double px_per_m(const DetectedMarker& seen) {
 
 KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
                          const PoseFixOptions& options) {
-  const double place_px = options.dot_place_sigma_m * px_per_m(seen);
+  const double place_px = options.dot_place_sigma_m > 0.0 ? options.dot_place_sigma_m * px_per_m(seen) : 0.0;
   const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
     const Vec2 in_marker = cell_in_marker(cell);
     const double own_px =
         sigma_px > 0.0 ? root_of_squares(sigma_px, options.model_sigma_px) : options.dot_sigma_px;
     return SurveyedDot{map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
-                       root_of_squares(own_px, place_px), place_px};
+                       place_px > 0.0 ? root_of_squares(own_px, place_px) : own_px, place_px};
   };
   KnownMarker known{.id = seen.id,
                     .confidence = seen.confidence,

@@ -13,7 +13,8 @@
 namespace lodestar {
 namespace {
 
-constexpr int frames_at_once = 100;
+constexpr int frames_at_once = 500;
+constexpr int frames_to_learn = 100;  ///< before those that count: of the light's noise
 constexpr std::uint64_t frames_for_consistency = 71;
 
 enum class TiltKnown { exactly, about, not_at_all };
@@ -80,13 +81,15 @@ NeesSum sum_of_frames(const Conditions& conditions, int frames, Random random) {
   MarkerDetector detector(expecting(registry));
   PoseFixer fixer(registry, camera);
   NeesSum sum;
-  for (int i = 0; i < frames; ++i) {
+  for (int i = -frames_to_learn; i < frames; ++i) {
     const BenchView view = some_view(conditions.scene, registry, random);
     const cv::Mat gray =
         former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(i));
+    const std::span<const DetectedMarker> markers = detector.detect(gray);
+    if (i < 0) continue;
     PoseFixOptions options;
     options.prior = prior_for(conditions.tilt, view.map_from_camera, view.tilt, random);
-    const PoseFix* const fix = fixer.fix(Stamp{}, detector.detect(gray), options);
+    const PoseFix* const fix = fixer.fix(Stamp{}, markers, options);
     if (fix == nullptr) continue;
     ++sum.poses;
     sum.nees += nees_of(*fix, view.map_from_camera, conditions.tilt);
