@@ -236,20 +236,20 @@ double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFi
   return innovation.error.dot(innovation.covariance.ldlt().solve(innovation.error));
 }
 
-Belief corrected(const Belief& before, const PlanarFix& fix, const PoseFilterOptions& options) {
-  const Belief belief = sharing(before, fix, options);
-  const Innovation innovation = innovation_of(belief, fix, options);
+Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
+  const Belief expected = sharing(belief, fix, options);
+  const Innovation innovation = innovation_of(expected, fix, options);
   Eigen::Matrix<double, 12, 3> gain = innovation.covariance.ldlt().solve(innovation.with_state).transpose();
   gain.middleRows<3>(3) *= options.scales_learned_by_one_fix;
   Belief::Covariance keep = Belief::Covariance::Identity();
   keep.leftCols<3>() -= gain;
   keep.middleCols<3>(6) -= gain;
-  Belief result = belief;
+  Belief result = expected;
   result.mean += gain * innovation.error;
   result.mean[2] = wrap_angle(result.mean[2]);
   // Joseph's form, which keeps the covariance symmetric and positive, and is right for any gain.
   result.covariance =
-      keep * belief.covariance * keep.transpose() + gain * own_covariance(fix, options) * gain.transpose();
+      keep * expected.covariance * keep.transpose() + gain * own_covariance(fix, options) * gain.transpose();
   return result;
 }
 
