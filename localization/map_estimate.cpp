@@ -208,10 +208,6 @@ std::optional<Mat6> covariance_of(const Normal& normal, bool exact_tilt) {
   return Mat6(0.5 * (covariance + covariance.transpose()));
 }
 
-bool are_off_their_places(std::span<const SurveyedDot> dots) {
-  return std::ranges::any_of(dots, [](const SurveyedDot& dot) { return dot.shared_sigma_px > 0.0; });
-}
-
 /// What all frames have in common of the variance of dots, by their weight in a fix.
 double shared_part(std::span<const SurveyedDot> dots) {
   double shared = 0.0;
@@ -320,7 +316,7 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   std::optional<Mat6> covariance = covariance_of(*normal, exact_tilt);
   if (!covariance) return std::nullopt;
   MapEstimate estimate{.map_from_camera = pose, .cost = normal->cost};
-  if (are_off_their_places(dots))
+  if (options.dot_place_sigma_m > 0.0)
     estimate.shared_covariance =
         shared_part(dots) * (*covariance * normal->information_of_dots * *covariance);
   covariance->topLeftCorner<3, 3>() +=

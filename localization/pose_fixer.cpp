@@ -23,7 +23,7 @@ double px_per_m(const DetectedMarker& seen) {
 
 KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
                          const PoseFixOptions& options) {
-  const double place_px = options.dot_place_sigma_m > 0.0 ? options.dot_place_sigma_m * px_per_m(seen) : 0.0;
+  const double place_px = options.dot_place_sigma_m * px_per_m(seen);
   const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
     const Vec2 in_marker = cell_in_marker(cell);
     const double own_px =
