@@ -61,56 +61,61 @@ void append_runs(std::uint32_t bits, int left, int count, int row, std::vector<R
   }
 }
 
-/// Joins the runs of two neighbouring rows that touch, corners included.
-void join_rows(std::span<const Run> runs, std::size_t above, std::size_t above_end, std::size_t here,
-               std::size_t here_end, DisjointSets& sets) {
-  while (above < above_end && here < here_end) {
-    const bool touching = runs[above].begin <= runs[here].end && runs[here].begin <= runs[above].end;
-    if (touching) sets.join(above, here);
-    if (runs[above].end < runs[here].end) {
-      ++above;
-    } else {
-      ++here;
-    }
-  }
-}
-
 std::size_t end_of_row(std::span<const Run> runs, std::size_t first) {
   std::size_t i = first;
   while (i < runs.size() && runs[i].row == runs[first].row) ++i;
   return i;
 }
 
-void join_touching_runs(std::span<const Run> runs, DisjointSets& sets) {
-  sets.reset(runs.size());
-  std::size_t above = 0;
-  std::size_t here = 0;
-  while (here < runs.size()) {
-    const std::size_t here_end = end_of_row(runs, here);
-    if (above < here && runs[above].row + 1 == runs[here].row) {
-      join_rows(runs, above, here, here, here_end, sets);
-    }
-    above = here;
-    here = here_end;
+/// Gives each run the piece of a run above that it touches, corners included; a piece of its own when it
+/// touches none. Where it touches several pieces, these are one area.
+class RowJoiner {
+ public:
+  RowJoiner(std::span<const Run> runs, std::vector<std::size_t>& pieces, DisjointSets& sets)
+      : runs_(runs), pieces_(pieces), sets_(sets) {
+    pieces_.resize(runs.size());
+    sets_.reset(0);
   }
-}
 
-/// Area, box and second moments of one area's runs. A run of n pixels from u has the sums n, n * mean and
+  void join_all() {
+    std::size_t above = 0;
+    for (std::size_t here = 0; here < runs_.size();) {
+      const std::size_t here_end = end_of_row(runs_, here);
+      if (here > 0 && runs_[above].row + 1 != runs_[here].row) above = here;
+      join_row(above, here, here_end);
+      above = here;
+      here = here_end;
+    }
+  }
+
+ private:
+  void join_row(std::size_t above, std::size_t here, std::size_t here_end) {
+    const std::size_t above_end = here;
+    for (; here < here_end; ++here) {
+      while (above < above_end && runs_[above].end < runs_[here].begin) ++above;
+      const bool touches = above < above_end && runs_[above].begin <= runs_[here].end;
+      pieces_[here] = touches ? pieces_[above] : sets_.add();
+      // The last of those above that it touches may touch the next one here too.
+      while (above + 1 < above_end && runs_[above + 1].begin <= runs_[here].end)
+        sets_.join(pieces_[here], pieces_[++above]);
+    }
+  }
+
+  std::span<const Run> runs_;
+  std::vector<std::size_t>& pieces_;
+  DisjointSets& sets_;
+};
+
+/// Area and second moments of one area's runs. A run of n pixels from u has the sums n, n * mean and
 /// n * (mean^2 + (n^2 - 1) / 12); each pixel is a square, which adds 1/12. Halves and twelfths are kept
 /// whole.
 void measure(std::span<const Run> runs, BrightArea& area) {
-  area.left = runs.front().begin;
-  area.right = runs.front().end - 1;
-  area.top = runs.front().row;
-  area.bottom = runs.back().row;
   std::int64_t sum_2u = 0, sum_v = 0, sum_12uu = 0, sum_2uv = 0, sum_vv = 0;
   for (const Run& run : runs) {
     const std::int64_t n = run.end - run.begin;
-    area.left = std::min(area.left, run.begin);
-    area.right = std::max(area.right, run.end - 1);
     area.area_px += run.end - run.begin;
     const std::int64_t twice_u = run.begin + run.end - 1 - 2 * runs.front().begin;
-    const std::int64_t v = run.row - area.top;
+    const std::int64_t v = run.row - runs.front().row;
     sum_2u += n * twice_u;
     sum_v += n * v;
     sum_12uu += n * (3 * twice_u * twice_u + n * n);
@@ -121,7 +126,7 @@ void measure(std::span<const Run> runs, BrightArea& area) {
   const double u = 0.5 * per_pixel * static_cast<double>(sum_2u);
   const double v = per_pixel * static_cast<double>(sum_v);
   area.mean_u_px = runs.front().begin + u;
-  area.mean_v_px = area.top + v;
+  area.mean_v_px = runs.front().row + v;
   const double uu = per_pixel / 12.0 * static_cast<double>(sum_12uu) - u * u;
   const double uv = 0.5 * per_pixel * static_cast<double>(sum_2uv) - u * v;
   const double vv = per_pixel * static_cast<double>(sum_vv) + 1.0 / 12.0 - v * v;
@@ -130,10 +135,12 @@ void measure(std::span<const Run> runs, BrightArea& area) {
   area.aspect_ratio = std::sqrt((half_sum + half_difference) / std::max(half_sum - half_difference, 1e-9));
 }
 
-/// Area n is made of the runs with that number.
-void collect_areas(std::span<const Run> runs, std::span<const std::size_t> numbers, BrightAreas& result) {
+/// Area n is made of the runs of all pieces with that number.
+void collect_areas(std::span<const Run> runs, std::span<const std::size_t> pieces,
+                   std::span<const std::size_t> numbers, BrightAreas& result) {
   result.areas.clear();
-  for (const std::size_t n : numbers) {
+  for (const std::size_t piece : pieces) {
+    const std::size_t n = numbers[piece];
     if (n == result.areas.size()) result.areas.emplace_back();
     ++result.areas[n].run_count;
   }
@@ -144,7 +151,7 @@ void collect_areas(std::span<const Run> runs, std::span<const std::size_t> numbe
   }
   result.runs.resize(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    BrightArea& area = result.areas[numbers[i]];
+    BrightArea& area = result.areas[numbers[pieces[i]]];
     result.runs[area.first_run + area.run_count++] = runs[i];
   }
   for (BrightArea& area : result.areas) measure(result.runs_of(area), area);
@@ -171,9 +178,9 @@ void intersect(std::span<const Run> a, std::span<const Run> b, int rows, std::ve
 }  // namespace
 
 const BrightAreas& AreaConnector::connect(std::span<const Run> runs) {
-  join_touching_runs(runs, sets_);
+  RowJoiner(runs, pieces_, sets_).join_all();
   sets_.number(numbers_);
-  collect_areas(runs, numbers_, areas_);
+  collect_areas(runs, pieces_, numbers_, areas_);
   return areas_;
 }
 

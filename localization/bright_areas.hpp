@@ -26,10 +26,6 @@ struct Run {
 struct BrightArea {
   std::size_t first_run = 0;
   std::size_t run_count = 0;
-  int left = 0;
-  int top = 0;
-  int right = 0;   ///< last column
-  int bottom = 0;  ///< last row
   int area_px = 0;
   double mean_u_px = 0.0;
   double mean_v_px = 0.0;
@@ -54,7 +50,8 @@ class AreaConnector {
   [[nodiscard]] const BrightAreas& areas() const { return areas_; }
 
  private:
-  DisjointSets sets_;
+  std::vector<std::size_t> pieces_;  ///< of areas, for each run
+  DisjointSets sets_;                ///< of pieces that touch
   std::vector<std::size_t> numbers_;
   BrightAreas areas_;
 };

@@ -27,8 +27,10 @@ CellEvidence look_at_cells(const cv::Mat& gray, const MarkerGrid& grid, std::spa
   const double slope = options.sure / (options.unsure_contrast - options.dark_contrast);
   const double unsure = options.unsure_contrast + options.small_dot_contrast_px2 / (radius_px * radius_px);
   CellEvidence cells;
+  for (const MarkerDot& dot : in_cells) cells.at(dot.cell) = options.sure;
   for (int row = 0; row < marker_grid_size; ++row) {
     for (int column = 0; column < marker_grid_size; ++column) {
+      if (cells.at({row, column}) > 0.0) continue;
       const std::optional<DiscLight> seen =
           light_in_disc(gray, grid.center_px({row, column}), radius_px, background);
       if (!seen) continue;
@@ -37,7 +39,6 @@ CellEvidence look_at_cells(const cv::Mat& gray, const MarkerGrid& grid, std::spa
       cells.at({row, column}) = std::clamp((share - unsure) * slope, -options.sure, 0.0);
     }
   }
-  for (const MarkerDot& dot : in_cells) cells.at(dot.cell) = options.sure;
   return cells;
 }
 

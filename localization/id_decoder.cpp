@@ -15,11 +15,8 @@ struct Dissent {
   double cover = 0.0;  ///< one cover pays for all dots that it hides: the greatest counts
   int cells = 0;       ///< that are sure of what they are
 
-  Dissent& operator+=(const Dissent& other) {
-    each += other.each;
-    cover = std::max(cover, other.cover);
-    cells += other.cells;
-    return *this;
+  friend Dissent operator+(const Dissent& a, const Dissent& b) {
+    return {a.each + b.each, std::max(a.cover, b.cover), a.cells + b.cells};
   }
   [[nodiscard]] double cost() const { return each + cover; }
 };
@@ -41,18 +38,14 @@ class Contradiction {
     for (std::size_t nibble = 0; nibble < 3; ++nibble) {
       for (unsigned bits = 1; bits < 16; ++bits) {
         const auto lowest = static_cast<std::size_t>(std::countr_zero(bits));
-        of_bits_[nibble][bits] = of_bits_[nibble][bits & (bits - 1)];
-        of_bits_[nibble][bits] += of_bit[4 * nibble + lowest];
+        of_bits_[nibble][bits] = of_bits_[nibble][bits & (bits - 1)] + of_bit[4 * nibble + lowest];
       }
     }
   }
 
   [[nodiscard]] Dissent of(int differing_bits) const {
     const auto bits = static_cast<unsigned>(differing_bits);
-    Dissent sum = of_bits_[0][bits & 15U];
-    sum += of_bits_[1][bits >> 4U & 15U];
-    sum += of_bits_[2][bits >> 8U];
-    return sum;
+    return of_bits_[0][bits & 15U] + of_bits_[1][bits >> 4U & 15U] + of_bits_[2][bits >> 8U];
   }
 
  private:
@@ -91,7 +84,7 @@ IdReading IdDecoder::read(const CellEvidence& cells, bool cover_shows) const {
       const int bit = id_bit(cell);
       if (bit == 0) {
         const bool is_right = (log_odds > 0.0) == (cell != cell_always_empty);
-        if (!is_right) of_corners += dissent;
+        if (!is_right) of_corners = of_corners + dissent;
         continue;
       }
       if (log_odds > 0.0) plain |= bit;
@@ -106,8 +99,7 @@ IdReading IdDecoder::read(const CellEvidence& cells, bool cover_shows) const {
                     .all_weight = all * likelihood_of_corners};
   const Contradiction contradiction(of_bit);
   for (const int id : ids_) {
-    Dissent dissent = contradiction.of(id ^ plain);
-    dissent += of_corners;
+    const Dissent dissent = contradiction.of(id ^ plain) + of_corners;
     const double cost = dissent.cost();
     if (cost > 30.0) continue;
     const double likelihood = std::exp(-cost);
