@@ -11,7 +11,7 @@ namespace lodestar {
 struct MarkerDot {
   GridCell cell;
   Vec2 center_px = Vec2::Zero();
-  double sigma_px = 0.0;  ///< standard deviation of each coordinate by the frame's noise; 0: not known
+  double sigma_px = 0.0;  ///< standard deviation of each coordinate; 0: not known
 };
 
 /// At most one for each cell; without memory of their own, so that reading a frame takes none.

@@ -109,13 +109,16 @@ double uneven_variance_gray2(const Surroundings& around, double dark) {
   return sigma > clearly_more * dark ? sigma * sigma - dark * dark : 0.0;
 }
 
-/// Noise in the dark, shot noise for the light above it, and what an uneven background does to the dot. Its
-/// pixels are not off independently of each other, but several alike.
-double sigma_of(const DiscCenter& center, double dark, double variance_per_gray, const Surroundings& around) {
+/// Noise in the dark, shot noise for the light above it, what an uneven background does to the dot, and
+/// `sampling_px` that is there without any of it. Pixels of the background are not off independently of each
+/// other, but several alike.
+double sigma_of(const DiscCenter& center, double dark, double variance_per_gray, const Surroundings& around,
+                double sampling_px) {
   constexpr double pixels_alike = 2.0;
   const double by_light = std::max(center.variance_per_light_px2, 0.0);
   const double dark_variance = dark * dark + pixels_alike * uneven_variance_gray2(around, dark);
-  return std::sqrt(dark_variance * center.variance_per_variance_px2 + variance_per_gray * by_light);
+  return std::sqrt(dark_variance * center.variance_per_variance_px2 + variance_per_gray * by_light +
+                   sampling_px * sampling_px);
 }
 
 /// The centroid of the gray values above the local background within a disc wide enough to hold all of the
@@ -144,7 +147,8 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
       center_by_edge(gray, light->center_px, dot.radius_px, dot.background_gray, options.edge);
   if (!center) return std::nullopt;
   dot.center_px = center->center_px;
-  dot.sigma_px = sigma_of(*center, dark_noise_gray, variance_per_gray, around);
+  dot.sigma_px = sigma_of(*center, dark_noise_gray, variance_per_gray, around,
+                          options.sampling_sigma_px2 / dot.radius_px);
   return dot;
 }
 

@@ -17,7 +17,7 @@ namespace lodestar {
 /// One bright dot of a frame.
 struct Dot {
   Vec2 center_px = Vec2::Zero();
-  double sigma_px = 0.0;         ///< standard deviation of each coordinate that the frame's noise causes
+  double sigma_px = 0.0;         ///< standard deviation of each coordinate
   double radius_px = 0.0;        ///< of a uniform disc with the same light; blur does not change it
   double background_gray = 0.0;  ///< around the dot
   double contrast_gray = 0.0;    ///< of its middle over the background
@@ -32,6 +32,9 @@ struct DotOptions {
   /// electrons. That is assumed at first, then learned; the noise in the dark is told by each frame.
   double shot_noise_gray_at_255 = 4.0;
   double least_noise_gray = 0.5;  ///< in the dark: rounding to whole gray values, and a little
+  /// How far a dot's middle is off without any noise, in each coordinate: this over its radius. What pixels
+  /// that sample an edge, whole gray values and a last step leave; the longer the edge, the less.
+  double sampling_sigma_px2 = 0.0032;
   double min_area_px = 1.0;       ///< smaller bright areas are noise; faint small dots are a pixel or two
   double min_radius_px = 0.7;     ///< of the light, not of the bright pixels: smaller dots are hot pixels
   double max_area_px = 900.0;     ///< larger ones are tubes and lamps

@@ -127,10 +127,10 @@ Extremes extremes_of_part(const cv::Mat& gray, const cv::Rect& part) {
 /// Standard deviation of a pixel by the squared differences of neighbours in short stretches of rows spread
 /// over the frame: what the ceiling shows drops out of a difference, which varies twice as much as one
 /// pixel, and dots and lamps are in the noisier stretches. The lower quartile of the stretches is looked at;
-/// of so few differences, each of which shares its pixels with the next, it lies at four fifths of the mean.
+/// of so few differences, each of which shares its pixels with the next, it lies at 0.79 of the mean.
 double noise_of(const cv::Mat& gray) {
   constexpr int most_stretches = 48;
-  constexpr double quartile_to_mean = 0.8;
+  constexpr double quartile_to_mean = 0.79;
   const int columns = gray.cols / tile;
   if (columns == 0 || gray.rows == 0) return 0.0;
   const int wanted_rows = std::max(most_stretches / columns, 1);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "localization/arc_covariance.hpp"
+#include "localization/place_covariance.hpp"
 #include "maps/marker.hpp"
 
 namespace lodestar {
@@ -319,9 +319,11 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   if (options.dot_place_sigma_m > 0.0)
     estimate.shared_covariance =
         shared_part(dots) * (*covariance * normal->information_of_dots * *covariance);
-  covariance->topLeftCorner<3, 3>() +=
-      arc_covariance(center_of(dots) - pose.translation(), covariance->bottomRightCorner<3, 3>());
+  const Vec3 center_from_camera = center_of(dots) - pose.translation();
+  auto of_place = estimate.covariance.topLeftCorner<3, 3>();
   estimate.covariance = *covariance;
+  of_place += scale_covariance(center_from_camera, pose.linear().col(2), options.scale_sigma);
+  if (!exact_tilt) of_place += arc_covariance(center_from_camera, *covariance);
   return estimate;
 }
 

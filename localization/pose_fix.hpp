@@ -29,12 +29,12 @@ struct PosePrior {
 struct PoseFixOptions {
   PosePrior prior;
   double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, where the dot does not tell
-  /// Added to what a dot tells of noise: how far its measured centre is off without any, in each coordinate.
-  /// What pixels that sample an edge, whole gray values and a last step leave of an ideal disc of 1.9 to 4.5
-  /// px: 0.001 px by the test Dots.without_noise..., more where light falls off towards the corners.
-  double model_sigma_px = 0.0012;
   /// How far a dot may be off its place in the marker, in each coordinate: film is cut and glued by hand.
   double dot_place_sigma_m = 0.0;
+  /// By what share all dots may lie nearer to the picture's middle than they should, or farther. A ceiling's
+  /// light that falls off towards the corners pulls them inwards, by 0.0005 px at 175 px (test
+  /// Dots.are_pulled).
+  double scale_sigma = 3e-6;
   double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
   /// And one that explains the dots only by a tilt and height that the prior all but excludes (chi-square): a
   /// marker that hangs a few centimetres elsewhere than surveyed leaves small residuals on a tilted robot.

@@ -26,8 +26,7 @@ KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& ma
   const double place_px = options.dot_place_sigma_m * px_per_m(seen);
   const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
     const Vec2 in_marker = cell_in_marker(cell);
-    const double own_px =
-        sigma_px > 0.0 ? root_of_squares(sigma_px, options.model_sigma_px) : options.dot_sigma_px;
+    const double own_px = sigma_px > 0.0 ? sigma_px : options.dot_sigma_px;
     return SurveyedDot{map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
                        place_px > 0.0 ? root_of_squares(own_px, place_px) : own_px, place_px};
   };

@@ -14,7 +14,7 @@ namespace lodestar {
 namespace {
 
 constexpr int frames_at_once = 500;
-constexpr int frames_to_learn = 100;  ///< before those that count: of the light's noise
+constexpr int frames_to_learn = 1000;  ///< before those that count: of the light's noise
 constexpr std::uint64_t frames_for_consistency = 71;
 
 enum class TiltKnown { exactly, about, not_at_all };
@@ -44,17 +44,16 @@ const std::vector<Conditions>& conditions() {
   return all;
 }
 
-/// The true rotation is one about the map's horizontal axes, of this size, after what the prior says.
-PosePrior prior_for(TiltKnown known, const Eigen::Isometry3d& map_from_camera, const Eigen::Matrix3d& tilt,
-                    Random& random) {
+/// As the prior has it: turned by some small angle about the map's horizontal axes.
+Eigen::Matrix3d doubted(const Eigen::Matrix3d& map_from_camera, Random& random) {
+  const Vec3 turn(tilt_sigma_rad * random.normal(), tilt_sigma_rad * random.normal(), 0.0);
+  return Eigen::AngleAxisd(turn.norm(), turn.normalized()) * map_from_camera;
+}
+
+PosePrior prior_for(TiltKnown known, const Eigen::Matrix3d& tilt) {
   PosePrior prior{.tilt = tilt};
   if (known == TiltKnown::exactly) prior.tilt_sigma_rad = 0.0;
-  if (known != TiltKnown::about) return prior;
-  const Vec3 off(tilt_sigma_rad * random.normal(), tilt_sigma_rad * random.normal(), 0.0);
-  const Eigen::Matrix3d heading = map_from_camera.linear() * tilt.transpose();
-  const Eigen::AngleAxisd turn(-off.norm(), off.normalized());
-  prior.tilt = heading.transpose() * turn.toRotationMatrix() * heading * tilt;
-  prior.tilt_sigma_rad = tilt_sigma_rad;
+  if (known == TiltKnown::about) prior.tilt_sigma_rad = tilt_sigma_rad;
   return prior;
 }
 
@@ -82,13 +81,15 @@ NeesSum sum_of_frames(const Conditions& conditions, int frames, Random random) {
   PoseFixer fixer(registry, camera);
   NeesSum sum;
   for (int i = -frames_to_learn; i < frames; ++i) {
-    const BenchView view = some_view(conditions.scene, registry, random);
+    BenchView view = some_view(conditions.scene, registry, random);
+    if (conditions.tilt == TiltKnown::about)
+      view.map_from_camera.linear() = doubted(view.map_from_camera.linear(), random);
     const cv::Mat gray =
         former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(i));
     const std::span<const DetectedMarker> markers = detector.detect(gray);
     if (i < 0) continue;
     PoseFixOptions options;
-    options.prior = prior_for(conditions.tilt, view.map_from_camera, view.tilt, random);
+    options.prior = prior_for(conditions.tilt, view.tilt);
     const PoseFix* const fix = fixer.fix(Stamp{}, markers, options);
     if (fix == nullptr) continue;
     ++sum.poses;

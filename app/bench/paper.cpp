@@ -38,6 +38,8 @@ SimulatedCameraOptions varied_light(Random& random) {
   return light;
 }
 
+constexpr int frames_of_a_ceiling = 5;  // the ceiling's texture takes far longer to make than a frame
+
 /// The IDs of Table 1's experiment.
 std::vector<int> different_ids() {
   constexpr int count = 100;
@@ -147,27 +149,28 @@ std::vector<PositionTrial> move(Stand& stand) {
 }  // namespace
 
 IdentificationResult bench_identification(const BenchPaperOptions& options) {
-  const int trials = options.identification_trials;
   const std::vector<int> ids = different_ids();
   MarkerDetector detector({.registered_ids = ids});
   Random random = Random(options.seed).stream(1);
   IdentificationResult result;
   double elapsed_us = 0.0;
-  for (int trial = 0; trial < trials; ++trial) {
-    const std::size_t which = static_cast<std::size_t>(trial) % ids.size();
+  for (std::size_t ceiling = 0; result.trials < options.identification_trials; ++ceiling) {
+    const std::size_t which = ceiling % ids.size();
     const MarkerRegistry registry = some_markers(ids, which, random);
-    const Eigen::Isometry3d view = some_view(registry, random);
     ImageFormer former(registry, bench_camera(), varied_light(random), random.bits());
-    const cv::Mat gray = former.expose(view, view, static_cast<std::uint64_t>(trial));
-    const Stopwatch watch;
-    const std::span<const DetectedMarker> markers = detector.detect(gray);
-    elapsed_us += watch.microseconds();
-    ++result.trials;
-    const auto hangs = [&](const DetectedMarker& marker) { return registry.find(marker.id) != nullptr; };
-    result.correct += !markers.empty() && markers.front().id == ids[which] ? 1 : 0;
-    result.wrong += std::ranges::all_of(markers, hangs) ? 0 : 1;
+    const int last = std::min(result.trials + frames_of_a_ceiling, options.identification_trials);
+    for (; result.trials < last; ++result.trials) {
+      const Eigen::Isometry3d view = some_view(registry, random);
+      const cv::Mat gray = former.expose(view, view, static_cast<std::uint64_t>(result.trials));
+      const Stopwatch watch;
+      const std::span<const DetectedMarker> markers = detector.detect(gray);
+      elapsed_us += watch.microseconds();
+      const auto hangs = [&](const DetectedMarker& marker) { return registry.find(marker.id) != nullptr; };
+      result.correct += !markers.empty() && markers.front().id == ids[which] ? 1 : 0;
+      result.wrong += std::ranges::all_of(markers, hangs) ? 0 : 1;
+    }
   }
-  result.mean_ms = 1e-3 * elapsed_us / trials;
+  result.mean_ms = 1e-3 * elapsed_us / options.identification_trials;
   return result;
 }
 
