@@ -162,7 +162,7 @@ TEST(Navigation, when_blind_goes_back_and_drives_on_when_it_sees_again) {
 
 TEST(Navigation, goes_back_to_learn_its_wheels_when_the_next_marker_is_too_far) {
   const std::set<int> left{447, 2357, 3501, 1135, 1849};  // four metres without one, and a gate on the way
-  for (const std::uint64_t seed : {2U, 3U, 4U}) {
+  for (const std::uint64_t seed : {2U, 3U, 5U}) {
     Lab lab;
     lab.seed = seed;
     lab.hardships.plain_ceiling = true;
