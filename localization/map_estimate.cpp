@@ -320,8 +320,8 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
     estimate.shared_covariance =
         shared_part(dots) * (*covariance * normal->information_of_dots * *covariance);
   const Vec3 center_from_camera = center_of(dots) - pose.translation();
-  auto of_place = estimate.covariance.topLeftCorner<3, 3>();
   estimate.covariance = *covariance;
+  auto of_place = estimate.covariance.topLeftCorner<3, 3>();
   of_place += scale_covariance(center_from_camera, pose.linear().col(2), options.scale_sigma);
   if (!exact_tilt) of_place += arc_covariance(center_from_camera, *covariance);
   return estimate;

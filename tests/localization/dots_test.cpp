@@ -32,13 +32,18 @@ OneDot some_dot(Random& random, double least_radius_px, double most_radius_px) {
           random.uniform(0.55, 0.8)};
 }
 
+/// How much of the dot's light falls on a pixel.
+double share_at(const OneDot& dot, int u, int v) {
+  const double outside_px = (Vec2(u, v) - dot.center_px).norm() - dot.radius_px;
+  return 0.5 * std::erfc(outside_px / (std::sqrt(2.0) * dot.blur_sigma_px));
+}
+
 /// Its light by formula, so that nothing but whole gray values keeps its middle from being exact; and noise.
 cv::Mat picture_of(const OneDot& dot, double dark_noise_gray, double variance_per_gray, Random& random) {
   cv::Mat gray(side_px, side_px, CV_8UC1);
   for (int v = 0; v < side_px; ++v) {
     for (int u = 0; u < side_px; ++u) {
-      const double outside_px = (Vec2(u, v) - dot.center_px).norm() - dot.radius_px;
-      const double light = contrast_gray * 0.5 * std::erfc(outside_px / (std::sqrt(2.0) * dot.blur_sigma_px));
+      const double light = contrast_gray * share_at(dot, u, v);
       const double noise_gray = std::sqrt(dark_noise_gray * dark_noise_gray + variance_per_gray * light);
       const double noise = noise_gray > 0.0 ? noise_gray * random.normal() : 0.0;
       gray.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(background_gray + light + noise);
@@ -64,12 +69,14 @@ double error_without_noise_over_sampling_sigma(double least_radius_px, double mo
   return std::sqrt(squares);
 }
 
-// What dots say of it (sampling_sigma_px2) is neither too little nor far too much, at 4 m as at 1.5 m.
+// What dots say of it (sampling_sigma_px2) is neither too little nor far too much, but where they are larger
+// than at 1.5 m: there it is somewhat too little.
 TEST(Dots, without_noise_a_middle_is_off_by_what_the_dot_says) {
-  for (const double radius_px : {1.9, 2.4, 3.0, 4.0, 5.0}) {
+  constexpr double radius_at_1500_mm_px = 5.0;
+  for (const double radius_px : {1.9, 2.4, 3.0, 4.0, radius_at_1500_mm_px}) {
     const double ratio = error_without_noise_over_sampling_sigma(radius_px, 1.1 * radius_px);
     RecordProperty("ratio_at_" + std::to_string(radius_px), std::to_string(ratio));
-    EXPECT_LT(ratio, 1.7) << radius_px;
+    EXPECT_LT(ratio, radius_px < radius_at_1500_mm_px ? 1.0 : 1.7) << radius_px;
     EXPECT_GT(ratio, 0.25) << radius_px;
   }
 }
@@ -82,12 +89,9 @@ cv::Mat where_light_falls_off(const OneDot& dot, double from_middle_px) {
   cv::Mat gray(side_px, side_px, CV_8UC1);
   for (int v = 0; v < side_px; ++v) {
     for (int u = 0; u < side_px; ++u) {
-      const Vec2 from_dot = Vec2(u, v) - dot.center_px;
-      const double outside_px = from_dot.norm() - dot.radius_px;
-      const double share = 0.5 * std::erfc(outside_px / (std::sqrt(2.0) * dot.blur_sigma_px));
-      const double around = background_gray + slope_gray_per_px * from_dot.x();
-      gray.at<std::uint8_t>(v, u) =
-          cv::saturate_cast<std::uint8_t>(around + share * (background_gray + contrast_gray - around));
+      const double around = background_gray + slope_gray_per_px * (u - dot.center_px.x());
+      gray.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(
+          around + share_at(dot, u, v) * (background_gray + contrast_gray - around));
     }
   }
   return gray;

@@ -16,7 +16,7 @@ const Vec3 center_from_camera(0.3, -0.2, 2.6);
 
 /// Of a camera that knows where the dots' centre is in its own frame much better than how it is tilted.
 Mat6 linear_covariance() {
-  const Vec3 centre_sigma_m(0.004, 0.003, 0.02);
+  const Vec3 center_sigma_m(0.004, 0.003, 0.02);
   const Vec3 turn_sigma(0.03, 0.05, 0.01);
   Eigen::Matrix3d swing;  // -theta x u
   swing << 0.0, -center_from_camera.z(), center_from_camera.y(), center_from_camera.z(), 0.0,
@@ -24,7 +24,7 @@ Mat6 linear_covariance() {
   Mat6 by_causes = Mat6::Identity();
   by_causes.topRightCorner<3, 3>() = swing;
   Vec6 variances;
-  variances << centre_sigma_m.array().square(), turn_sigma.array().square();
+  variances << center_sigma_m.array().square(), turn_sigma.array().square();
   return by_causes * variances.asDiagonal() * by_causes.transpose();
 }
 
