@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <mutex>
 
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_site.hpp"
 #include "app/parallel.hpp"
+#include "app/whole_number.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker_code.hpp"
 #include "maps/random.hpp"
@@ -22,11 +24,17 @@ enum Purpose : std::uint64_t { building = 1, faults };
 std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
   std::map<std::uint64_t, MissionOutcome> outcomes;
   std::ifstream stream(file);
+  int number = 0;
   for (std::string line; std::getline(stream, line);) {
+    ++number;
     const auto json = nlohmann::json::parse(line, nullptr, false);
     if (json.is_discarded()) continue;  // cut off while it was written: that mission is run again
-    MissionOutcome outcome = outcome_from(json);
-    outcomes[outcome.mission] = std::move(outcome);
+    try {
+      MissionOutcome outcome = outcome_from(json);
+      outcomes[outcome.mission] = std::move(outcome);
+    } catch (const std::exception& error) {
+      throw InputError(file, number, error.what(), "a mission as a campaign keeps it");
+    }
   }
   return outcomes;
 }
@@ -118,12 +126,13 @@ MissionOutcome outcome_from(const nlohmann::json& json) {
   const auto optional = [&](const char* key) {
     return json.at(key).is_null() ? std::nullopt : std::optional(json.at(key).get<double>());
   };
-  return {.mission = json.at("mission"),
+  constexpr std::uint32_t most_contacts = std::numeric_limits<int>::max();
+  return {.mission = json.at("mission").get_ref<const nlohmann::json::number_unsigned_t&>(),
           .faults = json.at("faults"),
           .arrived = json.at("arrived"),
           .error_m = json.at("error_m"),
           .failure = json.at("failure"),
-          .contacts = json.at("contacts"),
+          .contacts = static_cast<int>(whole_number(json.at("contacts"), most_contacts)),
           .driven_s = json.at("driven_s"),
           .noticed_after_s = optional("noticed_after_s"),
           .stopped_within_m = optional("stopped_within_m")};

@@ -10,6 +10,7 @@
 #include "app/console/routes.hpp"
 #include "app/markers/formats.hpp"
 #include "app/markers/sheet.hpp"
+#include "app/whole_number.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
@@ -106,16 +107,14 @@ HttpResponse imported(const json& request) {
 
 HttpResponse printed(const json& request) {
   constexpr std::size_t most_sheets = 200;
-  const auto ids = request.at("ids").get<std::vector<int>>();
+  const json& ids = request.at("ids");
   const auto paper = paper_named(request.value("paper", "A4"));
-  if (!paper || ids.empty() || ids.size() > most_sheets) {
+  if (!paper || !ids.is_array() || ids.empty() || ids.size() > most_sheets) {
     return refusal(422, fmt::format("wanted A4 or A3 and 1 to {} IDs", most_sheets));
   }
   std::vector<SheetPage> pages;
-  for (const int id : ids) {
-    if (id < 0 || id >= marker_id_count) return refusal(422, fmt::format("found ID {}", id));
-    pages.push_back(draw_marker_sheet(id, *paper));
-  }
+  for (const json& id : ids)
+    pages.push_back(draw_marker_sheet(static_cast<int>(whole_number(id, marker_id_count - 1)), *paper));
   return {.content_type = "application/pdf", .body = pdf_text(pages)};
 }
 

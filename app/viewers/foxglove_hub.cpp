@@ -2,14 +2,21 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+
+#include "app/whole_number.hpp"
 
 namespace lodestar {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+std::uint32_t number_from(const nlohmann::json& value) {
+  return whole_number(value, std::numeric_limits<std::uint32_t>::max());
+}
 
 /// Message Data: its operation code, the subscription, the time in nanoseconds, the message; little-endian.
 SocketMessage data_frame(std::uint32_t subscription, const Message& message) {
@@ -42,13 +49,13 @@ class FoxgloveHub::Viewer : public SocketSession {
 
   void receive(const std::string& bytes, bool binary) override {
     if (binary) return complain("this server takes no messages from viewers");
-    const Json request = Json::parse(bytes);
+    const auto request = nlohmann::json::parse(bytes);
     const auto operation = request.at("op").get<std::string>();
     if (operation == "subscribe") {
-      for (const Json& wish : request.at("subscriptions"))
-        subscribe(wish.at("id").get<std::uint32_t>(), wish.at("channelId").get<std::size_t>());
+      for (const auto& wish : request.at("subscriptions"))
+        subscribe(number_from(wish.at("id")), number_from(wish.at("channelId")));
     } else if (operation == "unsubscribe") {
-      for (const Json& id : request.at("subscriptionIds")) unsubscribe(id.get<std::uint32_t>());
+      for (const auto& id : request.at("subscriptionIds")) unsubscribe(number_from(id));
     } else {
       complain(fmt::format("this server does not know '{}'", operation.substr(0, 40)));
     }

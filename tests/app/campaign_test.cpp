@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/campaign/campaign_report.hpp"
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_site.hpp"
 #include "app/process_health.hpp"
+#include "maps/input_error.hpp"
 
 #include "tests/maps/temporary_folder.hpp"
 
@@ -92,6 +95,27 @@ TEST(Campaign, goes_on_where_it_was_cut_off) {
       run_campaign(robot, {.first = 4, .missions = 3, .resume = true}, folder / "cut", nothing);
   EXPECT_EQ(campaign_json(whole).dump(), campaign_json(resumed).dump());
   EXPECT_EQ(lines_in(folder / "cut" / "missions.jsonl"), 4) << "one of them cut off, none twice";
+}
+
+TEST(Campaign, takes_no_missions_of_something_else) {
+  const TemporaryFolder folder;
+  const nlohmann::json mission = as_json(MissionOutcome{.mission = 4});
+  const auto with = [&](const char* key, const nlohmann::json& value) {
+    nlohmann::json changed = mission;
+    changed[key] = value;
+    return changed;
+  };
+  for (const nlohmann::json& line :
+       {nlohmann::json(7), with("mission", -1), with("mission", 1e30), with("contacts", 1e30),
+        with("faults", "none"), with("arrived", nullptr)}) {
+    folder.write("missions.jsonl", mission.dump() + "\n" + line.dump() + "\n");
+    try {
+      run_campaign(lab(), {.first = 4, .missions = 1, .resume = true}, folder / "", [](double) {});
+      ADD_FAILURE() << line;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("missions.jsonl:2: found"));
+    }
+  }
 }
 
 TEST(Campaign, reports_contacts_and_silently_wrong_arrivals_with_the_command_that_repeats_them) {

@@ -274,7 +274,9 @@ TEST_F(ConsoleTest, exports_imports_and_prints) {
   EXPECT_EQ(back["markers"].size(), 25U);
   EXPECT_EQ(post("/api/markers/import", {{"name", "m.exe"}, {"text", ""}}).status, 422);
   EXPECT_THAT(post("/api/markers/print", {{"ids", {447, 5}}, {"paper", "A3"}}).body, HasSubstr("%PDF-1.4"));
-  EXPECT_EQ(post("/api/markers/print", {{"ids", {4096}}}).status, 422);
+  for (const json& id :
+       {json(4096), json(-1), json(1.5), json(1e20), json(4294967301), json(true), json("all")})
+    EXPECT_EQ(post("/api/markers/print", {{"ids", json::array({id})}}).status, 422) << id;
   EXPECT_EQ(post("/api/markers/print", {{"ids", "all"}}).status, 422);
 }
 

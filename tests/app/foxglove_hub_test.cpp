@@ -109,8 +109,15 @@ TEST_F(FoxgloveHubTest, nonsense_ends_the_session_and_the_hub_goes_on) {
   join();
   EXPECT_THROW(viewer->receive("no json", false), std::exception);
   EXPECT_THROW(tell({{"op", "subscribe"}}), std::exception);
-  EXPECT_THROW(tell({{"op", "subscribe"}, {"subscriptions", {{{"id", "x"}, {"channelId", 0}}}}}),
-               std::exception);
+  for (const json& number : {json("x"), json(true), json(-1), json(1.5), json(1e20), json(4294967296)}) {
+    EXPECT_THROW(tell({{"op", "subscribe"}, {"subscriptions", {{{"id", number}, {"channelId", 0}}}}}),
+                 std::exception)
+        << number;
+    EXPECT_THROW(tell({{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", number}}}}}),
+                 std::exception)
+        << number;
+    EXPECT_THROW(tell({{"op", "unsubscribe"}, {"subscriptionIds", {number}}}), std::exception) << number;
+  }
   EXPECT_TRUE(hub.has_viewers());
   viewer.reset();
   EXPECT_FALSE(hub.has_viewers());
