@@ -316,6 +316,10 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   std::optional<Mat6> covariance = covariance_of(*normal, exact_tilt);
   if (!covariance) return std::nullopt;
   MapEstimate estimate{.map_from_camera = pose, .cost = normal->cost};
+  estimate.chi2 = normal->cost - prior_cost(pose, options.prior);
+  const double determined =
+      normal->information_of_dots.cwiseProduct(*covariance).sum();  // the product's trace
+  estimate.freedom = 2.0 * static_cast<double>(dots.size()) - determined;
   if (options.dot_place_sigma_m > 0.0)
     estimate.shared_covariance =
         shared_part(dots) * (*covariance * normal->information_of_dots * *covariance);

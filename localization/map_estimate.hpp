@@ -21,7 +21,9 @@ struct MapEstimate {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();         ///< as in PoseFix
   Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< as in PoseFix
-  double cost = 0.0;  ///< minus twice the logarithm of the posterior density, up to a constant
+  double chi2 = 0.0;  ///< sum of the dots' squared residuals in sigmas, Huber's loss where they are far off
+  double freedom = 0.0;  ///< what it should be: their count less that of what they determined
+  double cost = 0.0;     ///< minus twice the logarithm of the posterior density, up to a constant
 };
 
 /// Where a dot at this point of the map is seen from a pose, and the derivative by (position, rotation about

@@ -22,11 +22,12 @@ double px_per_m(const DetectedMarker& seen) {
 }
 
 KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
-                         const PoseFixOptions& options) {
+                         const PoseFixOptions& options, double variance_factor) {
+  const double sigma_factor = std::sqrt(variance_factor);
   const double place_px = options.dot_place_sigma_m * px_per_m(seen);
   const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
     const Vec2 in_marker = cell_in_marker(cell);
-    const double own_px = sigma_px > 0.0 ? sigma_px : options.dot_sigma_px;
+    const double own_px = sigma_factor * (sigma_px > 0.0 ? sigma_px : options.dot_sigma_px);
     return SurveyedDot{map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
                        place_px > 0.0 ? root_of_squares(own_px, place_px) : own_px, place_px};
   };
@@ -114,6 +115,7 @@ const PoseFix* PoseFixer::fix(Stamp stamp, std::span<const DetectedMarker> marke
   while (!known_.empty()) {
     const std::optional<MapEstimate> estimate = best_estimate(known_, options);
     if (estimate && fits(*estimate, known_, camera_, options)) {
+      learn(*estimate);
       conclude(stamp, *estimate);
       return &fix_;
     }
@@ -136,7 +138,7 @@ void PoseFixer::find_known(std::span<const DetectedMarker> markers, const PoseFi
     const auto times = std::ranges::count(markers, marker.id, &DetectedMarker::id);
     const Hung* const registered = hung(marker.id);
     if (registered == nullptr || times > 1 || marker.dots.empty()) continue;
-    known_.push_back(known_marker(marker, registered->map_from_marker, options));
+    known_.push_back(known_marker(marker, registered->map_from_marker, options, variance_factor_.value()));
   }
 }
 
@@ -192,6 +194,15 @@ void PoseFixer::leave_out_the_odd_one(const PoseFixOptions& options) {
     std::swap(best_others_, others_);
   }
   std::swap(known_, best_others_);
+}
+
+/// While the camera stands, every frame has the same errors but for noise, and tells nothing new of them.
+void PoseFixer::learn(const MapEstimate& estimate) {
+  constexpr double moved_px = 0.5;
+  const Vec2& at_px = dots_.front().center_px;
+  if ((at_px - learned_at_px_).squaredNorm() < moved_px * moved_px) return;
+  learned_at_px_ = at_px;
+  variance_factor_.add(estimate.chi2, estimate.freedom);
 }
 
 void PoseFixer::conclude(Stamp stamp, const MapEstimate& estimate) {

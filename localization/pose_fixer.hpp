@@ -8,6 +8,7 @@
 #include "localization/inline_vector.hpp"
 #include "localization/map_estimate.hpp"
 #include "localization/pose_fix.hpp"
+#include "localization/variance_factor.hpp"
 
 namespace lodestar {
 
@@ -47,6 +48,7 @@ class PoseFixer {
   std::optional<Eigen::Isometry3d> level_guess_by(std::span<const KnownMarker> markers,
                                                   const PosePrior& prior);
   void leave_out_the_odd_one(const PoseFixOptions& options);
+  void learn(const MapEstimate& estimate);
   void conclude(Stamp stamp, const MapEstimate& estimate);
 
   std::vector<Hung> hung_;  ///< each ID that one marker has, by ID
@@ -56,6 +58,8 @@ class PoseFixer {
   std::vector<KnownMarker> best_others_;
   std::vector<SurveyedDot> dots_;  ///< of the markers that were looked at last
   std::vector<SurveyedDot> guess_dots_;
+  VarianceFactor variance_factor_;
+  Vec2 learned_at_px_ = Vec2::Zero();  ///< where the first dot was in the frame that was learned from last
   PoseFix fix_;
 };
 

@@ -14,7 +14,8 @@ namespace lodestar {
 namespace {
 
 constexpr int frames_at_once = 500;
-constexpr int frames_to_learn = 1000;  ///< before those that count: of the light's noise
+constexpr int frames_to_learn =
+    1000;  ///< before those that count: of the light's noise, of the variance factor
 constexpr std::uint64_t frames_for_consistency = 71;
 
 enum class TiltKnown { exactly, about, not_at_all };
@@ -87,11 +88,10 @@ NeesSum sum_of_frames(const Conditions& conditions, int frames, Random random) {
     const cv::Mat gray =
         former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(i));
     const std::span<const DetectedMarker> markers = detector.detect(gray);
-    if (i < 0) continue;
     PoseFixOptions options;
     options.prior = prior_for(conditions.tilt, view.tilt);
     const PoseFix* const fix = fixer.fix(Stamp{}, markers, options);
-    if (fix == nullptr) continue;
+    if (fix == nullptr || i < 0) continue;
     ++sum.poses;
     sum.nees += nees_of(*fix, view.map_from_camera, conditions.tilt);
   }

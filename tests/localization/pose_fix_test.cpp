@@ -8,10 +8,10 @@
 #include "localization/map_estimate.hpp"
 #include "maps/random.hpp"
 
+#include "tests/localization/seen_markers.hpp"
+
 namespace lodestar {
 namespace {
-
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// K of Eq. (16).
 CameraModel paper_camera() {
@@ -37,58 +37,11 @@ CameraModel wide_camera() {
   return camera;
 }
 
-MarkerRegistry ceiling() {
-  MarkerRegistry registry;
-  registry.markers.push_back({447, Vec3(1.0, 2.0, 2.6), radians(20.0), 0});
-  registry.markers.push_back({1782, Vec3(1.5, 2.1, 2.6), radians(-70.0), 0});
-  registry.markers.push_back({3003, Vec3(1.2, 1.6, 2.6), radians(170.0), 0});
-  return registry;
-}
-
-Eigen::Isometry3d view_from(const Vec3& position, double yaw_rad, double roll_rad = 0.0,
-                            double pitch_rad = 0.0) {
-  Eigen::Isometry3d view = Eigen::Isometry3d::Identity();
-  view.linear() = rotation_from({0.0, 0.0, yaw_rad}) * rotation_from({roll_rad, pitch_rad, 0.0});
-  view.translation() = position;
-  return view;
-}
-
-/// What a detector would report of these markers, with noise on the dots' centres.
-std::vector<DetectedMarker> seen(const Eigen::Isometry3d& view, const MarkerRegistry& registry,
-                                 const CameraModel& camera, double noise_px, Random& random) {
-  std::vector<DetectedMarker> markers;
-  for (const RegisteredMarker& registered : registry.markers) {
-    DetectedMarker marker;
-    marker.id = registered.id;
-    marker.confidence = 0.9;
-    for (const GridCell cell : dots_of(registered.id)) {
-      const Vec2 in_marker = cell_in_marker(cell);
-      const Vec3 in_map = map_from_marker(registry, registered) * Vec3(in_marker.x(), in_marker.y(), 0.0);
-      const Vec2 pixel =
-          *camera.project(view.inverse() * in_map) + noise_px * Vec2(random.normal(), random.normal());
-      marker.dots.push_back({cell, pixel});
-      if (cell == cell_of_o) marker.o_px = pixel;
-      if (cell == cell_of_x) marker.x_px = pixel;
-      if (cell == cell_of_y) marker.y_px = pixel;
-    }
-    markers.push_back(marker);
-  }
-  return markers;
-}
-
 PoseFixOptions with_tilt_sigma(std::optional<double> tilt_sigma_rad, double dot_sigma_px) {
   PoseFixOptions options;
   options.prior.tilt_sigma_rad = tilt_sigma_rad;
   options.dot_sigma_px = dot_sigma_px;
   return options;
-}
-
-/// The estimate's error in the coordinates of its covariance.
-Vec6 error_of(const PoseFix& fix, const Eigen::Isometry3d& truth) {
-  Vec6 error;
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(truth.linear() * fix.map_from_camera.linear().transpose()));
-  error << truth.translation() - fix.map_from_camera.translation(), turn.angle() * turn.axis();
-  return error;
 }
 
 TEST(FixPose, without_noise_is_the_truth_in_every_mode) {
