@@ -20,7 +20,7 @@ struct KnownMarker {
   InlineVector<SurveyedDot, MarkerDots::capacity> dots;
 };
 
-/// Finds the camera's pose frame after frame. Keeps its memory: after the first few frames it takes none.
+/// Finds the camera's pose frame after frame and learns their VarianceFactor. Soon it takes no more memory.
 class PoseFixer {
  public:
   PoseFixer(const MarkerRegistry& registry, const CameraModel& camera);

@@ -24,7 +24,7 @@ class VarianceFactor {
   [[nodiscard]] double value() const { return value_; }
 
  private:
-  static constexpr double assumed = 1000.0;       // the first assumption counts as so many residuals
+  static constexpr double assumed = 200.0;        // the first assumption counts as so many residuals
   static constexpr double remembered = 50'000.0;  // some 4000 fits by one marker
   static constexpr double greatest = 25.0;  // sigmas five times as large: beyond it, something else is wrong
 

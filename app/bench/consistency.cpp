@@ -14,8 +14,7 @@ namespace lodestar {
 namespace {
 
 constexpr int frames_at_once = 500;
-constexpr int frames_to_learn =
-    1000;  ///< before those that count: of the light's noise, of the variance factor
+constexpr int frames_to_learn = 1000;  ///< before those that count: the light's noise, the variance factor
 constexpr std::uint64_t frames_for_consistency = 71;
 
 enum class TiltKnown { exactly, about, not_at_all };
