@@ -1,8 +1,10 @@
 #include "localization/pose_fixer.hpp"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <stdexcept>
 
 #include "tests/localization/painted_frame.hpp"
 #include "tests/localization/seen_markers.hpp"
@@ -66,7 +68,7 @@ TEST_F(PoseFixerTest, learns_nothing_while_it_stands) {
   const Eigen::Isometry3d view = some_view();
   nees_of_fix(view, 0.0);
   const double before_m = sigma_m;
-  Random still = random;  // the same errors in all frames
+  const Random still = random;  // the same errors in all frames
   for (int i = 0; i < 500; ++i) {
     random = still;
     nees_of_fix(view, 3.0 * said_px);
