@@ -1,4 +1,4 @@
-#include "app/program.hpp"
+#include "app/commands/program.hpp"
 
 int main(int argc, char** argv) {
   return lodestar::program(argc, argv);

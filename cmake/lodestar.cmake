@@ -8,7 +8,8 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  # With precompiled headers its cache holds only so: see "Precompiled headers" in ccache's manual.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
 add_library(lodestar_properties INTERFACE)
@@ -32,12 +33,30 @@ endif()
 if(LODESTAR_FUZZ)
   target_compile_options(lodestar_properties INTERFACE -fsanitize=fuzzer-no-link)
 endif()
+if(CCACHE_PROGRAM AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(lodestar_properties INTERFACE -fpch-preprocess)
+endif()
 
-# lodestar_library(NAME SOURCES ... USES ...): one folder's target, its arrows on one line.
+# Precompiled headers: what is slow to read and that many include, read once for each set of compiler flags. A source
+# includes what it uses all the same: the presets with sanitizers build without them.
+set(lodestar_headers_of_all <algorithm> <array> <cmath> <cstdint> <deque> <filesystem> <fstream> <functional> <map> <memory>
+  <optional> <set> <span> <string> <variant> <vector> <Eigen/Cholesky> <Eigen/Eigenvalues> <Eigen/Geometry>)
+
+# lodestar_library(NAME SOURCES ... USES ... [PRECOMPILES HEADER... | SHARES OTHER] [TOGETHER]): one room's target, its arrows
+# on one line. It precompiles these headers besides those of all, or uses what another has precompiled. TOGETHER: where each
+# source reads a library that takes seconds (CLI11), several are compiled as one.
 function(lodestar_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER" "SHARES" "SOURCES;USES;PRECOMPILES" ${ARGN})
   add_library(lodestar_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(lodestar_${name} PUBLIC lodestar_properties ${ARG_USES})
+  if(ARG_SHARES)
+    target_precompile_headers(lodestar_${name} REUSE_FROM lodestar_${ARG_SHARES})
+  elseif(ARG_PRECOMPILES)
+    target_precompile_headers(lodestar_${name} PRIVATE ${lodestar_headers_of_all} ${ARG_PRECOMPILES})
+  endif()
+  if(ARG_TOGETHER AND LODESTAR_TOGETHER)
+    set_target_properties(lodestar_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 9)
+  endif()
 endfunction()
 
 # lodestar_test(NAME SOURCES ... USES ... [SLOW PATTERN]): the tests of one folder in one program. Those that match
@@ -47,6 +66,11 @@ function(lodestar_test name)
   add_executable(${name}_test ${ARG_SOURCES})
   target_link_libraries(${name}_test PRIVATE lodestar_properties ${ARG_USES} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE LODESTAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(name STREQUAL maps)
+    target_precompile_headers(${name}_test PRIVATE ${lodestar_headers_of_all} <gmock/gmock.h> <gtest/gtest.h>)
+  elseif(ARG_USES)
+    target_precompile_headers(${name}_test REUSE_FROM maps_test)
+  endif()
   set(discovery WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT 60)
   if(ARG_SLOW)
     gtest_discover_tests(${name}_test ${discovery} TEST_FILTER -${ARG_SLOW} PROPERTIES TIMEOUT 600)

@@ -25,18 +25,18 @@ double share_of_speed(const Eigen::Matrix3d& covariance, const SafetyStopOptions
   return std::lerp(1.0, options.slowest, std::clamp(beyond, 0.0, 1.0));
 }
 
-SpeedLimit safe_speed(const FreeWay& way, const PoseEstimate& estimate, const SpareRoom& spare,
+SpeedLimit safe_speed(const ForwardClearance& way, const PoseEstimate& estimate, const SafetyMargin& spare,
                       const SafeSpeedOptions& options) {
   const auto& [drive, caution, limits] = options;
   const double deceleration = drive.braking_share * drive.max_acceleration_mps2;
   const double reach_m =
       drive.max_forward_mps * (drive.response_s + 0.5 * drive.max_forward_mps / deceleration);
-  const auto speed_with = [&](const SpareRoom& kept) {
+  const auto speed_with = [&](const SafetyMargin& kept) {
     const double free_m = way.ahead_m(estimate.map_from_base, reach_m, kept);
     return speed_to_stop_within(free_m, deceleration, drive.response_s);
   };
   const double swinging_mps =
-      speed_with({.here_m = FreeWay::usual_tolerance_m, .per_m = caution.swing_per_m});
+      speed_with({.here_m = ForwardClearance::usual_tolerance_m, .per_m = caution.swing_per_m});
   const double share = share_of_speed(estimate.covariance, limits, caution);
   return {.forward_mps = std::min(
               {share * drive.max_forward_mps, speed_with(spare), std::max(swinging_mps, caution.creep_mps)}),

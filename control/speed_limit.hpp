@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "control/drive_options.hpp"
-#include "control/free_way.hpp"
+#include "control/forward_clearance.hpp"
 #include "control/safety_stop.hpp"
 
 namespace lodestar {
@@ -44,7 +44,7 @@ struct SafeSpeedOptions {
 
 /// The less sure of its pose the slower, and never so fast that the robot could not stop before it meets what
 /// lies straight ahead, nor, unless it creeps, what a wheel that slips would lead it to.
-SpeedLimit safe_speed(const FreeWay& way, const PoseEstimate& estimate, const SpareRoom& spare,
+SpeedLimit safe_speed(const ForwardClearance& way, const PoseEstimate& estimate, const SafetyMargin& spare,
                       const SafeSpeedOptions& options);
 
 }  // namespace lodestar

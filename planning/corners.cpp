@@ -34,7 +34,7 @@ struct Arc {
 
 /// The vertices of the polygon about the arc from one angle to another: so many, each on the tangents to both
 /// sides.
-void add_vertices(const ClearSpace& space, const Arc& arc, double from_rad, double to_rad, int count,
+void add_vertices(const CollisionChecker& space, const Arc& arc, double from_rad, double to_rad, int count,
                   bool tight, std::vector<TurnPoint>& points) {
   const double half_step = 0.5 * (to_rad - from_rad) / count;
   for (int i = 0; i < count; ++i) {
@@ -43,7 +43,7 @@ void add_vertices(const ClearSpace& space, const Arc& arc, double from_rad, doub
   }
 }
 
-void add_open_part(const ClearSpace& space, const Arc& arc, double from_rad, double to_rad,
+void add_open_part(const CollisionChecker& space, const Arc& arc, double from_rad, double to_rad,
                    std::vector<TurnPoint>& points) {
   constexpr double widest_rad = radians(30.0);
   const int count = std::max(1, static_cast<int>(std::ceil((to_rad - from_rad) / widest_rad - 1e-9)));
@@ -52,7 +52,7 @@ void add_open_part(const ClearSpace& space, const Arc& arc, double from_rad, dou
 }
 
 /// Other obstacles may take up some of the quarter circle; what is left of it is found by trying it in steps.
-void add_arc(const ClearSpace& space, const Arc& arc, std::vector<TurnPoint>& points) {
+void add_arc(const CollisionChecker& space, const Arc& arc, std::vector<TurnPoint>& points) {
   constexpr int steps = 18;
   constexpr double step_rad = radians(90.0) / steps;
   std::optional<int> open_since;
@@ -68,7 +68,7 @@ void add_arc(const ClearSpace& space, const Arc& arc, std::vector<TurnPoint>& po
 
 }  // namespace
 
-std::vector<TurnPoint> turn_points(const ClearSpace& space, double reach_cells) {
+std::vector<TurnPoint> turn_points(const CollisionChecker& space, double reach_cells) {
   const OccupancyMap& map = space.map();
   std::vector<TurnPoint> points;
   for (int row = 1; row < map.rows; ++row) {

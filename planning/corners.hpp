@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 
 namespace lodestar {
 
@@ -23,6 +23,6 @@ struct TurnPoint {
 ///        :  .    2   2, 3, 4 three turns
 ///     ###:.      .
 ///     #### . . . 4
-std::vector<TurnPoint> turn_points(const ClearSpace& space, double reach_cells);
+std::vector<TurnPoint> turn_points(const CollisionChecker& space, double reach_cells);
 
 }  // namespace lodestar

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 #include "planning/corners.hpp"
+#include "planning/footprint_planner.hpp"
 #include "planning/grid_search.hpp"
 #include "planning/jump_search.hpp"
-#include "planning/outline_planner.hpp"
 #include "planning/path_refining.hpp"
 #include "planning/path_shortening.hpp"
-#include "planning/turn_search.hpp"
+#include "planning/visibility_graph_search.hpp"
 
 namespace lodestar {
 namespace {
@@ -26,7 +26,7 @@ Vec2 center_of(Cell cell) {
 }
 
 /// Every leg as far along the points as it is clear.
-std::vector<Vec2> pulled_tight(const std::vector<Vec2>& points, const ClearSpace& space) {
+std::vector<Vec2> pulled_tight(const std::vector<Vec2>& points, const CollisionChecker& space) {
   std::vector<Vec2> tight{points.front()};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     if (!space.along(tight.back(), points[i + 1])) tight.push_back(points[i]);
@@ -72,18 +72,18 @@ std::string_view to_string(PlanFailure failure) {
 struct GridPlanner::Searches {
   explicit Searches(const OccupancyMap& map, double radius_m) : space(map, radius_m) {}
 
-  ClearSpace space;
+  CollisionChecker space;
   std::optional<JumpTable> jumps;
   std::optional<JumpSearch<JumpTable>> shortest;  ///< on the grid
   std::optional<GridSearch> cheapest;             ///< on the grid, when cells cost differently
-  std::optional<TurnSearch> turns;
-  std::optional<SureWay> sure;
+  std::optional<VisibilityGraphSearch> turns;
+  std::optional<UncertaintyConstrainedPlanner> sure;
 };
 
 GridPlanner::GridPlanner(const OccupancyMap& map, const GridPlannerOptions& options)
     : map_(map), options_(options), searches_(std::make_unique<Searches>(map_, options.radius_m)) {
   if (options_.footprint) {
-    outline_ = std::make_unique<OutlinePlanner>(map_, *options_.footprint, options_);
+    outline_ = std::make_unique<FootprintPlanner>(map_, *options_.footprint, options_);
     return;
   }
   weigh_cells();
@@ -209,7 +209,7 @@ std::variant<GridPlanner::Ends, PlanFailure> GridPlanner::ends_of(const Vec2& st
                                                                   const Vec2& goal_m) const {
   const Vec2 start = in_grid(start_m);
   const Vec2 goal = in_grid(goal_m);
-  const ClearSpace& space = searches_->space;
+  const CollisionChecker& space = searches_->space;
   if (!start.allFinite() || !map_.contains(map_.cell_at(start_m))) return PlanFailure::start_outside_map;
   if (!goal.allFinite() || !map_.contains(map_.cell_at(goal_m))) return PlanFailure::goal_outside_map;
   if (!is_drivable(map_.at(cell_of(start)))) return PlanFailure::start_occupied;
@@ -294,7 +294,7 @@ std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeading
     in_grid_frame.start_rad = wrap_angle(*headings.start_rad - yaw_rad);
   if (headings.goal_rad) in_grid_frame.goal_rad = wrap_angle(*headings.goal_rad - yaw_rad);
 
-  const ClearSpace& space = searches_->space;
+  const CollisionChecker& space = searches_->space;
   std::vector<Vec2> known =
       costs_.empty() ? pulled_tight(jump_path(ends, expanded), space) : few_legs(ends, expanded);
   // For time, moving turns pays far more than for length, where turn points are nearly the best there is.
@@ -306,7 +306,7 @@ std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeading
 }
 
 std::optional<std::vector<Vec2>> GridPlanner::sampled_legs(const Ends& ends, std::size_t& expanded) const {
-  const ClearSpace& space = searches_->space;
+  const CollisionChecker& space = searches_->space;
   const std::optional<SampledPath> found = search_by_sampling(
       sampling_method(options_.kind).value(), space, ends.starts_clear ? ends.start : center_of(ends.first),
       ends.goal, options_.sampling);
@@ -319,7 +319,7 @@ std::optional<Vec2> GridPlanner::nearest_reachable(const Vec2& start_m, const Ve
   if (outline_) return outline_->nearest_reachable(start_m, goal_m);
   const Vec2 start = in_grid(start_m);
   if (!start.allFinite() || !goal_m.allFinite() || !map_.contains(map_.cell_at(start_m))) return std::nullopt;
-  const ClearSpace& space = searches_->space;
+  const CollisionChecker& space = searches_->space;
   const std::optional<Cell> first = first_cell(start);
   if (!first) return std::nullopt;
   std::optional<Vec2> nearest;

@@ -14,11 +14,11 @@
 #include "maps/travel_time.hpp"
 #include "planning/footprint.hpp"
 #include "planning/planner_kind.hpp"
-#include "planning/sure_way.hpp"
+#include "planning/uncertainty_constrained_planner.hpp"
 
 namespace lodestar {
 
-class OutlinePlanner;
+class FootprintPlanner;
 
 /// Ground to keep away from where there is another way: it costs as much as if it were longer.
 struct ShunnedGround {
@@ -126,7 +126,7 @@ class GridPlanner {
   GridPlannerOptions options_;
   std::vector<float> costs_;  ///< of cells; empty: all alike
   std::unique_ptr<Searches> searches_;
-  std::unique_ptr<OutlinePlanner> outline_;  ///< answers instead when there is an outline
+  std::unique_ptr<FootprintPlanner> outline_;  ///< answers instead when there is an outline
 };
 
 }  // namespace lodestar

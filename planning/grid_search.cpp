@@ -15,7 +15,7 @@ struct GridSearch::Later {
   }
 };
 
-GridSearch::GridSearch(const ClearSpace& space, const CellCosts& costs)
+GridSearch::GridSearch(const CollisionChecker& space, const CellCosts& costs)
     : space_(space), costs_(costs), nodes_(costs.size()) {}
 
 std::size_t GridSearch::index(Cell cell) const {

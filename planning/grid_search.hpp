@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 
 namespace lodestar {
 
@@ -23,7 +23,7 @@ struct GridPath {
 /// way every time. Memory is kept from search to search. Space and costs must outlive it.
 class GridSearch {
  public:
-  GridSearch(const ClearSpace& space, const CellCosts& costs);
+  GridSearch(const CollisionChecker& space, const CellCosts& costs);
 
   /// Nothing when there is no path.
   std::optional<GridPath> find(Cell start, Cell goal);
@@ -48,7 +48,7 @@ class GridSearch {
   void reach(Cell cell, double cost, int by, Cell goal);
   [[nodiscard]] GridPath path_to(Cell cell) const;
 
-  const ClearSpace& space_;
+  const CollisionChecker& space_;
   const CellCosts& costs_;
   std::uint32_t visit_ = 0;
   std::size_t expanded_ = 0;

@@ -55,7 +55,7 @@ int BitLines::jump_down(int line, int from) const {
   }
 }
 
-JumpScan::JumpScan(const ClearSpace& space)
+JumpScan::JumpScan(const CollisionChecker& space)
     : columns_(space.columns()), rows_(space.rows()), by_row_(columns_, rows_), by_column_(rows_, columns_) {
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {

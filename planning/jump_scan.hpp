@@ -35,7 +35,7 @@ class BitLines {
 /// map that is used once or often changed.
 class JumpScan {
  public:
-  explicit JumpScan(const ClearSpace& space);
+  explicit JumpScan(const CollisionChecker& space);
 
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }

@@ -19,7 +19,7 @@ bool has(NeighbourMask neighbours, int direction) {
 
 }  // namespace
 
-JumpTable::JumpTable(const ClearSpace& space)
+JumpTable::JumpTable(const CollisionChecker& space)
     : columns_(space.columns()),
       rows_(space.rows()),
       jumps_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
@@ -30,7 +30,7 @@ JumpTable::JumpTable(const ClearSpace& space)
     fill(direction);  // a diagonal needs both of its straight directions
 }
 
-void JumpTable::find_neighbours(const ClearSpace& space) {
+void JumpTable::find_neighbours(const CollisionChecker& space) {
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       if (!space.at({column, row})) continue;

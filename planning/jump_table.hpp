@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 #include "planning/grid_step.hpp"
 
 namespace lodestar {
@@ -30,7 +30,7 @@ constexpr bool is_jump_point(int direction, NeighbourMask neighbours) {
 /// linear in its cells (the JPS+ of Harabor and Grastien 2014); 17 bytes a cell.
 class JumpTable {
  public:
-  explicit JumpTable(const ClearSpace& space);
+  explicit JumpTable(const CollisionChecker& space);
 
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }
@@ -44,7 +44,7 @@ class JumpTable {
     return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(cell.column);
   }
-  void find_neighbours(const ClearSpace& space);
+  void find_neighbours(const CollisionChecker& space);
   void fill(int direction);
   [[nodiscard]] std::int16_t jump_from(std::size_t cell, int direction) const;
 

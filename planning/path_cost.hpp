@@ -7,7 +7,7 @@
 #include <span>
 
 #include "maps/travel_time.hpp"
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 #include "planning/grid_search.hpp"
 
 namespace lodestar {

@@ -11,7 +11,7 @@ constexpr double worthwhile = 1e-6;  ///< relative gain below which nothing is c
 
 class Refining {
  public:
-  Refining(std::vector<Vec2> points, const EndHeadings& headings, const ClearSpace& space,
+  Refining(std::vector<Vec2> points, const EndHeadings& headings, const CollisionChecker& space,
            const PathCost& cost)
       : points_(std::move(points)), headings_(headings), space_(space), cost_(cost) {}
 
@@ -113,14 +113,14 @@ class Refining {
 
   std::vector<Vec2> points_;
   EndHeadings headings_;
-  const ClearSpace& space_;
+  const CollisionChecker& space_;
   const PathCost& cost_;
 };
 
 }  // namespace
 
-std::vector<Vec2> refined(std::vector<Vec2> points, const EndHeadings& headings, const ClearSpace& space,
-                          const PathCost& cost, Refinement refinement) {
+std::vector<Vec2> refined(std::vector<Vec2> points, const EndHeadings& headings,
+                          const CollisionChecker& space, const PathCost& cost, Refinement refinement) {
   return points.size() < 3 ? points : Refining(std::move(points), headings, space, cost).run(refinement);
 }
 

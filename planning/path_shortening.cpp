@@ -26,8 +26,8 @@ std::vector<Vec2> leg_ends(const std::vector<Vec2>& points) {
   return chosen;
 }
 
-std::vector<Vec2> shortened(const std::vector<Vec2>& points, const ClearSpace& space, const PathCost& cost,
-                            double turn_cost_m) {
+std::vector<Vec2> shortened(const std::vector<Vec2>& points, const CollisionChecker& space,
+                            const PathCost& cost, double turn_cost_m) {
   if (points.size() < 3) return points;
   const std::vector<Vec2> at = leg_ends(points);
   std::vector<double> best(at.size(), std::numeric_limits<double>::infinity());

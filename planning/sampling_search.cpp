@@ -101,7 +101,7 @@ ob::RealVectorBounds bounds_of(const OccupancyMap& map) {
   return bounds;
 }
 
-ob::SpaceInformationPtr plane_of(const ClearSpace& space) {
+ob::SpaceInformationPtr plane_of(const CollisionChecker& space) {
   const auto plane = std::make_shared<PlaneSpace>(2);
   plane->setBounds(bounds_of(space.map()));
   const auto information = std::make_shared<ob::SpaceInformation>(plane);
@@ -116,7 +116,7 @@ ob::SpaceInformationPtr plane_of(const ClearSpace& space) {
 }
 
 /// Turn to the leg, drive it, turn to the heading of its end.
-bool is_clear_between(const OutlineSpace& space, const ob::State* from, const ob::State* to) {
+bool is_clear_between(const FootprintCollisionChecker& space, const ob::State* from, const ob::State* to) {
   const Vec2 a = place_of(from);
   const Vec2 b = place_of(to);
   if (a == b) return space.turning(a, heading_of(from), heading_of(to));
@@ -126,7 +126,7 @@ bool is_clear_between(const OutlineSpace& space, const ob::State* from, const ob
 }
 
 /// `both_ways`: for planners whose edges have no direction.
-ob::SpaceInformationPtr poses_of(const OutlineSpace& space, bool both_ways) {
+ob::SpaceInformationPtr poses_of(const FootprintCollisionChecker& space, bool both_ways) {
   const auto poses = std::make_shared<PoseSpace>();
   poses->setBounds(bounds_of(space.map()));
   const auto information = std::make_shared<ob::SpaceInformation>(poses);
@@ -141,7 +141,7 @@ ob::SpaceInformationPtr poses_of(const OutlineSpace& space, bool both_ways) {
 }
 
 /// The heading that is wanted, or those of eight in which the outline fits.
-std::vector<double> headings_at(const OutlineSpace& space, const Vec2& point,
+std::vector<double> headings_at(const FootprintCollisionChecker& space, const Vec2& point,
                                 std::optional<double> wanted_rad) {
   if (wanted_rad) return {*wanted_rad};
   std::vector<double> headings_rad;
@@ -172,9 +172,9 @@ ob::ProblemDefinitionPtr problem_of(const ob::SpaceInformationPtr& information, 
   return problem;
 }
 
-ob::ProblemDefinitionPtr problem_of(const ob::SpaceInformationPtr& information, const OutlineSpace& space,
-                                    const Vec2& start, const Vec2& goal, const EndHeadings& headings,
-                                    double enough_cells) {
+ob::ProblemDefinitionPtr problem_of(const ob::SpaceInformationPtr& information,
+                                    const FootprintCollisionChecker& space, const Vec2& start,
+                                    const Vec2& goal, const EndHeadings& headings, double enough_cells) {
   const auto problem = std::make_shared<ob::ProblemDefinition>(information);
   const auto pose = [&](const Vec2& point, double heading_rad) {
     ob::ScopedState<ob::SE2StateSpace> state(information->getStateSpace());
@@ -245,7 +245,7 @@ std::unique_lock<std::mutex> seeded(std::uint32_t seed) {
 
 }  // namespace
 
-std::optional<SampledPath> search_by_sampling(SamplingMethod method, const ClearSpace& space,
+std::optional<SampledPath> search_by_sampling(SamplingMethod method, const CollisionChecker& space,
                                               const Vec2& start, const Vec2& goal,
                                               const SamplingOptions& options) {
   const std::unique_lock lock = seeded(options.seed);
@@ -259,7 +259,7 @@ std::optional<SampledPath> search_by_sampling(SamplingMethod method, const Clear
   return path;
 }
 
-std::optional<SampledPath> search_by_sampling(SamplingMethod method, const OutlineSpace& space,
+std::optional<SampledPath> search_by_sampling(SamplingMethod method, const FootprintCollisionChecker& space,
                                               const Vec2& start, const Vec2& goal,
                                               const EndHeadings& headings, const SamplingOptions& options) {
   const std::unique_lock lock = seeded(options.seed);

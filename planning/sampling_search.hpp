@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "planning/clear_space.hpp"
-#include "planning/outline_space.hpp"
+#include "planning/collision_checker.hpp"
+#include "planning/footprint_collision_checker.hpp"
 
 namespace lodestar {
 
@@ -27,10 +27,10 @@ struct SampledPath {
   std::size_t iterations = 0;
 };
 
-/// A path between two clear points with the footprint check of ClearSpace, exact along every leg. Nothing
-/// when none was found within the limits: paths that only come near to the goal do not count. OMPL keeps one
-/// seed for the whole program, so calls wait for each other.
-std::optional<SampledPath> search_by_sampling(SamplingMethod method, const ClearSpace& space,
+/// A path between two clear points with the footprint check of CollisionChecker, exact along every leg.
+/// Nothing when none was found within the limits: paths that only come near to the goal do not count. OMPL
+/// keeps one seed for the whole program, so calls wait for each other.
+std::optional<SampledPath> search_by_sampling(SamplingMethod method, const CollisionChecker& space,
                                               const Vec2& start, const Vec2& goal,
                                               const SamplingOptions& options);
 
@@ -38,7 +38,7 @@ std::optional<SampledPath> search_by_sampling(SamplingMethod method, const Clear
 /// to the heading of the state, each checked exactly. Where no heading is given, the start looks towards the
 /// goal or as nearly so as fits, and the goal has eight to choose from. The points are of a path that fits
 /// when the robot turns from leg to leg without the headings between.
-std::optional<SampledPath> search_by_sampling(SamplingMethod method, const OutlineSpace& space,
+std::optional<SampledPath> search_by_sampling(SamplingMethod method, const FootprintCollisionChecker& space,
                                               const Vec2& start, const Vec2& goal,
                                               const EndHeadings& headings, const SamplingOptions& options);
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "app/bench/scene.hpp"
-#include "app/parallel.hpp"
-#include "localization/marker_detector.hpp"
-#include "localization/pose_fixer.hpp"
+#include "app/common/parallel.hpp"
+#include "localization/detection/marker_detector.hpp"
+#include "localization/pose/pose_fixer.hpp"
 
 namespace lodestar {
 namespace {

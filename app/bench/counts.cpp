@@ -4,7 +4,7 @@
 
 #include "app/bench/hard_scene.hpp"
 #include "app/bench/truth.hpp"
-#include "app/parallel.hpp"
+#include "app/common/parallel.hpp"
 
 namespace lodestar {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "localization/map_estimate.hpp"
+#include "localization/pose/map_estimate.hpp"
 
 namespace lodestar {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "app/bench/cramer_rao.hpp"
 #include "app/bench/truth.hpp"
+#include "app/common/stopwatch.hpp"
 #include "app/report/run_statistics.hpp"
-#include "app/stopwatch.hpp"
 
 namespace lodestar {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "app/bench/paper.hpp"
-#include "app/parallel.hpp"
+#include "app/common/parallel.hpp"
 
 namespace lodestar {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "app/bench/scene.hpp"
 #include "app/bench/square_tags.hpp"
-#include "app/stopwatch.hpp"
-#include "localization/marker_detector.hpp"
-#include "localization/pose_fixer.hpp"
+#include "app/common/stopwatch.hpp"
+#include "localization/detection/marker_detector.hpp"
+#include "localization/pose/pose_fixer.hpp"
 
 namespace lodestar {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/image_former.hpp"
+#include "drivers/simulation/image_former.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/marker_registry.hpp"
 

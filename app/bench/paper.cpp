@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "app/bench/scene.hpp"
-#include "app/stopwatch.hpp"
-#include "drivers/image_former.hpp"
-#include "localization/marker_detector.hpp"
+#include "app/common/stopwatch.hpp"
+#include "drivers/simulation/image_former.hpp"
+#include "localization/detection/marker_detector.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 

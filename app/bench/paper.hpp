@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "localization/pose_fix.hpp"
+#include "localization/pose/pose_fix.hpp"
 
 // The paper's three experiments, done again with rendered frames of the paper's camera.
 namespace lodestar {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/stopwatch.hpp"
+#include "app/common/stopwatch.hpp"
 #include "maps/median.hpp"
 #include "planning/grid_search.hpp"
 #include "planning/jump_search.hpp"
@@ -17,7 +17,7 @@ bool ScenarioAnswer::optimal() const {
 std::vector<ScenarioAnswer> answer_scenario(const OccupancyMap& map,
                                             const std::vector<MovingAiQuery>& queries,
                                             const ScenarioOptions& options) {
-  const ClearSpace space(map, 0.0);
+  const CollisionChecker space(map, 0.0);
   const JumpTable jumps(space);
   JumpSearch search(jumps);
   const CellCosts even(map.cells.size(), 1.0F);

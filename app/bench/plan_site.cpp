@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "app/navigation_setup.hpp"
-#include "app/stopwatch.hpp"
+#include "app/common/stopwatch.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "maps/median.hpp"
 #include "maps/random.hpp"
 #include "planning/jump_search.hpp"
@@ -30,7 +30,7 @@ Vec2 random_place(const OccupancyMap& map, Random& random) {
   return map.map_from_grid * Vec2(in_grid * map.resolution_m);
 }
 
-std::vector<Query> random_queries(const OccupancyMap& map, const ClearSpace& space,
+std::vector<Query> random_queries(const OccupancyMap& map, const CollisionChecker& space,
                                   const SiteBenchOptions& options) {
   constexpr int most_tries = 100000;
   Random random(options.seed);
@@ -107,7 +107,7 @@ SiteBenchResult bench_site(const Site& site, const SiteBenchOptions& options) {
   planning.clearance_weight = 0.0;  // so that lengths can be compared
   planning.sampling = options.sampling;
 
-  const ClearSpace space(map, planning.radius_m);
+  const CollisionChecker space(map, planning.radius_m);
   const JumpTable jumps(space);
   JumpSearch grid(jumps);
   std::vector<std::unique_ptr<GridPlanner>> planners;

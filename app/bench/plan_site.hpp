@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/site.hpp"
+#include "app/site/site.hpp"
 #include "planning/grid_planner.hpp"
 
 // All planners on the same random queries over a site's map, with its robot.

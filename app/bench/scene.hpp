@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "drivers/image_former.hpp"
+#include "drivers/simulation/image_former.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 

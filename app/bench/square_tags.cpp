@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/bench/scene.hpp"
-#include "app/stopwatch.hpp"
-#include "localization/pose_guess.hpp"
+#include "app/common/stopwatch.hpp"
+#include "localization/pose/pose_guess.hpp"
 
 namespace lodestar {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_site.hpp"
-#include "app/parallel.hpp"
-#include "app/whole_number.hpp"
+#include "app/common/parallel.hpp"
+#include "app/common/whole_number.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker_code.hpp"
 #include "maps/random.hpp"
@@ -98,7 +98,7 @@ MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record) {
   MissionOutcome outcome{.mission = number};
   for (const FaultEvent& fault : record.faults) outcome.faults.emplace_back(to_string(fault.kind));
   outcome.arrived = goal.arrived;
-  if (goal.score) outcome.error_m = goal.score->position_error_m;
+  if (const auto score = record.score_of(0)) outcome.error_m = score->position_error_m;
   outcome.failure = goal.failure;
   outcome.contacts = record.contacts;
   outcome.driven_s = record.truth.empty() ? 0.0 : seconds(record.truth.back().stamp);
@@ -159,7 +159,7 @@ std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const Ca
       outcome = before->second;
     } else {
       const CampaignMission mission = mission_of(robot_and_cameras, ids, number);
-      outcome = outcome_of(number, replay(mission.site, mission.replay));
+      outcome = outcome_of(number, simulate_drive(mission.site, mission.replay));
     }
     const std::lock_guard lock(mutex);
     if (before == known.end()) log << as_json(outcome).dump() << "\n" << std::flush;

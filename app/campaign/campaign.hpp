@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/replay.hpp"
+#include "app/simulate/simulated_drive.hpp"
 
 namespace lodestar {
 
@@ -37,7 +37,7 @@ MissionOutcome outcome_from(const nlohmann::json& json);
 /// One mission as its number says: a building, a drive, and what goes wrong.
 struct CampaignMission {
   Site site;
-  ReplayOptions replay;
+  SimulatedDriveOptions replay;
 };
 CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number);
 MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "drivers/fault.hpp"
+#include "drivers/simulation/fault.hpp"
 
 namespace lodestar {
 

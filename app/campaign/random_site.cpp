@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "app/navigation_setup.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "maps/random.hpp"
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 #include "planning/margin_planner.hpp"
 
 namespace lodestar {
@@ -111,7 +111,7 @@ MarkerRegistry ceiling_of(const OccupancyMap& map, const std::vector<int>& ids, 
   return registry;
 }
 
-Pose2 somewhere(const OccupancyMap& map, const ClearSpace& clear, Random& random) {
+Pose2 somewhere(const OccupancyMap& map, const CollisionChecker& clear, Random& random) {
   while (true) {
     const Cell cell{static_cast<int>(random.below(static_cast<std::uint64_t>(map.columns))),
                     static_cast<int>(random.below(static_cast<std::uint64_t>(map.rows)))};
@@ -124,7 +124,7 @@ Pose2 somewhere(const OccupancyMap& map, const ClearSpace& clear, Random& random
 bool find_a_way(Site& site, Random random) {
   constexpr int tries = 60;
   const OccupancyMap& map = site.map.map;
-  const ClearSpace clear(map, site.robot.radius_m + 0.1);
+  const CollisionChecker clear(map, site.robot.radius_m + 0.1);
   if (std::ranges::none_of(map.cells, is_drivable)) return false;
   const MarginPlanner planner(map, navigation_options(site.robot).planner);
   for (int i = 0; i < tries; ++i) {

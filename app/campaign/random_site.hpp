@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/site.hpp"
+#include "app/site/site.hpp"
 
 namespace lodestar {
 

@@ -4,7 +4,7 @@
 
 #include "app/bench/paper.hpp"
 #include "app/commands/bench_plan.hpp"
-#include "app/commands/command.hpp"
+#include "app/commands/commands.hpp"
 
 namespace lodestar {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "app/bench/localize_report.hpp"
-#include "app/commands/command.hpp"
-#include "app/progress.hpp"
+#include "app/commands/commands.hpp"
+#include "app/common/progress.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/commands/command.hpp"
+#include "app/commands/commands.hpp"
 
 namespace lodestar {
 

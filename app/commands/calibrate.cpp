@@ -4,11 +4,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/camera_set.hpp"
-#include "app/commands/command.hpp"
-#include "app/mount_set.hpp"
-#include "app/robot_mount.hpp"
-#include "app/site.hpp"
+#include "app/commands/commands.hpp"
+#include "app/placement/camera_set.hpp"
+#include "app/placement/mount_set.hpp"
+#include "app/site/robot_mount.hpp"
+#include "app/site/site.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/input_error.hpp"

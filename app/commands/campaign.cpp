@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "app/campaign/campaign_report.hpp"
-#include "app/commands/command.hpp"
-#include "app/progress.hpp"
+#include "app/commands/commands.hpp"
+#include "app/common/progress.hpp"
 #include "app/report/run_folder.hpp"
 #include "maps/atomic_file.hpp"
 
@@ -42,7 +42,7 @@ ExitCode verdict(const std::vector<MissionOutcome>& outcomes) {
 
 ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const fs::path& output) {
   const CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number);
-  RunRecord record = replay(mission.site, mission.replay);
+  RunRecord record = simulate_drive(mission.site, mission.replay);
   const MissionOutcome outcome = outcome_of(number, record);
   record.repeat = repeat_command(outcome);
   const fs::path folder = output / fmt::format("mission-{}", number);

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/console/access.hpp"
+#include "app/net/access.hpp"
 #include "maps/stamp.hpp"
 
 namespace lodestar {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/command.hpp"
+#include "app/commands/commands.hpp"
 #include "app/commands/frame_arguments.hpp"
-#include "localization/marker_detector.hpp"
+#include "localization/detection/marker_detector.hpp"
 
 namespace lodestar {
 namespace {

@@ -1,11 +1,11 @@
-#include "app/doctor.hpp"
+#include "app/drive/doctor.hpp"
 
 #include <algorithm>
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/command.hpp"
+#include "app/commands/commands.hpp"
 
 namespace lodestar {
 namespace {

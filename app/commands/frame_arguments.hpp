@@ -6,7 +6,7 @@
 
 #include "app/frames/frame_inputs.hpp"
 #include "app/frames/overlay.hpp"
-#include "localization/marker_detector.hpp"
+#include "localization/detection/marker_detector.hpp"
 
 namespace lodestar {
 

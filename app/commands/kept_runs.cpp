@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "app/navigation_setup.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "app/report/run_folder.hpp"
 #include "maps/input_error.hpp"
 

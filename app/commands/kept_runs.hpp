@@ -4,7 +4,7 @@
 #include <future>
 
 #include "app/report/run_record.hpp"
-#include "app/site.hpp"
+#include "app/site/site.hpp"
 #include "app/viewers/run_mcap.hpp"
 
 namespace lodestar {

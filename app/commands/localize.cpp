@@ -6,13 +6,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/command.hpp"
+#include "app/commands/commands.hpp"
 #include "app/commands/frame_arguments.hpp"
-#include "app/site.hpp"
-#include "localization/expected_view.hpp"
-#include "localization/marker_tracker.hpp"
-#include "localization/mount.hpp"
-#include "localization/pose_fixer.hpp"
+#include "app/site/site.hpp"
+#include "localization/pose/expected_view.hpp"
+#include "localization/pose/marker_tracker.hpp"
+#include "localization/pose/mount.hpp"
+#include "localization/pose/pose_fixer.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {

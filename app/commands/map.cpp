@@ -6,10 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include "app/commands/command.hpp"
-#include "app/navigation_setup.hpp"
+#include "app/common/picture_file.hpp"
+#include "app/commands/commands.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "app/report/figure.hpp"
-#include "app/visibility_figure.hpp"
+#include "app/report/visibility_figure.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/octomap_file.hpp"

@@ -3,9 +3,9 @@
 #include <memory>
 #include <sstream>
 
-#include "app/commands/command.hpp"
-#include "app/markers/formats.hpp"
-#include "app/markers/sheet.hpp"
+#include "app/commands/commands.hpp"
+#include "app/placement/formats.hpp"
+#include "app/placement/sheet.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/command.hpp"
-#include "app/markers/coverage.hpp"
-#include "app/markers/site_floor.hpp"
+#include "app/commands/commands.hpp"
+#include "app/placement/coverage.hpp"
+#include "app/placement/site_floor.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker.hpp"

@@ -3,13 +3,14 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/arguments.hpp"
-#include "app/commands/command.hpp"
+#include "app/common/picture_file.hpp"
+#include "app/commands/commands.hpp"
 #include "app/commands/planner_options.hpp"
-#include "app/navigation_setup.hpp"
-#include "app/pose_keeping.hpp"
+#include "app/common/stopwatch.hpp"
+#include "app/navigation/navigation_setup.hpp"
+#include "app/placement/pose_keeping.hpp"
 #include "app/report/figure.hpp"
-#include "app/stopwatch.hpp"
+#include "app/site/arguments.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"

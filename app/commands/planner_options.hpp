@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/pose_keeping.hpp"
+#include "app/placement/pose_keeping.hpp"
 #include "planning/grid_planner.hpp"
 
 // The options of planners that several commands share.

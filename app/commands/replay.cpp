@@ -1,25 +1,24 @@
-#include "app/replay.hpp"
-
 #include <ctime>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/arguments.hpp"
-#include "app/commands/command.hpp"
+#include "app/commands/commands.hpp"
 #include "app/commands/console_options.hpp"
+#include "app/commands/console_service.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/commands/planner_options.hpp"
-#include "app/console/console_service.hpp"
-#include "app/interruption.hpp"
-#include "app/live/attendant.hpp"
-#include "app/navigation_setup.hpp"
-#include "app/progress.hpp"
-#include "app/replay_faults.hpp"
-#include "app/replay_runs.hpp"
+#include "app/common/interruption.hpp"
+#include "app/common/progress.hpp"
+#include "app/live/operator_session.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "app/report/run_folder.hpp"
-#include "app/report/run_table.hpp"
+#include "app/simulate/fault_files.hpp"
+#include "app/simulate/run_table.hpp"
+#include "app/simulate/simulated_drive.hpp"
+#include "app/simulate/simulated_drives.hpp"
+#include "app/site/arguments.hpp"
 #include "app/viewers/run_mcap.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
@@ -38,7 +37,7 @@ struct ReplayArguments {
   std::vector<std::string> goals;
   std::optional<double> pictures_hz;
   PoseKeepingOptions pose_keeping;
-  Hardships hardships;
+  Disturbances disturbances;
   std::string faults;
   bool realtime = false;
   bool quiet = false;
@@ -54,16 +53,16 @@ fs::path default_site() {
   return fs::exists(here / "site.yaml") ? here : fs::path(LODESTAR_SITES_DIR) / "lab";
 }
 
-ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site) {
-  ReplayOptions options{.camera = arguments.camera.empty() ? site.default_camera : arguments.camera,
-                        .seed = arguments.seed,
-                        .goals = site.goals,
-                        .planner = planner_kind(arguments.planner).value(),
-                        .pose_keeping = std::nullopt,
-                        .hardships = arguments.hardships,
-                        .disk = std::make_shared<SimulatedDisk>(),
-                        .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
-                        .realtime = arguments.realtime};
+SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Site& site) {
+  SimulatedDriveOptions options{.camera = arguments.camera.empty() ? site.default_camera : arguments.camera,
+                                .seed = arguments.seed,
+                                .goals = site.goals,
+                                .planner = planner_kind(arguments.planner).value(),
+                                .pose_keeping = std::nullopt,
+                                .disturbances = arguments.disturbances,
+                                .disk = std::make_shared<SimulatedDisk>(),
+                                .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
+                                .realtime = arguments.realtime};
   if (!arguments.faults.empty()) options.faults = faults_named(arguments.faults);
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
@@ -80,18 +79,18 @@ ReplayOptions replay_options(const ReplayArguments& arguments, const Site& site)
   return options;
 }
 
-std::string hardship_flags(const Hardships& hardships) {
+std::string disturbance_flags(const Disturbances& disturbances) {
   std::string flags;
-  if (hardships.lost_frames) flags += fmt::format(" --lose-frames {}", *hardships.lost_frames);
-  if (hardships.unequal_wheels) flags += fmt::format(" --unequal-wheels {}", *hardships.unequal_wheels);
-  if (hardships.removed_markers > 0.0)
-    flags += fmt::format(" --remove-markers {}", hardships.removed_markers);
-  if (hardships.plain_ceiling) flags += " --plain-ceiling";
+  if (disturbances.lost_frames) flags += fmt::format(" --lose-frames {}", *disturbances.lost_frames);
+  if (disturbances.unequal_wheels) flags += fmt::format(" --unequal-wheels {}", *disturbances.unequal_wheels);
+  if (disturbances.removed_markers > 0.0)
+    flags += fmt::format(" --remove-markers {}", disturbances.removed_markers);
+  if (disturbances.plain_ceiling) flags += " --plain-ceiling";
   return flags;
 }
 
 /// The command line that gives the same run, and so the same bytes.
-std::string repeat_command(const ReplayArguments& arguments, const ReplayOptions& options) {
+std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriveOptions& options) {
   const std::string& site = arguments.site;
   std::string command =
       fmt::format("lodestar replay{} --seed {} --camera {} --planner {}", site.empty() ? "" : " " + site,
@@ -102,7 +101,7 @@ std::string repeat_command(const ReplayArguments& arguments, const ReplayOptions
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
   }
   if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
-  return command + hardship_flags(options.hardships);
+  return command + disturbance_flags(options.disturbances);
 }
 
 nlohmann::ordered_json as_json(const RunSummary& run) {
@@ -129,13 +128,15 @@ double cpu_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-ExitCode replay_many(const Site& site, const ReplayOptions& options, const ReplayArguments& arguments) {
+ExitCode replay_many(const Site& site, const SimulatedDriveOptions& options,
+                     const ReplayArguments& arguments) {
   const double begun_s = cpu_seconds();
   std::vector<RunSummary> runs;
   {
     Progress progress("replay", arguments.quiet);
-    runs = replay_runs(site, options, arguments.runs,
-                       [&](int finished) { progress.show(static_cast<double>(finished) / arguments.runs); });
+    runs = simulate_drives(site, options, arguments.runs, [&](int finished) {
+      progress.show(static_cast<double>(finished) / arguments.runs);
+    });
   }
   nlohmann::ordered_json report = nlohmann::ordered_json::array();
   for (const RunSummary& run : runs) report.push_back(as_json(run));
@@ -152,15 +153,17 @@ ExitCode replay_many(const Site& site, const ReplayOptions& options, const Repla
 }
 
 void print_goals(const RunRecord& record) {
-  for (const GoalRecord& goal : record.goals) {
+  for (std::size_t i = 0; i < record.goals.size(); ++i) {
+    const GoalRecord& goal = record.goals[i];
     const Vec2& at = goal.goal.position_m;
     if (!goal.arrived) {
       fmt::print("({:.2f}, {:.2f}): not reached: {}\n", at.x(), at.y(), goal.failure);
       continue;
     }
+    const ArrivalScore score = record.score_of(i).value();
     fmt::print("({:.2f}, {:.2f}): reached after {:.1f} s and {:.2f} m, {:.1f} mm", at.x(), at.y(),
-               seconds(goal.travel_time), length_m(goal.planned), 1000.0 * goal.score->position_error_m);
-    if (goal.score->heading_error_rad) fmt::print(" and {:.2f} deg", degrees(*goal.score->heading_error_rad));
+               seconds(goal.travel_time), length_m(goal.planned), 1000.0 * score.position_error_m);
+    if (score.heading_error_rad) fmt::print(" and {:.2f} deg", degrees(*score.heading_error_rad));
     fmt::print(" off by the truth\n");
   }
 }
@@ -174,7 +177,7 @@ RunMcapOptions run_mcap_options(const SimulatedDisk& disk) {
   return {.is_full = [&disk] { return disk.full(); }, .delay = [&disk] { return disk.delay(); }};
 }
 
-ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArguments& arguments) {
+ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
   const fs::path folder = output_folder(site, arguments);
   RunRecord record;
   bool streamed = false;
@@ -185,7 +188,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
     mcap_options.can_wait = true;
     RunMcap mcap(folder, known_world(site, options.camera), body_of(site.robot), mcap_options);
     options.watch = [&mcap](const DriveMoment& moment) { mcap.watch(moment); };
-    record = replay(site, options);
+    record = simulate_drive(site, options);
     mcap.add_truth(record);
     streamed = mcap.finish();
   }
@@ -208,7 +211,7 @@ ExitCode replay_once(const Site& site, ReplayOptions options, const ReplayArgume
 }
 
 /// In a browser too, until Ctrl-C: what it drives, and where to next.
-ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArguments& arguments) {
+ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
   check_tokens(arguments.console.access);
   const fs::path folder = output_folder(site, arguments);
   ConsoleServiceOptions console = arguments.console;
@@ -216,7 +219,7 @@ ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArgu
   console.runs = fs::absolute(folder).parent_path();
   LiveLink link;
   ConsoleService service(console, &link);
-  Attendant attendant(link, [](const std::string& words) { fmt::print(stderr, "{}\n", words); });
+  OperatorSession session(link, [](const std::string& words) { fmt::print(stderr, "{}\n", words); });
   KeptRuns runs(folder, true, site, options.camera, run_mcap_options(*options.disk));
   options.watch = [&runs](const DriveMoment& moment) { runs.watch(moment); };
   bool all_arrived = true;
@@ -224,8 +227,8 @@ ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArgu
   const Interruption interruption;
   tell_address(console.access, service.port());
   const ConsoleThread thread(service);
-  replay_attended(
-      site, options, attendant, [] { return !Interruption::asked(); },
+  simulate_attended_drive(
+      site, options, session, [] { return !Interruption::asked(); },
       [&](RunRecord record) {
         all_arrived = all_arrived && record.arrived();
         if (runs.count() == 0) record.repeat = repeat_command(arguments, options);
@@ -237,7 +240,7 @@ ExitCode replay_served(const Site& site, ReplayOptions options, const ReplayArgu
 ExitCode replay_command(const ReplayArguments& arguments) {
   const Site site = load_site(arguments.site.empty() ? default_site() : fs::path(arguments.site));
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
-  const ReplayOptions options = replay_options(arguments, site);
+  const SimulatedDriveOptions options = replay_options(arguments, site);
   if (arguments.serve) return replay_served(site, options, arguments);
   return arguments.runs > 1 ? replay_many(site, options, arguments) : replay_once(site, options, arguments);
 }
@@ -272,18 +275,19 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->check(CLI::Range(0.0, 100.0));
   add_pose_keeping_options(*command, arguments->pose_keeping);
   const auto share = CLI::Range(0.0, 1.0);
-  command->add_option("--lose-frames", arguments->hardships.lost_frames, "Share of frames that never arrive")
+  command
+      ->add_option("--lose-frames", arguments->disturbances.lost_frames, "Share of frames that never arrive")
       ->check(share);
   command
-      ->add_option("--unequal-wheels", arguments->hardships.unequal_wheels,
+      ->add_option("--unequal-wheels", arguments->disturbances.unequal_wheels,
                    "By this share the left wheel rolls farther than the right one for the same reading")
       ->check(CLI::Range(-0.2, 0.2));
   command
       ->add_option(
-          "--remove-markers", arguments->hardships.removed_markers,
+          "--remove-markers", arguments->disturbances.removed_markers,
           "Share of markers that no longer hang, drawn from the seed; those nearest to start and goals stay")
       ->check(share);
-  command->add_flag("--plain-ceiling", arguments->hardships.plain_ceiling,
+  command->add_flag("--plain-ceiling", arguments->disturbances.plain_ceiling,
                     "Nothing on the ceiling but markers: no joints, stains or lamps");
   command->add_option("--faults", arguments->faults,
                       "What goes wrong: a file, or a name of the library as wheel-slip");

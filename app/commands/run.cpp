@@ -1,4 +1,4 @@
-#include "app/run.hpp"
+#include "app/drive/run.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -8,21 +8,21 @@
 #include <fmt/core.h>
 #include <memory>
 
-#include "app/arguments.hpp"
-#include "app/base_setup.hpp"
-#include "app/commands/command.hpp"
+#include "app/commands/commands.hpp"
 #include "app/commands/console_options.hpp"
+#include "app/commands/console_service.hpp"
 #include "app/commands/kept_runs.hpp"
-#include "app/console/console_service.hpp"
-#include "app/frames/camera_setup.hpp"
-#include "app/live/attendant.hpp"
-#include "app/navigation_setup.hpp"
-#include "app/operator_input.hpp"
-#include "app/report/can_log.hpp"
+#include "app/drive/camera_setup.hpp"
+#include "app/drive/operator_input.hpp"
+#include "app/live/operator_session.hpp"
+#include "app/navigation/navigation_setup.hpp"
+#include "app/recording/can_log.hpp"
 #include "app/report/run_folder.hpp"
+#include "app/site/arguments.hpp"
+#include "app/site/base_setup.hpp"
 #include "app/viewers/run_mcap.hpp"
-#include "drivers/guard.hpp"
-#include "drivers/recorded_bus.hpp"
+#include "drivers/base/guard.hpp"
+#include "drivers/can/recorded_bus.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -62,7 +62,7 @@ OperatorWish wish_of(OperatorInput& input) {
   return *word == OperatorWord::resume ? OperatorWish::resume : OperatorWish::stop;
 }
 
-void print_goals(const RunRecord& record) {
+void print_ends(const RunRecord& record) {
   for (const GoalRecord& goal : record.goals) {
     const Vec2& at = goal.goal.position_m;
     if (goal.arrived) {
@@ -82,7 +82,7 @@ class ServedRun {
         runs_(arguments.output.empty() ? fs::path(arguments.runs) / site.name : fs::path(arguments.output),
               !arguments.output.empty(), site, options.camera) {
     options.watch = [this](const DriveMoment& moment) { runs_.watch(moment); };
-    options.attendant = &attendant_;
+    options.session = &session_;
     options.hold_on_base_fault = true;
     options.keep = [this](RunRecord record) { keep(std::move(record)); };
     tell_address(arguments.console.access, service_.port());
@@ -107,7 +107,7 @@ class ServedRun {
   }
 
   LiveLink link_;
-  Attendant attendant_{link_};
+  OperatorSession session_{link_};
   ConsoleService service_;
   KeptRuns runs_;
   bool all_arrived_ = true;
@@ -183,7 +183,7 @@ ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> proto
   } catch (const InputError& error) {
     warn(error.what());
   }
-  print_goals(record);
+  print_ends(record);
   return record.arrived() ? done : job_failed;
 }
 

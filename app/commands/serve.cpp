@@ -1,9 +1,9 @@
 #include <memory>
 
-#include "app/commands/command.hpp"
+#include "app/commands/commands.hpp"
 #include "app/commands/console_options.hpp"
-#include "app/console/console_service.hpp"
-#include "app/interruption.hpp"
+#include "app/commands/console_service.hpp"
+#include "app/common/interruption.hpp"
 
 namespace lodestar {
 namespace {

@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/commands/command.hpp"
-#include "app/console/console.hpp"
-#include "app/console/http_server.hpp"
-#include "app/interruption.hpp"
-#include "app/process_health.hpp"
-#include "app/replay.hpp"
-#include "app/stopwatch.hpp"
+#include "app/commands/commands.hpp"
+#include "app/common/interruption.hpp"
+#include "app/common/process_health.hpp"
+#include "app/common/stopwatch.hpp"
+#include "app/console/document_api.hpp"
+#include "app/net/http_server.hpp"
+#include "app/simulate/simulated_drive.hpp"
 #include "maps/atomic_file.hpp"
 
 namespace lodestar {
@@ -56,7 +56,7 @@ class BackgroundConsole {
   [[nodiscard]] unsigned short port() const { return server_.port(); }
 
  private:
-  Console console_;
+  DocumentApi console_;
   HttpServer server_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
@@ -89,8 +89,9 @@ nlohmann::ordered_json as_json(const SoakResult& result, double minutes) {
           {"period_ms", times(result.period)}};
 }
 
-ReplayOptions mission(const Site& site, const SoakArguments& arguments, SoakResult& result) {
-  ReplayOptions options{.camera = site.default_camera, .goals = site.goals, .realtime = arguments.realtime};
+SimulatedDriveOptions mission(const Site& site, const SoakArguments& arguments, SoakResult& result) {
+  SimulatedDriveOptions options{
+      .camera = site.default_camera, .goals = site.goals, .realtime = arguments.realtime};
   const auto last = std::make_shared<std::optional<std::chrono::steady_clock::time_point>>();
   options.on_step = [&result, last, realtime = arguments.realtime](std::chrono::nanoseconds computing) {
     const auto now = std::chrono::steady_clock::now();
@@ -117,9 +118,9 @@ ExitCode soak(const SoakArguments& arguments) {
   constexpr double warm_share = 0.25;
   SoakResult result;
   while (watch.seconds() < wanted_s && !Interruption::asked()) {
-    ReplayOptions options = mission(site, arguments, result);
+    SimulatedDriveOptions options = mission(site, arguments, result);
     options.seed = static_cast<std::uint64_t>(++result.missions);
-    const RunRecord record = replay(site, options);
+    const RunRecord record = simulate_drive(site, options);
     if (!record.arrived() || record.contacts > 0) ++result.failed;
     result.last = process_health();
     if (result.warm.resident_kb == 0 && watch.seconds() >= warm_share * wanted_s) result.warm = result.last;

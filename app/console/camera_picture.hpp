@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "localization/marker_detector.hpp"
+#include "localization/detection/marker_detector.hpp"
 #include "maps/frame.hpp"
 
 namespace lodestar {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/console/live_json.hpp"
-#include "drivers/clock.hpp"
+#include "drivers/system/clock.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {

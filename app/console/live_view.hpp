@@ -7,8 +7,8 @@
 
 #include "app/console/camera_picture.hpp"
 #include "app/console/lease.hpp"
-#include "app/console/live_channel.hpp"
 #include "app/console/path_preview.hpp"
+#include "app/live/live_channel.hpp"
 #include "app/live/live_link.hpp"
 
 namespace lodestar {

@@ -1,7 +1,7 @@
 #include "app/console/path_preview.hpp"
 
 #include "app/console/live_json.hpp"
-#include "app/navigation_setup.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "control/travel_time.hpp"
 
 namespace lodestar {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/navigation.hpp"
-#include "app/site.hpp"
+#include "app/navigation/navigation.hpp"
+#include "app/site/site.hpp"
 
 namespace lodestar {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/goal.hpp"
+#include "app/site/goal.hpp"
 
 namespace lodestar {
 

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
+#include "app/common/interruption.hpp"
 #include "app/frames/frame_source.hpp"
-#include "app/interruption.hpp"
-#include "drivers/v4l2_camera.hpp"
+#include "drivers/camera/v4l2_camera.hpp"
 #include "maps/camera_model.hpp"
 
 namespace lodestar {

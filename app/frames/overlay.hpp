@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/frames/frame_source.hpp"
-#include "localization/detected_marker.hpp"
+#include "localization/detection/detected_marker.hpp"
 
 namespace lodestar {
 

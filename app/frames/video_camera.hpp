@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "app/frames/video_file.hpp"
-#include "drivers/camera.hpp"
-#include "drivers/clock.hpp"
+#include "drivers/camera/camera.hpp"
+#include "drivers/system/clock.hpp"
 
 namespace lodestar {
 

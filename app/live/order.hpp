@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/goal.hpp"
+#include "app/site/goal.hpp"
 
 // What people at the console want of the robot. Who may want it has been settled before.
 namespace lodestar {

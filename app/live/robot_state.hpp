@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/goal.hpp"
-#include "app/mission.hpp"
-#include "drivers/base_driver.hpp"
-#include "localization/marker_trust.hpp"
+#include "app/navigation/mission.hpp"
+#include "app/site/goal.hpp"
+#include "drivers/base/base_driver.hpp"
+#include "localization/integrity/marker_trust.hpp"
 #include "maps/frame.hpp"
 #include "maps/motion.hpp"
 

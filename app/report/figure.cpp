@@ -5,12 +5,10 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 
 #include "app/report/canvas.hpp"
 #include "app/report/run_statistics.hpp"
-#include "app/visibility_figure.hpp"
-#include "maps/atomic_file.hpp"
+#include "app/report/visibility_figure.hpp"
 #include "maps/marker.hpp"
 
 namespace lodestar {
@@ -248,23 +246,6 @@ cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const
     legend.disc(visibility_color(2), 10.0, "two");
   }
   return canvas.picture();
-}
-
-std::string png_bytes(const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
-  return {bytes.begin(), bytes.end()};
-}
-
-std::string jpeg_bytes(const cv::Mat& picture) {
-  constexpr int quality = 75;
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
-  return {bytes.begin(), bytes.end()};
-}
-
-void write_png(const std::filesystem::path& file, const cv::Mat& picture) {
-  write_file_atomically(file, png_bytes(picture));
 }
 
 }  // namespace lodestar

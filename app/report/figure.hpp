@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 
+#include "app/placement/visibility.hpp"
 #include "app/report/run_record.hpp"
-#include "app/visibility.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
 
@@ -18,12 +18,5 @@ cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const 
 /// are coloured by how many markers are seen from there.
 cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const Vec2& start_m,
                   const Vec2& goal_m, const Path& path, const Visibility* visibility = nullptr);
-
-/// The bytes of a PNG file.
-std::string png_bytes(const cv::Mat& picture);
-std::string jpeg_bytes(const cv::Mat& picture);
-
-/// Throws InputError when the file cannot be written.
-void write_png(const std::filesystem::path& file, const cv::Mat& picture);
 
 }  // namespace lodestar

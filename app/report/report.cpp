@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "app/base64.hpp"
+#include "app/common/base64.hpp"
 #include "app/report/page.hpp"
 #include "app/report/plot.hpp"
 #include "app/report/run_statistics.hpp"
@@ -14,12 +14,10 @@ namespace {
 
 constexpr double mm_per_m = 1000.0;
 
-std::string goal_row(const GoalRecord& goal) {
-  const std::string error =
-      goal.score ? fmt::format("{:.1f} mm", mm_per_m * goal.score->position_error_m) : "";
+std::string goal_row(const GoalRecord& goal, const std::optional<ArrivalScore>& score) {
+  const std::string error = score ? fmt::format("{:.1f} mm", mm_per_m * score->position_error_m) : "";
   std::string heading;
-  if (goal.score && goal.score->heading_error_rad)
-    heading = fmt::format("{:.2f}°", degrees(*goal.score->heading_error_rad));
+  if (score && score->heading_error_rad) heading = fmt::format("{:.2f}°", degrees(*score->heading_error_rad));
   return fmt::format(
       "<tr><td>{:.2f}, {:.2f}</td><td>{}</td><td>{:.2f} m</td><td>{:.1f} s</td><td>{}</td><td>{}</td></tr>\n",
       goal.goal.position_m.x(), goal.goal.position_m.y(),
@@ -137,7 +135,7 @@ std::string report_html(const RunRecord& record, const std::string& map_png) {
   html +=
       "<h2>Goals</h2>\n<table><tr><th>Goal (m)</th><th>End</th><th>Planned</th><th>Time</th><th>Off "
       "by</th><th>Heading off by</th></tr>\n";
-  for (const GoalRecord& goal : record.goals) html += goal_row(goal);
+  for (std::size_t i = 0; i < record.goals.size(); ++i) html += goal_row(record.goals[i], record.score_of(i));
   html += "</table>\n" + faults_table(record.faults);
   html +=
       "<h2>Errors against the truth</h2>\n<table><tr><th></th><th>median</th><th>95 "

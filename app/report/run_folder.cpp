@@ -1,3 +1,4 @@
+#include "app/common/picture_file.hpp"
 #include "app/report/run_folder.hpp"
 
 #include <cmath>
@@ -7,7 +8,7 @@
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_statistics.hpp"
-#include "drivers/candump.hpp"
+#include "drivers/can/candump.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 

@@ -1,87 +1,28 @@
 #pragma once
 
-#include <cstdint>
-#include <future>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "app/goal.hpp"
-#include "drivers/can_bus.hpp"
-#include "drivers/fault.hpp"
-#include "drivers/scoring.hpp"
-#include "localization/marker_trust.hpp"
-#include "maps/marker_registry.hpp"
-#include "maps/motion.hpp"
-#include "maps/occupancy_map.hpp"
+#include "app/recording/drive_record.hpp"
+#include "drivers/simulation/fault.hpp"
+#include "drivers/simulation/scoring.hpp"
 
-// What one replay leaves behind in memory; run_folder writes it out, figure and report draw it.
+// What one run leaves behind in memory; run_folder writes it out, figure and report draw it.
 namespace lodestar {
 
-/// One step of the navigator, at its steady rate.
-struct StepRecord {
-  PoseEstimate estimate;
-  BodyVelocity commanded;
-  BodyVelocity measured;             ///< by the base
-  Vec2 wheel_scales = Vec2::Ones();  ///< true over reported travel, left and right, as learned so far
-};
-
-/// One frame that gave a pose.
-struct FixRecord {
-  Stamp stamp;  ///< capture
-  Pose2 map_from_base;
-  std::vector<int> ids;
-  double confidence = 0.0;
-  bool accepted = false;  ///< by the pose filter
-};
-
-/// A camera frame worth keeping.
-struct KeptPicture {
-  Stamp stamp;                           ///< capture
-  std::shared_future<std::string> jpeg;  ///< made on the side, see PictureKeeper
-};
-
-/// How one goal ended.
-struct GoalRecord {
-  Goal goal;
-  Path planned;
-  bool arrived = false;
-  std::string failure;                ///< in words, when it did not arrive
-  double ideal_s = 0.0;               ///< that the path planned first takes at best
-  Duration travel_time{};             ///< simulated
-  Stamp ended;                        ///< when the goal was reached or given up
-  std::optional<ArrivalScore> score;  ///< by the truth, when it arrived
-};
-
-/// From here on something was wrong, in the navigator's words, or nothing any more.
-struct NoticeRecord {
-  Stamp stamp;
-  std::string words;  ///< empty: all is well again
-  bool stops = false;
-};
-
-struct RunRecord {
-  std::string site;
-  std::string camera;  ///< profile: wide or paper
-  std::uint64_t seed = 0;
-  std::string repeat;  ///< the command that gives the same run again
-  Pose2 start;
-  double robot_radius_m = 0.0;
-  std::vector<GoalRecord> goals;
-  std::vector<StepRecord> steps;
-  std::vector<FixRecord> fixes;
-  std::vector<KeptPicture> pictures;         ///< a few a second, where wanted
-  std::vector<DistrustedMarker> distrusted;  ///< at the end
-  std::vector<StampedCanFrame> can_frames;
+/// A drive, and what the judge of the simulated world says of it. Of a real drive there is no truth, no fault
+/// and no score.
+struct RunRecord : DriveRecord {
+  std::vector<std::optional<ArrivalScore>> scores;  ///< of each goal that has ended, when it arrived
   std::vector<TruePose> truth;
   std::vector<double> path_distances_m;  ///< of the true track from the planned curve
-  std::vector<NoticeRecord> notices;
-  std::vector<FaultEvent> faults;  ///< that were injected
+  std::vector<FaultEvent> faults;        ///< that were injected
   int contacts = 0;
-  int frames = 0;            ///< that arrived from the camera
-  double wall_time_s = 0.0;  ///< never written to a file that must repeat byte for byte
 
-  [[nodiscard]] bool arrived() const;
+  /// The score of a goal of `goals`; nothing where it did not arrive or has no judge.
+  [[nodiscard]] std::optional<ArrivalScore> score_of(std::size_t goal) const {
+    return goal < scores.size() ? scores[goal] : std::nullopt;
+  }
 };
 
 }  // namespace lodestar

@@ -36,14 +36,14 @@ Json spread_of(const std::vector<double>& values) {
           {"max", optional_json(percentile(values, 1.0))}};
 }
 
-Json goal_json(const GoalRecord& record) {
+Json goal_json(const GoalRecord& record, const std::optional<ArrivalScore>& score) {
   std::optional<double> heading_deg;
   if (record.goal.heading_rad) heading_deg = degrees(*record.goal.heading_rad);
   std::optional<double> position_error;
   std::optional<double> heading_error_deg;
-  if (record.score) {
-    position_error = record.score->position_error_m;
-    if (record.score->heading_error_rad) heading_error_deg = degrees(*record.score->heading_error_rad);
+  if (score) {
+    position_error = score->position_error_m;
+    if (score->heading_error_rad) heading_error_deg = degrees(*score->heading_error_rad);
   }
   const std::size_t waypoints = record.planned.waypoints_m.size();
   return {{"x_m", record.goal.position_m.x()},
@@ -102,10 +102,6 @@ double larger_sigma(const Eigen::Matrix2d& covariance) {
   return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
 }
 
-bool RunRecord::arrived() const {
-  return std::ranges::all_of(goals, &GoalRecord::arrived);
-}
-
 std::vector<std::vector<TruePose>> parts_of_track(const RunRecord& record) {
   std::vector<std::vector<TruePose>> parts(1);
   for (const TruePose& pose : record.truth) {
@@ -152,7 +148,8 @@ nlohmann::ordered_json summary_of(const RunRecord& record) {
   }
   const auto accepted = static_cast<std::size_t>(std::ranges::count_if(record.fixes, &FixRecord::accepted));
   Json goals = Json::array();
-  for (const GoalRecord& goal : record.goals) goals.push_back(goal_json(goal));
+  for (std::size_t i = 0; i < record.goals.size(); ++i)
+    goals.push_back(goal_json(record.goals[i], record.score_of(i)));
   return {{"site", record.site},
           {"camera", record.camera},
           {"seed", record.seed},

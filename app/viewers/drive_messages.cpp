@@ -74,7 +74,7 @@ MessageJson drive_json(const EstimateMoment& moment) {
           {"stop", moment.stop ? std::string(to_string(*moment.stop)) : ""}};
 }
 
-MessageJson fix_json(const UsedFix& used) {
+MessageJson fix_json(const FixAttempt& used) {
   const bool accepted = used.outcome != FixOutcome::refused_gate && used.outcome != FixOutcome::refused_late;
   const Pose2& at = used.planar.map_from_base;
   return {{"timestamp", time_json(used.fix.stamp)},
@@ -185,7 +185,7 @@ std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
   std::vector<Message> messages = has_begun_ ? std::vector<Message>{} : scene_messages(world_, now);
   has_begun_ = true;
   say_estimate(moment, messages);
-  for (const UsedFix& used : moment.step.navigation.fixes)
+  for (const FixAttempt& used : moment.step.navigation.fixes)
     messages.push_back(message(fix, used.fix.stamp, fix_json(used)));
   say_distrust(moment, messages);
   say_base(moment, messages);

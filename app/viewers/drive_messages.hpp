@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/drive_moment.hpp"
+#include "app/recording/drive_moment.hpp"
 #include "app/report/run_record.hpp"
-#include "app/site.hpp"
+#include "app/site/site.hpp"
 #include "app/viewers/channel.hpp"
 #include "app/viewers/foxglove_messages.hpp"
 

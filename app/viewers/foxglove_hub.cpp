@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "app/whole_number.hpp"
+#include "app/common/whole_number.hpp"
 
 namespace lodestar {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/console/socket.hpp"
+#include "app/net/socket.hpp"
 #include "app/viewers/channel.hpp"
 
 namespace lodestar {

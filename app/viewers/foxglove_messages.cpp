@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/base64.hpp"
+#include "app/common/base64.hpp"
 #include "maps/marker.hpp"
 
 namespace lodestar {

@@ -1,7 +1,7 @@
 #include "app/viewers/foxglove_view.hpp"
 
-#include "app/navigation_setup.hpp"
-#include "app/report/figure.hpp"
+#include "app/common/picture_file.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "app/viewers/drive_messages.hpp"
 
 namespace lodestar {

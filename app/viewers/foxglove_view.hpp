@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "app/console/live_channel.hpp"
-#include "app/site.hpp"
+#include "app/live/live_channel.hpp"
+#include "app/site/site.hpp"
 #include "app/viewers/foxglove_hub.hpp"
 #include "app/viewers/foxglove_messages.hpp"
 

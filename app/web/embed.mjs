@@ -36,7 +36,7 @@ function escaped(byte) {
 
 const entries = files.map(([target, type, text]) =>
   `      {"${target}", "${type}", std::string_view(\n    ${literal(text)}, ${Buffer.byteLength(text)})}`);
-writeFileSync(output, `#include "app/console/page.hpp"
+writeFileSync(output, `#include "app/web/page.hpp"
 
 namespace lodestar {
 

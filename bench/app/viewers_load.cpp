@@ -13,13 +13,13 @@
 #include <thread>
 #include <unistd.h>
 
-#include "app/console/console_service.hpp"
-#include "app/live/attendant.hpp"
-#include "app/replay.hpp"
-#include "drivers/clock.hpp"
+#include "app/commands/console_service.hpp"
+#include "app/live/operator_session.hpp"
+#include "app/simulate/simulated_drive.hpp"
+#include "drivers/system/clock.hpp"
 #include "maps/percentile.hpp"
 
-#include "tests/app/socket_client.hpp"
+#include "tests/app/net/socket_client.hpp"
 
 namespace lodestar {
 namespace {
@@ -107,7 +107,7 @@ int measure(int viewers, int seconds_each) {
   console.site = site.folder;
   ConsoleService service(console, &link);
   const ConsoleThread thread(service);
-  Attendant attendant(link);
+  OperatorSession session(link);
   Part unseen;
   Part watched;
   const long steps_each = 50L * seconds_each;
@@ -123,8 +123,8 @@ int measure(int viewers, int seconds_each) {
     }
     return ++steps <= 2 * steps_each;
   };
-  replay_attended(site, {.camera = site.default_camera, .goals = site.goals, .realtime = true}, attendant,
-                  goes_on, [](const RunRecord&) {});
+  simulate_attended_drive(site, {.camera = site.default_camera, .goals = site.goals, .realtime = true},
+                          session, goes_on, [](const RunRecord&) {});
   watched.end();
   waitpid(child, nullptr, 0);
   unseen.tell("unseen:");

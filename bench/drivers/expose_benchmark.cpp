@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "drivers/image_former.hpp"
+#include "drivers/simulation/image_former.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "localization/bright_areas.hpp"
-#include "localization/ceiling_motion.hpp"
-#include "localization/marker_detector.hpp"
-#include "localization/pose_fixer.hpp"
+#include "localization/ceiling/ceiling_motion.hpp"
+#include "localization/detection/bright_areas.hpp"
+#include "localization/detection/marker_detector.hpp"
+#include "localization/pose/pose_fixer.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 
@@ -148,7 +148,7 @@ void motion_by_the_ceiling(benchmark::State& state) {
   const Pose2 expected{{ceiling_m * way_px / camera.fx_px + 0.004, -0.003}, 0.005};
   for ([[maybe_unused]] auto _ : state) {
     ceiling.look(frame);
-    const std::optional<SeenMotion> motion = ceiling.motion(expected);
+    const std::optional<VisualOdometryIncrement> motion = ceiling.motion(expected);
     if (!motion) state.SkipWithError("the pictures do not agree");
     benchmark::DoNotOptimize(motion);
   }

@@ -3,7 +3,7 @@
 
 #include "maps/map_file.hpp"
 #include "maps/random.hpp"
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 #include "planning/grid_planner.hpp"
 #include "planning/grid_search.hpp"
 #include "planning/jump_search.hpp"
@@ -19,8 +19,8 @@ const OccupancyMap& lab() {
   return map;
 }
 
-const ClearSpace& lab_space() {
-  static const ClearSpace space(lab(), radius_m);
+const CollisionChecker& lab_space() {
+  static const CollisionChecker space(lab(), radius_m);
   return space;
 }
 

@@ -43,7 +43,6 @@ inline GoalRecord goal(double from_x_m, double to_x_m, double ended_s) {
   record.arrived = true;
   record.travel_time = from_seconds(2.0);
   record.ended = at_s(ended_s);
-  record.score = ArrivalScore{.position_error_m = 0.004, .heading_error_rad = std::nullopt};
   return record;
 }
 
@@ -56,6 +55,7 @@ inline RunRecord run() {
   record.repeat = "lodestar replay yard --seed 5";
   record.start = {{1.0, 1.0}, 0.0};
   record.goals = {goal(1.0, 3.0, 2.0), goal(3.0, 1.0, 4.0)};
+  record.scores = {2, ArrivalScore{.position_error_m = 0.004, .heading_error_rad = std::nullopt}};
   for (int i = 0; i <= 8; ++i) {
     const double time_s = 0.5 * i;
     const double x_m = i <= 4 ? 1.0 + time_s : 5.0 - time_s;

@@ -1,42 +1,96 @@
 #include "tests/architecture/arrows.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <regex>
 
 namespace lodestar {
 namespace {
 
-/// What app/ may include from drivers/: the face of the hardware by everyone, the simulated world and its
-/// judge by those parts that replay, report and measure. All else in drivers/ is its own affair.
-const std::set<std::string> face_of_the_hardware{
-    "drivers/base_driver.hpp",      "drivers/base_protocol.hpp", "drivers/camera.hpp",
-    "drivers/can_bus.hpp",          "drivers/can_interface.hpp", "drivers/candump.hpp",
-    "drivers/camera_stand_in.hpp",  "drivers/clock.hpp",         "drivers/guard.hpp",
-    "drivers/pluggable_camera.hpp", "drivers/recorded_bus.hpp",  "drivers/socketcan_bus.hpp",
-    "drivers/v4l2_camera.hpp"};
-const std::set<std::string> simulated_world{"drivers/fault.hpp",          "drivers/fault_file.hpp",
-                                            "drivers/hosted_base.hpp",    "drivers/image_former.hpp",
-                                            "drivers/printed_square.hpp", "drivers/scoring.hpp",
-                                            "drivers/simulated_disk.hpp", "drivers/simulation.hpp"};
-const std::regex friends_of_the_judge{
-    "app/(replay|hardships|campaign|run_|report|figure|bench|commands/base).*"};
+/// The judge of the simulated world, and all else that is true there.
+const std::string judge = "drivers/simulation";
+/// Who may hear it, besides drivers/: those that simulate, report and measure.
+const std::set<std::string> judged{"app/report", "app/simulate", "app/campaign", "app/bench", "app/hosting"};
+
+/// Folders whose own folders are rooms.
+const std::set<std::string> houses{"app", "drivers", "localization"};
 
 std::string folder_of(const std::string& path) {
   return path.substr(0, path.find('/'));
 }
 
+/// The room that a target is, by its name: the last part of its room's. Nothing for a name that is none.
+std::optional<std::string> room_of_target(const std::string& name) {
+  for (const auto& [room, used] : arrows())
+    if (room.substr(room.find('/') + 1) == name) return room;
+  return std::nullopt;
+}
+
 }  // namespace
 
-const std::map<std::string, std::set<std::string>>& allowed_arrows() {
-  static const std::map<std::string, std::set<std::string>> arrows{
-      {"maps", {"maps"}},
-      {"localization", {"localization", "maps"}},
-      {"planning", {"planning", "maps"}},
-      {"control", {"control", "maps"}},
-      {"drivers", {"drivers", "maps"}},
-      {"app", {"app", "maps", "localization", "planning", "control", "drivers"}},
+const std::map<std::string, std::set<std::string>>& arrows() {
+  static const std::map<std::string, std::set<std::string>> drawn{
+      {"maps", {}},
+      {"planning", {"maps"}},
+      {"control", {"maps"}},
+
+      {"localization/detection", {"maps"}},
+      {"localization/ceiling", {"maps"}},
+      {"localization/pose", {"localization/detection"}},
+      {"localization/filter", {"localization/pose", "localization/ceiling"}},
+      {"localization/integrity", {"localization/filter"}},
+      {"localization/calibration", {"localization/pose"}},
+
+      {"drivers/system", {"maps"}},
+      {"drivers/can", {"drivers/system"}},
+      {"drivers/base", {"drivers/can"}},
+      {"drivers/camera", {"drivers/system"}},
+      {"drivers/simulation", {"drivers/base", "drivers/camera"}},
+      {"drivers/stand_in", {"drivers/simulation"}},
+
+      {"app/common", {"maps"}},
+      {"app/net", {"maps"}},
+      {"app/site", {"drivers/base", "planning"}},
+      {"app/frames", {"app/common", "drivers/camera", "localization/detection"}},
+      {"app/navigation", {"app/site", "control", "localization/integrity"}},
+      {"app/placement", {"app/navigation", "app/frames", "localization/calibration"}},
+      {"app/recording", {"app/navigation", "app/common"}},
+      {"app/live", {"app/recording", "app/net"}},
+      {"app/report", {"app/recording", "app/placement", judge}},
+      {"app/simulate", {"app/report", "app/live", "app/navigation", "app/frames", judge}},
+      {"app/drive", {"app/report", "app/live", "app/navigation", "app/frames", "drivers/stand_in"}},
+      {"app/viewers", {"app/report", "app/recording", "app/live", "app/net"}},
+      {"app/web", {}},
+      {"app/console", {"app/placement", "app/live", "app/net", "app/web"}},
+      {"app/bench", {"app/report", judge}},
+      {"app/campaign", {"app/simulate", judge}},
+      {"app/hosting", {"app/site", "app/common", judge}},
+      {"app/commands",
+       {"app/bench", "app/campaign", "app/console", "app/drive", "app/hosting", "app/simulate",
+        "app/viewers"}},
+      {"app", {"app/commands"}},  // main.cpp alone
   };
-  return arrows;
+  return drawn;
+}
+
+std::set<std::string> usable_by(const std::string& room) {
+  std::set<std::string> usable{room};
+  std::vector<std::string> open{room};
+  while (!open.empty()) {
+    const std::string from = open.back();
+    open.pop_back();
+    for (const std::string& to : arrows().at(from))
+      if (usable.insert(to).second) open.push_back(to);
+  }
+  return usable;
+}
+
+std::string room_of(const std::string& file) {
+  const std::string folder = folder_of(file);
+  const std::size_t second = file.find('/', folder.size() + 1);
+  const bool is_inside = houses.contains(folder) && second != std::string::npos;
+  const std::string room = is_inside ? file.substr(0, second) : folder;
+  return arrows().contains(room) ? room : "";
 }
 
 std::vector<std::string> includes_of(std::string_view source) {
@@ -50,17 +104,15 @@ std::vector<std::string> includes_of(std::string_view source) {
 }
 
 std::string complaint_about_include(const std::string& file, const std::string& header) {
-  const std::string folder = folder_of(file);
-  const std::string used = folder_of(header);
-  if (!allowed_arrows().contains(used)) return file + " includes " + header + ", not by its full path";
-  if (!allowed_arrows().at(folder).contains(used)) {
-    return file + " includes " + header + ": no arrow from " + folder + " to " + used;
-  }
-  if (used != "drivers" || folder == "drivers" || face_of_the_hardware.contains(header)) return {};
-  if (!simulated_world.contains(header))
-    return file + " includes " + header + ": not meant for outside of drivers";
-  if (std::regex_match(file, friends_of_the_judge)) return {};
-  return file + " includes " + header + ": only replays, reports and benches are judged";
+  const std::string room = room_of(file);
+  const std::string used = room_of(header);
+  if (room.empty()) return file + " stands in no room";
+  if (used.empty()) return file + " includes " + header + ", not by its full path";
+  if (!usable_by(room).contains(used))
+    return file + " includes " + header + ": no arrow from " + room + " to " + used;
+  if (used == judge && folder_of(room) != "drivers" && !judged.contains(room))
+    return file + " includes " + header + ": " + room + " may not hear the judge of the simulated world";
+  return {};
 }
 
 std::vector<std::string> complaints_about_source(const std::string& file, std::string_view source) {
@@ -74,22 +126,28 @@ std::vector<std::string> complaints_about_source(const std::string& file, std::s
   return complaints;
 }
 
-std::vector<std::string> complaints_about_targets(const std::string& folder, const std::string& cmake) {
+std::vector<std::string> complaints_about_target(const std::string& room, const std::string& cmake) {
   static const std::regex library{R"(lodestar_library\(\s*(\w+)[^)]*\bUSES\b([^)]*)\))"};
   static const std::regex target{R"(\blodestar_(\w+))"};
   std::vector<std::string> complaints;
   int libraries = 0;
   for (std::sregex_iterator at(cmake.begin(), cmake.end(), library), end; at != end; ++at) {
     ++libraries;
-    if ((*at)[1] != folder) complaints.push_back(folder + " defines the library " + (*at)[1].str());
+    if (room_of_target((*at)[1]) != room)
+      complaints.push_back(room + " defines the library " + (*at)[1].str());
     const std::string uses = (*at)[2];
     for (std::sregex_iterator use(uses.begin(), uses.end(), target); use != end; ++use) {
-      const std::string used = (*use)[1];
-      if (allowed_arrows().at(folder).contains(used)) continue;
-      complaints.push_back(folder + "/CMakeLists.txt links " + used + ": no such arrow");
+      if ((*use)[1] == "properties") continue;
+      const std::optional<std::string> used = room_of_target((*use)[1]);
+      if (!used)
+        complaints.push_back(room + "/CMakeLists.txt links " + (*use)[1].str() + ": no such room");
+      else if (!usable_by(room).contains(*used))
+        complaints.push_back(room + "/CMakeLists.txt links " + *used + ": no such arrow");
+      else if (*used == judge && folder_of(room) != "drivers" && !judged.contains(room))
+        complaints.push_back(room + "/CMakeLists.txt links the judge of the simulated world");
     }
   }
-  if (libraries != 1) complaints.push_back(folder + " has " + std::to_string(libraries) + " libraries");
+  if (libraries != 1) complaints.push_back(room + " has " + std::to_string(libraries) + " libraries");
   return complaints;
 }
 

@@ -1,6 +1,6 @@
 #include <csignal>
 
-#include "tests/app/socket_client.hpp"
+#include "tests/app/net/socket_client.hpp"
 #include "tests/can/lab.hpp"
 
 // The console beside a robot on a real kernel's CAN: people send it from a browser.

@@ -1,4 +1,4 @@
-#include "drivers/can_interface.hpp"
+#include "drivers/can/can_interface.hpp"
 
 #include "tests/can/lab.hpp"
 #include "tests/can/slcan_adapter.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/clock.hpp"
+#include "drivers/system/clock.hpp"
 
 #include "tests/can/process.hpp"
 #include "tests/can/witness.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/clock.hpp"
+#include "drivers/system/clock.hpp"
 
 #include "tests/can/pulse.hpp"
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "drivers/candump.hpp"
+#include "drivers/can/candump.hpp"
 
 #include "tests/can/lab.hpp"
 #include "tests/can/pulse.hpp"

@@ -12,8 +12,8 @@
 #include <thread>
 #include <unistd.h>
 
-#include "app/program.hpp"
-#include "drivers/clock.hpp"
+#include "app/commands/program.hpp"
+#include "drivers/system/clock.hpp"
 
 namespace lodestar {
 

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "drivers/file_descriptor.hpp"
+#include "drivers/system/file_descriptor.hpp"
 #include "maps/stamp.hpp"
 
 namespace lodestar {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sched.h>
 
-#include "drivers/clock.hpp"
+#include "drivers/system/clock.hpp"
 
 namespace lodestar {
 namespace {

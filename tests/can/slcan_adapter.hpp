@@ -4,8 +4,8 @@
 #include <string>
 #include <thread>
 
-#include "drivers/file_descriptor.hpp"
-#include "drivers/socketcan_bus.hpp"
+#include "drivers/can/socketcan_bus.hpp"
+#include "drivers/system/file_descriptor.hpp"
 
 namespace lodestar {
 

@@ -5,7 +5,7 @@
 #include <poll.h>
 #include <utility>
 
-#include "drivers/clock.hpp"
+#include "drivers/system/clock.hpp"
 
 namespace lodestar {
 

@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "drivers/agilex_v2.hpp"
-#include "drivers/socketcan_bus.hpp"
+#include "drivers/base/agilex_v2.hpp"
+#include "drivers/can/socketcan_bus.hpp"
 
 namespace lodestar {
 

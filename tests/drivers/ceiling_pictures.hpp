@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "drivers/simulated_camera_options.hpp"
+#include "drivers/simulation/simulated_camera_options.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/marker.hpp"
 #include "maps/marker_registry.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drivers/simulated_base.hpp"
+#include "drivers/simulation/simulated_base.hpp"
 
 namespace lodestar {
 

@@ -7,7 +7,7 @@
 #include <linux/videodev2.h>
 #include <vector>
 
-#include "drivers/video_device.hpp"
+#include "drivers/camera/video_device.hpp"
 
 namespace lodestar {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "app/arguments.hpp"
+#include "app/site/arguments.hpp"
 #include "maps/input_error.hpp"
 
 // A place on the command line is refused with an InputError, or is finite.

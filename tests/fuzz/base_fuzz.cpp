@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "drivers/base_driver.hpp"
+#include "drivers/base/base_driver.hpp"
 
 namespace lodestar {
 namespace {

@@ -1,6 +1,6 @@
 #include <sstream>
 
-#include "drivers/candump.hpp"
+#include "drivers/can/candump.hpp"
 #include "maps/input_error.hpp"
 
 // A log is refused with an InputError, or its frames are written and read again as they were.

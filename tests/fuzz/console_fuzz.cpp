@@ -2,8 +2,8 @@
 #include <optional>
 #include <sstream>
 
-#include "app/console/access.hpp"
-#include "app/console/console.hpp"
+#include "app/console/document_api.hpp"
+#include "app/net/access.hpp"
 #include "maps/input_error.hpp"
 
 #include "tests/fuzz/scratch_file.hpp"
@@ -62,7 +62,7 @@ void expect_sound(const HttpResponse& response) {
 /// A console over a site of its own.
 struct Desk {
   fs::path site = fresh_site();
-  Console console{site, site / "runs"};
+  DocumentApi console{site, site / "runs"};
 };
 
 void ask(const std::string& text) {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "drivers/fault_file.hpp"
+#include "drivers/simulation/fault_file.hpp"
 #include "maps/input_error.hpp"
 
 #include "tests/fuzz/scratch_file.hpp"

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "app/markers/formats.hpp"
+#include "app/placement/formats.hpp"
 #include "maps/input_error.hpp"
 
 // The first byte chooses a format of marker maps, the rest is the text. It is refused with an InputError, or

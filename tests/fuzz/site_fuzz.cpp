@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "app/site.hpp"
+#include "app/site/site.hpp"
 #include "maps/input_error.hpp"
 
 #include "tests/fuzz/scratch_file.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "localization/calibration_board.hpp"
+#include "localization/calibration/calibration_board.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/random.hpp"
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <new>
 
-#include "localization/marker_tracker.hpp"
-#include "localization/pose_fixer.hpp"
+#include "localization/pose/marker_tracker.hpp"
+#include "localization/pose/pose_fixer.hpp"
 
 #include "tests/localization/painted_frame.hpp"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "localization/pose_filter.hpp"
+#include "localization/filter/pose_filter.hpp"
 #include "maps/random.hpp"
 
 // A robot whose wheels and fixes err as told, for the tests of the pose filter.

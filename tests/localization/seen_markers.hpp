@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "localization/detected_marker.hpp"
-#include "localization/pose_fix.hpp"
+#include "localization/detection/detected_marker.hpp"
+#include "localization/pose/pose_fix.hpp"
 #include "maps/random.hpp"
 
 // Three markers on a ceiling, and what a detector would report of them from a pose that is known.

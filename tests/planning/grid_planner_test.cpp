@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "maps/random.hpp"
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 #include "planning/grid_search.hpp"
 
 #include "tests/planning/sample_maps.hpp"
@@ -23,7 +23,7 @@ TEST(GridSearch, is_as_cheap_as_dijkstra_on_random_maps) {
   int found = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const OccupancyMap map = random_map(random, 25, 20, 0.3);
-    const ClearSpace space(map, 0.0);
+    const CollisionChecker space(map, 0.0);
     const CellCosts costs(map.cells.size(), 1.0F);
     const Cell start{static_cast<int>(random.below(25)), static_cast<int>(random.below(20))};
     const Cell goal{static_cast<int>(random.below(25)), static_cast<int>(random.below(20))};
@@ -39,12 +39,12 @@ TEST(GridSearch, is_as_cheap_as_dijkstra_on_random_maps) {
   EXPECT_GT(found, 50);
 }
 
-TEST(ClearSpace, agrees_with_trying_every_square) {
+TEST(CollisionChecker, agrees_with_trying_every_square) {
   Random random(2);
   for (int trial = 0; trial < 20; ++trial) {
     const OccupancyMap map = random_map(random, 20, 15, 0.08);
     const double radius_m = random.uniform(0.0, 0.2);
-    const ClearSpace space(map, radius_m);
+    const CollisionChecker space(map, radius_m);
     for (int row = 0; row < map.rows; ++row) {
       for (int column = 0; column < map.columns; ++column) {
         const bool blocked =
@@ -55,13 +55,13 @@ TEST(ClearSpace, agrees_with_trying_every_square) {
   }
 }
 
-TEST(ClearSpace, legs_agree_with_dense_sampling) {
+TEST(CollisionChecker, legs_agree_with_dense_sampling) {
   Random random(3);
   int clear = 0;
   for (int trial = 0; trial < 1500; ++trial) {
     const OccupancyMap map = random_map(random, 16, 12, 0.04);
     const double radius_m = random.uniform(0.02, 0.12);
-    const ClearSpace space(map, radius_m);
+    const CollisionChecker space(map, radius_m);
     const Vec2 a(random.uniform(0.0, 0.8), random.uniform(0.0, 0.6));
     const Vec2 b(random.uniform(0.0, 0.8), random.uniform(0.0, 0.6));
     if (!space.along(a / map.resolution_m, b / map.resolution_m)) continue;

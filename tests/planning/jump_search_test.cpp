@@ -17,13 +17,13 @@ void on_random_maps(std::uint64_t seed, int trials, Story story) {
     const int columns = 1 + static_cast<int>(random.below(150));
     const int rows = 1 + static_cast<int>(random.below(40));
     const OccupancyMap map = random_map(random, columns, rows, random.uniform(0.0, 0.4));
-    const ClearSpace space(map, 0.0);
+    const CollisionChecker space(map, 0.0);
     story(random, map, space);
   }
 }
 
 TEST(JumpTable, jumps_as_far_as_a_scan_of_the_bits_in_every_direction) {
-  on_random_maps(11, 60, [](Random&, const OccupancyMap& map, const ClearSpace& space) {
+  on_random_maps(11, 60, [](Random&, const OccupancyMap& map, const CollisionChecker& space) {
     const JumpTable table(space);
     const JumpScan scan(space);
     for (int row = 0; row < map.rows; ++row) {
@@ -41,7 +41,7 @@ TEST(JumpTable, jumps_as_far_as_a_scan_of_the_bits_in_every_direction) {
 template <typename Jumps>
 void expect_as_short_as_dijkstra(std::uint64_t seed) {
   int found = 0;
-  on_random_maps(seed, 60, [&](Random& random, const OccupancyMap& map, const ClearSpace& space) {
+  on_random_maps(seed, 60, [&](Random& random, const OccupancyMap& map, const CollisionChecker& space) {
     const Jumps jumps(space);
     JumpSearch<Jumps> search(jumps);
     for (int query = 0; query < 5; ++query) {
@@ -68,7 +68,7 @@ TEST(JumpSearch, is_as_short_as_dijkstra_with_scanning) {
 }
 
 TEST(JumpSearch, gives_a_path_of_straight_and_diagonal_legs_that_cut_no_corner) {
-  on_random_maps(14, 40, [](Random& random, const OccupancyMap&, const ClearSpace& space) {
+  on_random_maps(14, 40, [](Random& random, const OccupancyMap&, const CollisionChecker& space) {
     const JumpTable jumps(space);
     JumpSearch search(jumps);
     const auto start = clear_cell(random, space);
@@ -96,7 +96,7 @@ TEST(JumpSearch, gives_a_path_of_straight_and_diagonal_legs_that_cut_no_corner) 
 TEST(JumpSearch, counts_steps_so_that_the_length_is_exact_on_a_very_long_way) {
   std::vector<std::string> rows(2, std::string(40000, '.'));
   const OccupancyMap map = map_from(rows);
-  const ClearSpace space(map, 0.0);
+  const CollisionChecker space(map, 0.0);
   const JumpTable jumps(space);
   const auto path = JumpSearch(jumps).find({0, 0}, {39999, 1});
   ASSERT_TRUE(path);
@@ -106,7 +106,7 @@ TEST(JumpSearch, counts_steps_so_that_the_length_is_exact_on_a_very_long_way) {
 
 TEST(JumpSearch, has_a_path_of_no_steps_to_where_it_stands) {
   const OccupancyMap map = map_from({"..", ".."});
-  const ClearSpace space(map, 0.0);
+  const CollisionChecker space(map, 0.0);
   const JumpTable jumps(space);
   const auto path = JumpSearch(jumps).find({1, 1}, {1, 1});
   ASSERT_TRUE(path);
@@ -120,7 +120,7 @@ TEST(JumpSearch, answers_every_query_of_the_benchmark_scenarios_optimally) {
   if (!fs::exists(data)) GTEST_SKIP() << "MovingAI maps are not at hand";
   for (const std::string name : {"Berlin_0_256", "den520d", "arena2", "maze512-32-0"}) {
     const OccupancyMap map = load_movingai_map(data / (name + ".map"));
-    const ClearSpace space(map, 0.0);
+    const CollisionChecker space(map, 0.0);
     const JumpTable jumps(space);
     JumpSearch search(jumps);
     for (const MovingAiQuery& query : load_movingai_queries(data / (name + ".map.scen"), map)) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "maps/random.hpp"
-#include "planning/clear_space.hpp"
+#include "planning/collision_checker.hpp"
 
 // Small maps and slow, plain answers to compare with.
 namespace lodestar {
@@ -58,7 +58,7 @@ inline bool touches(const OccupancyMap& map, const Vec2& center_m, double radius
 }
 
 /// The length of the shortest 8-connected path in cells; 1e300 without one.
-inline double dijkstra(const OccupancyMap& map, const ClearSpace& space, Cell start, Cell goal) {
+inline double dijkstra(const OccupancyMap& map, const CollisionChecker& space, Cell start, Cell goal) {
   std::vector<double> best(map.cells.size(), 1e300);
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -87,7 +87,7 @@ inline double dijkstra(const OccupancyMap& map, const ClearSpace& space, Cell st
 }
 
 /// A random cell that is clear, if a hundred tries find one.
-inline std::optional<Cell> clear_cell(Random& random, const ClearSpace& space) {
+inline std::optional<Cell> clear_cell(Random& random, const CollisionChecker& space) {
   for (int i = 0; i < 100; ++i) {
     const Cell cell{static_cast<int>(random.below(static_cast<std::uint64_t>(space.columns()))),
                     static_cast<int>(random.below(static_cast<std::uint64_t>(space.rows())))};

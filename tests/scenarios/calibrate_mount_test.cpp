@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/site.hpp"
-#include "drivers/base_driver.hpp"
-#include "drivers/simulation.hpp"
+#include "app/site/site.hpp"
+#include "drivers/base/base_driver.hpp"
+#include "drivers/simulation/simulation.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 

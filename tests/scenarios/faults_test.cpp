@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/replay.hpp"
 #include "app/report/run_statistics.hpp"
+#include "app/simulate/simulated_drive.hpp"
 #include "maps/percentile.hpp"
 
 // One drive through the lab for each row of the catalogue of faults that simulation can show, with its bound.
@@ -20,14 +20,15 @@ constexpr double arrival_latency_s = 0.065;  ///< from mid-exposure until the na
 RunRecord drive(std::vector<Fault> faults, std::uint64_t seed = 3, bool there_and_back = false) {
   static const Site lab = load_site(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab");
   for (Fault& fault : faults) fault.begin = begin.time_since_epoch();
-  ReplayOptions options{.camera = lab.default_camera, .seed = seed, .goals = lab.goals, .faults = faults};
+  SimulatedDriveOptions options{
+      .camera = lab.default_camera, .seed = seed, .goals = lab.goals, .faults = faults};
   if (!there_and_back) options.goals.resize(1);
-  return replay(lab, options);
+  return simulate_drive(lab, options);
 }
 
 void expect_arrival(const RunRecord& record, double within_m = 0.02) {
   ASSERT_TRUE(record.arrived()) << record.goals.front().failure;
-  EXPECT_LT(record.goals.front().score->position_error_m, within_m);
+  EXPECT_LT(record.score_of(0)->position_error_m, within_m);
   EXPECT_EQ(record.contacts, 0);
 }
 
@@ -202,7 +203,7 @@ TEST(Faults, swapped_markers_stop_the_robot_or_do_not_mislead_it) {
   const RunRecord record = drive({{.kind = FaultKind::markers_swapped}});
   EXPECT_EQ(record.contacts, 0);
   if (record.arrived()) {
-    EXPECT_LT(record.goals.front().score->position_error_m, 0.1);
+    EXPECT_LT(record.score_of(0)->position_error_m, 0.1);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "app/console/console.hpp"
+#include "app/console/document_api.hpp"
 #include "app/console/registry_json.hpp"
 
 #include "tests/scenarios/command_line.hpp"
@@ -135,7 +135,7 @@ TEST(Markers, check_of_a_site_says_what_the_console_says) {
   const std::filesystem::path site = scratch.path() / "site";
   std::filesystem::copy(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab", site,
                         std::filesystem::copy_options::recursive);
-  Console console(site, scratch.path() / "runs");
+  DocumentApi console(site, scratch.path() / "runs");
   std::istringstream lab(read_document(site / "markers.yaml"));
   std::string fewer;  // every third marker is left, one of them twice, one far away
   int number = 0;

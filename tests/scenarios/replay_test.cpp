@@ -1,11 +1,10 @@
-#include "app/replay.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/replay_runs.hpp"
+#include "app/simulate/simulated_drive.hpp"
+#include "app/simulate/simulated_drives.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 
@@ -31,7 +30,8 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
 TEST(Replay, drives_from_s_to_e_and_back) {
   const Site site = lab();
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const RunRecord record = replay(site, {.camera = site.default_camera, .seed = seed, .goals = site.goals});
+    const RunRecord record =
+        simulate_drive(site, {.camera = site.default_camera, .seed = seed, .goals = site.goals});
     const RunSummary run = summarize(record);
 
     EXPECT_EQ(run.arrivals, 2) << "seed " << seed << ": " << run.failure;
@@ -93,8 +93,8 @@ TEST(Replay, writes_the_same_bytes_for_the_same_seed_and_others_for_another) {
 
 TEST(Replay, fails_with_a_reason_when_the_goal_is_in_a_wall) {
   const Site site = lab();
-  const RunRecord record =
-      replay(site, {.camera = site.default_camera, .seed = 1, .goals = {{Vec2(0.0, 0.0), std::nullopt}}});
+  const RunRecord record = simulate_drive(
+      site, {.camera = site.default_camera, .seed = 1, .goals = {{Vec2(0.0, 0.0), std::nullopt}}});
   ASSERT_EQ(record.goals.size(), 1U);
   EXPECT_FALSE(record.goals[0].arrived);
   EXPECT_THAT(record.goals[0].failure, ::testing::HasSubstr("goal"));
@@ -103,7 +103,8 @@ TEST(Replay, fails_with_a_reason_when_the_goal_is_in_a_wall) {
 TEST(Replay, without_markers_looks_around_and_goes_nowhere) {
   Site site = lab();
   site.registry.markers.clear();
-  const RunRecord record = replay(site, {.camera = site.default_camera, .seed = 1, .goals = site.goals});
+  const RunRecord record =
+      simulate_drive(site, {.camera = site.default_camera, .seed = 1, .goals = site.goals});
   for (const GoalRecord& goal : record.goals) EXPECT_FALSE(goal.arrived);
   // Wheels that are not alike and slip do not turn quite on the spot.
   for (const TruePose& pose : record.truth)
@@ -113,11 +114,12 @@ TEST(Replay, without_markers_looks_around_and_goes_nowhere) {
 TEST(Replay, of_many_runs_gives_what_single_runs_give) {
   const Site site = lab();
   const Vec2 ahead = site.start * Vec2(0.4, 0.0);
-  const ReplayOptions options{.camera = site.default_camera, .seed = 5, .goals = {{ahead, std::nullopt}}};
-  const std::vector<RunSummary> runs = replay_runs(site, options, 3, [](int) {});
-  ReplayOptions last = options;
+  const SimulatedDriveOptions options{
+      .camera = site.default_camera, .seed = 5, .goals = {{ahead, std::nullopt}}};
+  const std::vector<RunSummary> runs = simulate_drives(site, options, 3, [](int) {});
+  SimulatedDriveOptions last = options;
   last.seed = 7;
-  const RunSummary alone = summarize(replay(site, last));
+  const RunSummary alone = summarize(simulate_drive(site, last));
   ASSERT_EQ(runs.size(), 3U);
   EXPECT_EQ(runs[2].seed, 7U);
   EXPECT_EQ(runs[2].worst_position_m, alone.worst_position_m);

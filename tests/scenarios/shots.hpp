@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/image_former.hpp"
+#include "drivers/simulation/image_former.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 

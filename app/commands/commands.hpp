@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "app/common/command.hpp"
+
+namespace lodestar {
+
+// The words of the command line, each beside the file that it stands in.
+std::vector<Command> replay_commands(CLI::App& lodestar);
+std::vector<Command> campaign_commands(CLI::App& lodestar);
+std::vector<Command> localize_commands(CLI::App& lodestar);
+std::vector<Command> detect_commands(CLI::App& lodestar);
+std::vector<Command> plan_commands(CLI::App& lodestar);
+std::vector<Command> map_commands(CLI::App& lodestar);
+std::vector<Command> markers_commands(CLI::App& lodestar);
+std::vector<Command> marker_file_commands(CLI::App& markers);  ///< convert, print: words of `markers`
+std::vector<Command> serve_commands(CLI::App& lodestar);
+std::vector<Command> soak_commands(CLI::App& lodestar);
+std::vector<Command> calibrate_commands(CLI::App& lodestar);
+std::vector<Command> bench_commands(CLI::App& lodestar);
+Command bench_localize_command(CLI::App& bench);
+std::vector<Command> run_commands(CLI::App& lodestar);
+std::vector<Command> doctor_commands(CLI::App& lodestar);
+
+}  // namespace lodestar

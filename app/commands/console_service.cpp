@@ -1,0 +1,57 @@
+#include "app/commands/console_service.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "app/viewers/foxglove_view.hpp"
+#include "drivers/system/clock.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr std::chrono::milliseconds turn{50};
+
+std::vector<SocketProtocol> protocols_of(const std::vector<std::unique_ptr<LiveChannel>>& channels) {
+  std::vector<SocketProtocol> protocols;
+  for (const auto& channel : channels)
+    for (SocketProtocol& protocol : channel->protocols()) protocols.push_back(std::move(protocol));
+  return protocols;
+}
+
+}  // namespace
+
+ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* link)
+    : console_(options.site, options.runs), link_(link) {
+  channels_.push_back(std::make_unique<LiveView>(console_.site(), link, options.live));
+  channels_.push_back(std::make_unique<FoxgloveView>(console_.site()));
+  console_.on_saved_markers([this](const MarkerRegistry& saved) {
+    for (const auto& channel : channels_) channel->take_markers(saved);
+  });
+  server_ = std::make_unique<HttpServer>(
+      HttpServerOptions{.access = options.access},
+      [this](const HttpRequest& request) { return console_.answer(request); }, protocols_of(channels_));
+}
+
+void ConsoleService::serve_a_turn() {
+  server_->run_for(turn);
+  const std::optional<RobotState> fresh = link_ != nullptr ? link_->newest() : std::nullopt;
+  const Stamp now = monotonic_now();
+  for (const auto& channel : channels_) channel->pump(now, fresh ? &*fresh : nullptr);
+  const bool watched =
+      std::ranges::any_of(channels_, [](const auto& channel) { return channel->is_watched(); });
+  if (watched && link_ != nullptr) link_->want_state();
+}
+
+ConsoleThread::ConsoleThread(ConsoleService& service)
+    : thread_([this, &service] {
+        constexpr int niceness = 10;
+        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness);  // of this thread alone, on Linux
+        while (!ended_) service.serve_a_turn();
+      }) {}
+
+ConsoleThread::~ConsoleThread() {
+  ended_ = true;
+  thread_.join();
+}
+
+}  // namespace lodestar

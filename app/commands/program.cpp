@@ -1,0 +1,54 @@
+#include "app/commands/program.hpp"
+
+#include <fmt/core.h>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "app/commands/commands.hpp"
+#include "app/hosting/hosting.hpp"
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+namespace {
+
+std::vector<Command> all_commands(CLI::App& app) {
+  std::vector<Command> all;
+  for (const auto make : {replay_commands, campaign_commands, soak_commands, localize_commands,
+                          detect_commands, plan_commands, map_commands, markers_commands, calibrate_commands,
+                          bench_commands, base_commands, run_commands, doctor_commands, serve_commands}) {
+    for (Command& command : make(app)) all.push_back(std::move(command));
+  }
+  return all;
+}
+
+ExitCode run_chosen(const std::vector<Command>& commands) {
+  for (const Command& command : commands) {
+    if (command.arguments->parsed()) return command.run();
+  }
+  return unusable_input;  // unreachable: a subcommand is required
+}
+
+}  // namespace
+
+int program(int argc, char** argv) {
+  cv::setNumThreads(1);  // no hidden threads: runs side by side are ours to arrange
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we say ourselves what is wrong
+  CLI::App app{"Indoor navigation for mobile robots under a ceiling of infrared dot markers", "lodestar"};
+  app.set_version_flag("--version", LODESTAR_VERSION);
+  app.require_subcommand(1);
+  const std::vector<Command> commands = all_commands(app);
+  try {
+    app.parse(argc, argv);
+    return run_chosen(commands);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : unusable_input;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "lodestar: {}\n", error.what());
+    return unusable_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "lodestar: internal error: {}\n", error.what());
+    return job_failed;
+  }
+}
+
+}  // namespace lodestar

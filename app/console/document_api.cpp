@@ -1,0 +1,286 @@
+#include "app/console/document_api.hpp"
+
+#include <charconv>
+#include <cstring>
+#include <fmt/format.h>
+
+#include "app/common/whole_number.hpp"
+#include "app/console/registry_edit.hpp"
+#include "app/console/registry_json.hpp"
+#include "app/console/routes.hpp"
+#include "app/placement/formats.hpp"
+#include "app/placement/sheet.hpp"
+#include "app/web/page.hpp"
+#include "maps/atomic_file.hpp"
+#include "maps/input_error.hpp"
+#include "maps/marker.hpp"
+
+namespace lodestar {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr const char* history_path = "/api/markers/history";
+constexpr const char* runs_path = "/api/runs";
+
+HttpResponse document(const ordered_json& content) {
+  HttpResponse response{.body = content.dump()};
+  response.etag = etag_of(response.body);
+  return response;
+}
+
+ordered_json pose_json(const Pose2& pose) {
+  return {{"x_m", pose.position_m.x()}, {"y_m", pose.position_m.y()}, {"yaw_deg", degrees(pose.yaw_rad)}};
+}
+
+ordered_json robot_json(const Robot& robot) {
+  ordered_json outline;  // null for a disc
+  if (robot.footprint) {
+    for (const Vec2& corner : robot.footprint->corners_m()) outline.push_back({corner.x(), corner.y()});
+  }
+  return {{"name", robot.name}, {"radius_m", robot.radius_m}, {"footprint_m", outline}};
+}
+
+/// Text with its %XX replaced; empty where one is broken or stands for a zero.
+std::string decoded(const std::string& text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      plain += text[i];
+      continue;
+    }
+    unsigned code = 0;
+    const char* const digits = text.data() + i + 1;
+    if (i + 2 >= text.size() || std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2 ||
+        code == 0) {
+      return "";
+    }
+    plain += static_cast<char>(code);
+    i += 2;
+  }
+  return plain;
+}
+
+ordered_json heights_json(const std::optional<HeightBands>& heights) {
+  if (!heights) return nullptr;
+  return {{"low_m", heights->low_m}, {"step_m", heights->step_m}, {"touch_m", heights->touch_m}};
+}
+
+bool matches(const std::string& tags, const std::string& etag) {
+  return tags == "*" || tags.find(etag) != std::string::npos;
+}
+
+/// Why a document must not be saved over what is there now, if so.
+std::optional<HttpResponse> conflict_with(const std::string& present, const std::string& if_match) {
+  if (if_match.empty()) return refusal(428, "found no If-Match, wanted the tag that was read");
+  if (matches(if_match, etag_of(present))) return std::nullopt;
+  HttpResponse conflict = refusal(412, "somebody else saved since it was read");
+  conflict.etag = etag_of(present);
+  return conflict;
+}
+
+std::optional<HttpResponse> page_file(const std::string& target) {
+  for (const PageFile& file : page_files()) {
+    if (file.target != target) continue;
+    HttpResponse response{.content_type = std::string(file.content_type), .body = std::string(file.text)};
+    response.etag = etag_of(response.body);
+    return response;
+  }
+  return std::nullopt;
+}
+
+HttpResponse exported(const json& request) {
+  const auto format = marker_format_named(request.at("format").get<std::string>());
+  if (!format) return refusal(422, "found an unknown format, wanted one of ours");
+  const MarkerRegistry registry = registry_from_json(request.at("registry").dump());
+  return {.body = json{{"text", markers_text(registry, *format)}}.dump()};
+}
+
+HttpResponse imported(const json& request) {
+  const auto name = request.at("name").get<std::string>();
+  const auto text = request.at("text").get<std::string>();
+  const auto format = guess_marker_format(name, text);
+  if (!format) return refusal(422, "found a file name that does not tell the format");
+  return {.body = registry_json(parse_markers(text, *format, name)).dump()};
+}
+
+HttpResponse printed(const json& request) {
+  constexpr std::size_t most_sheets = 200;
+  const json& ids = request.at("ids");
+  const auto paper = paper_named(request.value("paper", "A4"));
+  if (!paper || !ids.is_array() || ids.empty() || ids.size() > most_sheets) {
+    return refusal(422, fmt::format("wanted A4 or A3 and 1 to {} IDs", most_sheets));
+  }
+  std::vector<SheetPage> pages;
+  for (const json& id : ids)
+    pages.push_back(draw_marker_sheet(static_cast<int>(whole_number(id, marker_id_count - 1)), *paper));
+  return {.content_type = "application/pdf", .body = pdf_text(pages)};
+}
+
+}  // namespace
+
+DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder)
+    : site_(load_site(site_folder)),
+      registry_file_(site_.registry_file),
+      routes_file_(site_.folder / "routes.yaml"),
+      history_(registry_file_.parent_path() / ".history"),
+      runs_(runs_folder),
+      view_(site_) {}
+
+HttpResponse DocumentApi::answer(const HttpRequest& request) {
+  const std::string& target = request.target;
+  if (request.method == "PUT" && target == "/api/markers") return save_markers(request);
+  if (request.method == "PUT" && target == "/api/routes") return save_routes(request);
+  if (request.method == "POST") return post(request);
+  if (request.method != "GET" && request.method != "HEAD") return refusal(405, "found another method");
+
+  std::optional<HttpResponse> response = page_file(target);
+  if (target == "/api/site") response = site_document();
+  if (target == "/api/map") response = map();
+  if (target == "/api/map/cells") response = cells();
+  if (target == "/api/map/heights") response = heights();
+  if (target == "/api/markers") response = markers();
+  if (target == "/api/routes") response = routes();
+  if (target.starts_with(history_path)) response = history(target);
+  if (target == runs_path || target.starts_with(std::string(runs_path) + "/")) response = runs(target);
+  if (!response) return refusal(404, "found no such document");
+  if (!response->etag.empty() && matches(request.if_none_match, response->etag)) {
+    return {.status = 304, .etag = response->etag};
+  }
+  return *response;
+}
+
+HttpResponse DocumentApi::site_document() const {
+  ordered_json goals = ordered_json::array();
+  for (const Goal& goal : site_.goals) {
+    goals.push_back({{"x_m", goal.position_m.x()}, {"y_m", goal.position_m.y()}});
+  }
+  return document({{"name", site_.name},
+                   {"robot", robot_json(site_.robot)},
+                   {"start", pose_json(site_.start)},
+                   {"goals", goals},
+                   {"routes", routes_json(view_.floor().routes)},
+                   {"coverage", coverage_json(site_, view_.floor())},
+                   {"formats", marker_format_names()}});
+}
+
+HttpResponse DocumentApi::map() const {
+  const OccupancyMap& map = site_.map.map;
+  return document({{"columns", map.columns},
+                   {"rows", map.rows},
+                   {"resolution_m", map.resolution_m},
+                   {"origin", pose_json(map.map_from_grid)},
+                   {"heights", heights_json(view_.floor().heights)}});
+}
+
+std::optional<HttpResponse> DocumentApi::heights() const {
+  const std::optional<HeightBands>& heights = view_.floor().heights;
+  if (!heights) return std::nullopt;
+  HttpResponse response{.content_type = "application/octet-stream"};
+  for (const std::uint32_t bits : heights->cells)
+    for (unsigned byte = 0; byte < sizeof bits; ++byte)
+      response.body += static_cast<char>((bits >> (8U * byte)) & 0xFFU);
+  response.etag = etag_of(response.body);
+  return response;
+}
+
+HttpResponse DocumentApi::cells() const {
+  const std::vector<std::int8_t>& cells = site_.map.map.cells;
+  HttpResponse response{.content_type = "application/octet-stream", .body = {cells.begin(), cells.end()}};
+  response.etag = etag_of(response.body);
+  return response;
+}
+
+HttpResponse DocumentApi::markers() const {
+  return {.body = registry_json(load_registry(registry_file_)).dump(),
+          .etag = etag_of(read_document(registry_file_))};
+}
+
+HttpResponse DocumentApi::save_markers(const HttpRequest& request) const {
+  const std::string before = read_document(registry_file_);
+  if (std::optional<HttpResponse> conflict = conflict_with(before, request.if_match)) return *conflict;
+  try {
+    const MarkerRegistry after = registry_from_json(request.body);
+    if (const std::optional<int> id = repeated_id(after)) {
+      return refusal(422, fmt::format("found marker {} twice, wanted each ID once", *id));
+    }
+    const std::string text = edited_registry_text(before, load_registry(registry_file_), after);
+    if (text != before) {
+      history_.keep(before);
+      write_file_atomically(registry_file_, text);
+      if (tell_saved_) tell_saved_(after);
+    }
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  }
+  return markers();
+}
+
+HttpResponse DocumentApi::routes() const {
+  const Routes routes = load_routes(routes_file_);
+  return {.body = routes_json(routes).dump(), .etag = etag_of(routes_text(routes))};
+}
+
+HttpResponse DocumentApi::save_routes(const HttpRequest& request) const {
+  const std::string before = routes_text(load_routes(routes_file_));
+  if (std::optional<HttpResponse> conflict = conflict_with(before, request.if_match)) return *conflict;
+  try {
+    write_file_atomically(routes_file_, routes_text(parse_routes(request.body, "the routes sent")));
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  }
+  return routes();
+}
+
+HttpResponse DocumentApi::history(const std::string& target) const {
+  const std::string rest = target.substr(std::string(history_path).size());
+  if (rest.empty()) return document(history_.numbers());
+  int number = 0;
+  const char* const end = rest.data() + rest.size();
+  const auto [stop, error] = std::from_chars(rest.data() + 1, end, number);
+  if (rest.front() != '/' || error != std::errc() || stop != end) return refusal(404, "found no such state");
+  const std::optional<std::string> text = history_.text(number);
+  if (!text) return refusal(404, "found no such state");
+  return document(registry_json(parse_markers(*text, MarkerFormat::lodestar, "history")));
+}
+
+HttpResponse DocumentApi::runs(const std::string& target) const {
+  const std::string rest = target.substr(std::string(runs_path).size());
+  if (rest.empty()) return document(runs_.names());
+  const std::size_t picture = rest.find("/pictures/");
+  try {
+    if (picture != std::string::npos) {
+      const std::optional<std::string> jpeg = runs_.picture(decoded(rest.substr(1, picture - 1)),
+                                                            rest.substr(picture + std::strlen("/pictures/")));
+      if (!jpeg) return refusal(404, "found no such picture");
+      return {.content_type = "image/jpeg", .body = *jpeg, .etag = etag_of(*jpeg)};
+    }
+    const std::optional<ordered_json> run = runs_.run(decoded(rest.substr(1)));
+    return run ? document(*run) : refusal(404, "found no such run");
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  }
+}
+
+HttpResponse DocumentApi::post(const HttpRequest& request) const {
+  try {
+    if (request.target == "/api/markers/check") {
+      return {.body = view_.issues(registry_from_json(request.body)).dump()};
+    }
+    if (request.target == "/api/markers/deviations") {
+      return {.body = view_.deviations(site_, registry_from_json(request.body)).dump()};
+    }
+    const json body = json::parse(request.body);
+    if (request.target == "/api/markers/export") return exported(body);
+    if (request.target == "/api/markers/import") return imported(body);
+    if (request.target == "/api/markers/print") return printed(body);
+  } catch (const InputError& error) {
+    return refusal(422, error.what());
+  } catch (const json::exception& error) {
+    return refusal(422, error.what());
+  }
+  return refusal(404, "found no such document");
+}
+
+}  // namespace lodestar

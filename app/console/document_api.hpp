@@ -1,0 +1,69 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "app/console/document_history.hpp"
+#include "app/console/run_archive.hpp"
+#include "app/console/site_coverage.hpp"
+#include "app/net/http.hpp"
+#include "app/site/site.hpp"
+
+namespace lodestar {
+
+/// The console's documents over HTTP, by fixed names and never by a path of the client's:
+///
+///   GET  /, /app.js, ...          the page
+///   GET  /api/site                 name, robot, start, goals, usual routes, what the camera covers
+///   GET  /api/map                  size, resolution, place
+///   GET  /api/map/cells            one byte a cell, bottom row first
+///   GET  /api/map/heights          of an OctoMap: four bytes a cell, little-endian
+///   GET  /api/markers              the registry
+///   PUT  /api/markers              saves it, with If-Match: 412 when someone else saved
+///   GET  /api/markers/history      numbers of former states
+///   GET  /api/markers/history/N    one of them
+///   POST /api/markers/check        what is wrong with a draft
+///   POST /api/markers/deviations   how sure of its pose a robot would be under a draft
+///   POST /api/markers/export       {format, registry} -> {text}
+///   POST /api/markers/import       {name, text} -> a registry
+///   POST /api/markers/print        {ids, paper} -> a PDF
+///   GET  /api/routes               places and routes; PUT saves them, with If-Match
+///   GET  /api/runs                 names of runs;  /api/runs/NAME  one of them
+///   GET  /api/runs/NAME/pictures/T.jpg
+///
+/// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
+class DocumentApi {
+ public:
+  /// Throws InputError for a site that cannot be used. `runs_folder` need not exist.
+  DocumentApi(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder);
+
+  HttpResponse answer(const HttpRequest& request);
+
+  /// Called with the markers each time that somebody has saved them.
+  void on_saved_markers(std::function<void(const MarkerRegistry&)> tell) { tell_saved_ = std::move(tell); }
+
+  [[nodiscard]] const Site& site() const { return site_; }
+
+ private:
+  [[nodiscard]] HttpResponse site_document() const;
+  [[nodiscard]] HttpResponse map() const;
+  [[nodiscard]] HttpResponse cells() const;
+  [[nodiscard]] std::optional<HttpResponse> heights() const;
+  [[nodiscard]] HttpResponse markers() const;
+  HttpResponse save_markers(const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse routes() const;
+  HttpResponse save_routes(const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse history(const std::string& target) const;
+  [[nodiscard]] HttpResponse runs(const std::string& target) const;
+  [[nodiscard]] HttpResponse post(const HttpRequest& request) const;
+
+  Site site_;
+  std::filesystem::path registry_file_;
+  std::filesystem::path routes_file_;
+  DocumentHistory history_;
+  RunArchive runs_;
+  std::function<void(const MarkerRegistry&)> tell_saved_;
+  SiteCoverage view_;
+};
+
+}  // namespace lodestar

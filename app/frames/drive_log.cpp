@@ -1,0 +1,127 @@
+#include "app/frames/drive_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+#include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double far_future_s = 9e9;
+
+std::optional<double> finite_number(const char* begin, const char* end) {
+  double value = 0.0;
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  const bool usable = error == std::errc() && rest == end && std::isfinite(value);
+  return usable ? std::optional(value) : std::nullopt;
+}
+
+bool is_image(const fs::path& file) {
+  constexpr std::array endings{".png", ".pgm", ".bmp", ".jpg", ".jpeg", ".tif", ".tiff"};
+  return std::ranges::find(endings, file.extension().string()) != endings.end();
+}
+
+LoggedImage logged_image(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::optional<double> stamp_s = finite_number(stem.data(), stem.data() + stem.size());
+  if (!stamp_s || *stamp_s < 0.0 || *stamp_s > far_future_s) {
+    throw InputError(file, 0, "an image named '" + stem + "'", "a name that is its stamp in seconds");
+  }
+  return {Stamp(from_seconds(*stamp_s)), file};
+}
+
+std::vector<LoggedImage> images_in(const fs::path& folder) {
+  if (!is_folder(folder)) throw InputError(folder, 0, "no such folder", "images and wheels.csv");
+  std::vector<LoggedImage> images;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && is_image(entry.path())) images.push_back(logged_image(entry.path()));
+  }
+  if (images.empty()) throw InputError(folder, 0, "a folder without images", "images named by their stamp");
+  std::ranges::sort(images, {}, &LoggedImage::stamp);
+  return images;
+}
+
+/// `stamp,left,right`; nothing for any other row.
+std::optional<WheelTravel> wheel_row(const std::string& line) {
+  std::array<double, 3> numbers{};
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const char* const stop = i + 1 < numbers.size() ? std::find(at, end, ',') : end;
+    const std::optional<double> number = finite_number(at, stop);
+    if (!number || (i + 1 < numbers.size() && stop == end)) return std::nullopt;
+    numbers[i] = *number;
+    at = stop == end ? end : stop + 1;
+  }
+  if (std::abs(numbers[0]) > far_future_s) return std::nullopt;
+  return WheelTravel{Stamp(from_seconds(numbers[0])), numbers[1], numbers[2]};
+}
+
+std::vector<WheelTravel> read_wheels(const fs::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError(file, 0, "no file that can be read", "the wheels' travel");
+  const std::string header = "stamp_s,left_m,right_m";
+  std::vector<WheelTravel> wheels;
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    if (line.ends_with('\r')) line.pop_back();
+    if (number == 1) {
+      if (line != header) throw InputError(file, 1, "'" + line + "'", "the header '" + header + "'");
+      continue;
+    }
+    const std::optional<WheelTravel> row = wheel_row(line);
+    if (!row) throw InputError(file, number, "'" + line + "'", "three numbers: stamp_s,left_m,right_m");
+    if (!wheels.empty() && row->stamp <= wheels.back().stamp) {
+      throw InputError(file, number, fmt::format("a stamp of {} s", seconds(row->stamp)),
+                       fmt::format("one after {} s", seconds(wheels.back().stamp)));
+    }
+    wheels.push_back(*row);
+  }
+  if (wheels.empty()) throw InputError(file, 0, "no readings", "rows of stamp_s,left_m,right_m");
+  return wheels;
+}
+
+}  // namespace
+
+std::optional<WheelTravel> DriveLog::travel_at(Stamp stamp) const {
+  const auto after = std::ranges::lower_bound(wheels, stamp, {}, &WheelTravel::stamp);
+  if (after == wheels.end()) return std::nullopt;
+  if (after->stamp == stamp) return *after;
+  if (after == wheels.begin()) return std::nullopt;
+  const WheelTravel& before = *std::prev(after);
+  const double share = seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp);
+  return WheelTravel{stamp, std::lerp(before.left_m, after->left_m, share),
+                     std::lerp(before.right_m, after->right_m, share)};
+}
+
+DriveLog load_drive_log(const fs::path& folder) {
+  return {.images = images_in(folder), .wheels = read_wheels(folder / "wheels.csv")};
+}
+
+cv::Mat read_logged_image(const fs::path& file, const CameraModel& camera) {
+  cv::Mat gray;
+  try {
+    gray = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {
+    gray = cv::Mat();  // the decoder's own words tell nothing that the line below does not
+  }
+  if (gray.empty()) throw InputError(file, 0, "no image that can be decoded", "PNG, PGM, BMP, JPEG or TIFF");
+  if (gray.cols != camera.width_px || gray.rows != camera.height_px) {
+    throw InputError(file, 0, fmt::format("{} x {} pixels", gray.cols, gray.rows),
+                     fmt::format("the camera's {} x {}", camera.width_px, camera.height_px));
+  }
+  return gray;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,125 @@
+#include "app/live/operator_session.hpp"
+
+#include <fmt/format.h>
+
+#include "app/recording/drive_moment.hpp"
+
+namespace lodestar {
+namespace {
+
+std::string in_words(const std::vector<Goal>& goals) {
+  std::string words;
+  for (const Goal& goal : goals) {
+    words +=
+        fmt::format("{}({:.2f}, {:.2f}", words.empty() ? "" : ", ", goal.position_m.x(), goal.position_m.y());
+    words += goal.heading_rad ? fmt::format(", {:.0f}°)", degrees(*goal.heading_rad)) : ")";
+  }
+  return words;
+}
+
+/// What keeps the robot from moving, or that nothing does.
+std::string condition_of(const SensorInput& input, const NavigationStep& step) {
+  if (input.base.state != BaseState::ready) {
+    std::string words = fmt::format("base: {}", to_string(input.base.state));
+    if (input.base.fault) words += fmt::format(": {}", to_string(*input.base.fault));
+    return words;
+  }
+  return step.stop ? fmt::format("must not move: {}", to_string(*step.stop)) : "ready to drive";
+}
+
+}  // namespace
+
+OperatorSession::OperatorSession(LiveLink& link, std::function<void(const std::string&)> tell)
+    : link_(link), tell_(std::move(tell)) {}
+
+void OperatorSession::say(Stamp now, const std::string& words) {
+  constexpr std::size_t most_kept = 30;
+  if (tell_) tell_(words);
+  events_.push_back({.number = ++said_, .stamp = now, .words = words});
+  if (events_.size() > most_kept) events_.pop_front();
+}
+
+void OperatorSession::obey(Mission& mission, BaseDriver& base, Stamp now, Stamp clock) {
+  for (const Order& order : link_.take_orders()) take(order, mission, base, now);
+  if (link_.take_stop()) {
+    next_goals_.clear();
+    mission.stop();
+    say(now, "stop");
+  }
+  if (by_console_ && !mission.finished() && !mission.paused() && !link_.is_held(clock)) {
+    mission.pause();
+    say(now, "paused: nobody is at the wheel any more");
+  }
+  if (next_goals_.empty() || !mission.finished()) return;
+  mission.start(std::exchange(next_goals_, {}));
+  by_console_ = true;
+}
+
+void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& base, Stamp now) {
+  const auto say_by = [&](const std::string& words) { say(now, order.by + ": " + words); };
+  if (const auto* go = std::get_if<GoOrder>(&order.what)) {
+    next_goals_ = go->goals;
+    mission.stop();
+    say_by("go to " + in_words(go->goals));
+  } else if (std::holds_alternative<PauseOrder>(order.what)) {
+    mission.pause();
+    say_by("pause");
+  } else if (std::holds_alternative<ResumeOrder>(order.what)) {
+    mission.resume();
+    by_console_ = true;
+    say_by("go on");
+  } else if (std::holds_alternative<ClearFaultOrder>(order.what)) {
+    say_by(base.resume(now) ? "clear the fault" : "clear the fault: its cause is still there");
+  } else if (const auto* place = std::get_if<PlaceOrder>(&order.what)) {
+    const Pose2& pose = place->map_from_base;
+    const bool done = mission.finished() && mission.place_robot(pose);
+    say_by(fmt::format("the robot stands at ({:.2f}, {:.2f}, {:.0f}°){}", pose.position_m.x(),
+                       pose.position_m.y(), degrees(pose.yaw_rad), done ? "" : ": not now"));
+  }
+}
+
+void OperatorSession::remember(const SensorInput& input, const MissionStep& step, const Mission& mission) {
+  if (!step.navigation.fixes.empty()) last_fix_ = step.navigation.fixes.back();
+  if (!input.frames.empty()) last_frame_ = input.frames.back();
+  if (const std::string words = in_words(mission, step.event); !words.empty()) say(input.now, words);
+  if (std::string words = condition_of(input, step.navigation); words != condition_) {
+    say(input.now, words);
+    condition_ = std::move(words);
+  }
+}
+
+void OperatorSession::show(const SensorInput& input, const MissionStep& step, const Mission& mission,
+                           const std::function<std::optional<double>()>& error_m) {
+  remember(input, step, mission);
+  if (!link_.wants_state()) return;
+  if (mission.finished()) {
+    path_.reset();
+  } else if (!path_ || path_->waypoints_m != mission.path().waypoints_m) {
+    path_ = std::make_shared<const Path>(mission.path());
+  }
+  const NavigationStep& navigation = step.navigation;
+  RobotState state{.now = input.now,
+                   .estimate = navigation.estimate,
+                   .stop = navigation.stop,
+                   .commanded = navigation.command,
+                   .measured = input.base.measured,
+                   .phase = mission.phase(),
+                   .goals = mission.goals(),
+                   .current = mission.current(),
+                   .path = path_,
+                   .base = input.base.state,
+                   .fault = input.base.fault,
+                   .distrusted = navigation.distrusted,
+                   .frame = last_frame_,
+                   .error_m = error_m ? error_m() : std::nullopt,
+                   .events = {events_.begin(), events_.end()}};
+  if (input.base.system && input.base.system->battery_v > 0.0) state.battery_v = input.base.system->battery_v;
+  if (last_fix_) {
+    state.markers = last_fix_->fix.ids;
+    state.confidence = last_fix_->fix.confidence;
+    state.last_seen = last_fix_->fix.stamp;
+  }
+  link_.publish(std::move(state));
+}
+
+}  // namespace lodestar

@@ -1,0 +1,193 @@
+#include "app/navigation/marker_localizer.hpp"
+
+#include <algorithm>
+
+namespace lodestar {
+namespace {
+
+/// A robot that has no marker in view may drive on to the next. One whose camera is broken will see none.
+constexpr double farthest_with_broken_camera_m = 0.5;
+
+/// Of markers that contradict each other the estimate believes the one that it expected most, if any.
+std::optional<FixAttempt> most_expected(const std::vector<FixAttempt>& fixes,
+                                        const LocalizationState& known) {
+  std::optional<FixAttempt> best;
+  double least_distance = 0.0;
+  for (const FixAttempt& used : fixes) {
+    const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
+    if (!expected || !expected->agrees || (best && expected->squared_distance >= least_distance)) continue;
+    best = used;
+    least_distance = expected->squared_distance;
+  }
+  return best;
+}
+
+/// The filter's word on the fix, and what follows from it for the markers.
+void take_in(FixAttempt& used, LocalizationState& known) {
+  const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
+  if (expected) used.expected = expected->map_from_base;
+  used.outcome = known.filter.add_fix(used.planar);
+  if (used.outcome == FixOutcome::accepted) known.trust.support(used.fix.ids);
+  if (used.outcome == FixOutcome::started || used.outcome == FixOutcome::relocated)
+    known.trust.estimate_moved();
+  known.integrity.add_fix({.stamp = used.fix.stamp,
+                           .ids = used.fix.ids,
+                           .map_from_base = used.planar.map_from_base,
+                           .expected = used.expected,
+                           .outcome = used.outcome});
+}
+
+StopReason stop_for(CameraFault fault) {
+  switch (fault) {
+    case CameraFault::silent:
+      return StopReason::camera_silent;
+    case CameraFault::repeats:
+      return StopReason::camera_repeats;
+    case CameraFault::dark:
+      return StopReason::camera_dark;
+    case CameraFault::bright:
+      return StopReason::camera_bright;
+    case CameraFault::late:
+      return StopReason::camera_late;
+    case CameraFault::other_clock:
+      return StopReason::camera_clock;
+  }
+  return StopReason::camera_silent;
+}
+
+StopReason stop_for(IntegrityAlarm reason) {
+  switch (reason) {
+    case IntegrityAlarm::contradicted:
+      return StopReason::contradicted;
+    case IntegrityAlarm::moved:
+      return StopReason::pose_moved;
+    case IntegrityAlarm::wheels_wrong:
+      return StopReason::wheels_wrong;
+    case IntegrityAlarm::carried_away:
+      return StopReason::carried_away;
+    case IntegrityAlarm::wheels_broken:
+      return StopReason::wheels_broken;
+  }
+  return StopReason::contradicted;
+}
+
+}  // namespace
+
+void LocalizationState::add_travel(const WheelTravel& reading) {
+  filter.add_travel(reading);
+  integrity.add_travel(reading);
+}
+
+std::optional<StopReason> with_doubts(const std::optional<StopReason>& reason, const LocalizationState& known,
+                                      Stamp now) {
+  const std::optional<IntegrityAlarm> doubt = known.integrity.reason(now);
+  if (doubt && (!reason || is_for_good(stop_for(*doubt)))) return stop_for(*doubt);
+  const std::optional<CameraFault> camera = known.camera.fault(now);
+  const bool is_far = known.integrity.rolled_since_agreement_m() > farthest_with_broken_camera_m;
+  if (camera && (reason ? would_a_marker_mend(*reason) : is_far)) return stop_for(*camera);
+  return reason;
+}
+
+MarkerLocalizer::MarkerLocalizer(const MarkerRegistry& registry, const CameraModel& camera,
+                                 const Eigen::Isometry3d& base_from_camera, const DetectorOptions& detector,
+                                 const PoseFixOptions& fix, const PoseFilterOptions& filter)
+    : registry_(registry),
+      base_from_camera_(base_from_camera),
+      fix_options_(fix),
+      tracker_(registry, camera, detector),
+      fixer_(registry, camera),
+      filter_options_(filter) {
+  const std::optional<double> height_m = ceiling_height_m(registry);
+  if (height_m && fix.prior.tilt_sigma_rad)
+    ceiling_.emplace(camera, base_from_camera, *height_m, *fix.prior.tilt_sigma_rad);
+}
+
+std::optional<FixAttempt> MarkerLocalizer::see(const Frame& frame, Stamp now, LocalizationState& known) {
+  if (known.camera.take_in(frame, now)) return std::nullopt;
+  follow_ceiling(frame, known);
+  std::optional<FixAttempt> used = look(frame, known);
+  if (known.integrity.wheels_fooled_us()) {
+    known.filter = PoseFilter(filter_options_);
+    known.trust.estimate_moved();
+  }
+  return used;
+}
+
+/// Lays the frame over the picture that is kept. When too little of that one is in view, or another belief
+/// has begun, which knows no picture, this frame is kept instead.
+void MarkerLocalizer::follow_ceiling(const Frame& frame, LocalizationState& known) {
+  if (!ceiling_) return;
+  ceiling_->look(frame);
+  const std::optional<PictureExpectation> expected = known.filter.expected_motion(frame.stamp);
+  if (expected && expected->from == ceiling_->kept_at()) {
+    const std::optional<VisualOdometryIncrement> motion = ceiling_->motion(expected->then_from_now);
+    const bool is_far = ceiling_->leaves_view(expected->then_from_now);
+    const bool agrees = motion && known.filter.add_motion(*motion, is_far);
+    if (is_far && agrees) ceiling_->keep();
+    if (!is_far || agrees) return;
+  }
+  if (known.filter.keep_picture(frame.stamp, ceiling_->sway_m())) ceiling_->keep();
+}
+
+std::optional<FixAttempt> MarkerLocalizer::look(const Frame& frame, LocalizationState& known) {
+  const std::span<const DetectedMarker> seen =
+      tracker_.detect(frame.gray, view_expected_at(frame.stamp, known));
+  std::vector<DetectedMarker> markers(seen.begin(), seen.end());
+  std::erase_if(markers, [&](const DetectedMarker& marker) { return !known.trust.trusts(marker.id); });
+
+  std::optional<FixAttempt> used = fix_by(frame, markers);
+  if (used) {
+    const std::vector<int>& agreeing = used->fix.ids;
+    std::erase_if(markers, [&](const DetectedMarker& marker) {
+      return agreeing.size() > 1 && std::ranges::find(agreeing, marker.id) != agreeing.end();
+    });
+  }
+  std::vector<FixAttempt> doubted = used && markers.size() == 1 && used->fix.ids.size() == 1
+                                        ? std::vector<FixAttempt>{*used}
+                                        : fixes_by_each(frame, markers);
+  for (const FixAttempt& single : doubted) judge(single, known);
+
+  if (!used) used = most_expected(doubted, known);
+  if (used) take_in(*used, known);
+  return used;
+}
+
+std::optional<ExpectedView> MarkerLocalizer::view_expected_at(Stamp stamp,
+                                                              const LocalizationState& known) const {
+  const std::optional<PoseEstimate> robot = known.filter.estimate_at(stamp);
+  return robot ? expected_view(*robot, base_from_camera_, fix_options_.prior) : std::nullopt;
+}
+
+std::optional<FixAttempt> MarkerLocalizer::fix_by(const Frame& frame,
+                                                  std::span<const DetectedMarker> markers) {
+  const PoseFix* const fix = fixer_.fix(frame.stamp, markers, fix_options_);
+  if (fix == nullptr) return std::nullopt;
+  return FixAttempt{.fix = *fix, .planar = compensate_mount(*fix, base_from_camera_)};
+}
+
+/// An ID that is seen twice has none.
+std::vector<FixAttempt> MarkerLocalizer::fixes_by_each(const Frame& frame,
+                                                       std::span<const DetectedMarker> markers) {
+  std::vector<FixAttempt> fixes;
+  for (const DetectedMarker& marker : markers) {
+    if (std::ranges::count(markers, marker.id, &DetectedMarker::id) > 1) continue;
+    if (std::optional<FixAttempt> fix = fix_by(frame, std::span(&marker, 1)))
+      fixes.push_back(std::move(*fix));
+  }
+  return fixes;
+}
+
+/// Charges the marker if its fix contradicts the estimate.
+void MarkerLocalizer::judge(const FixAttempt& single, LocalizationState& known) const {
+  const int id = single.fix.ids.front();
+  const RegisteredMarker* registered = registry_.find(id);
+  const std::optional<FixExpectation> expected = known.filter.expectation(single.planar);
+  if (registered == nullptr || !expected) return;
+  known.trust.charge({.id = id,
+                      .marker_in_map = map_from_marker(registry_, *registered).translation().head<2>(),
+                      .map_from_base_by_marker = single.planar.map_from_base,
+                      .map_from_base_expected = expected->map_from_base,
+                      .squared_distance = expected->squared_distance});
+}
+
+}  // namespace lodestar

@@ -1,0 +1,52 @@
+#include "app/navigation/navigation_setup.hpp"
+
+#include "control/travel_time.hpp"
+
+namespace lodestar {
+
+PosePrior pose_prior(const Robot& robot) {
+  PosePrior prior;
+  prior.tilt = rotation_from({robot.camera_mount.roll_rad, robot.camera_mount.pitch_rad, 0.0});
+  prior.tilt_sigma_rad = robot.mount_tilt_sigma_rad;
+  prior.height_m = robot.base_from_camera.translation().z();
+  prior.height_sigma_m = robot.mount_height_sigma_m;
+  return prior;
+}
+
+KnownWorld known_world(const Site& site, const std::string& camera) {
+  return {.map = site.map.map,
+          .registry = site.registry,
+          .camera = site.cameras.at(camera),
+          .base_from_camera = site.robot.base_from_camera};
+}
+
+NavigationOptions navigation_options(const Robot& robot) {
+  NavigationOptions options;
+  options.fix.prior = pose_prior(robot);
+  // Assumed, not measured: film is cut and glued to some 0.05 mm, and as much again is what the ceiling's own
+  // pattern beside a dot makes of its middle. 2.6 m below that is 0.02 px of the paper's camera (755 px). On
+  // a real ceiling the fixes' residual_px (run.mcap and the live viewers) show it: half their square is about
+  // this one's and that of the frame's noise, some 0.01 px, together.
+  options.fix.dot_place_sigma_m = 0.00007;
+  options.filter.track_width_m = robot.track_width_m;
+  options.filter.fix_sigma_floor_m = robot.shared_fix_sigma_m.value_or(options.filter.fix_sigma_floor_m);
+  options.filter.fix_sigma_floor_rad =
+      robot.shared_fix_sigma_rad.value_or(options.filter.fix_sigma_floor_rad);
+  options.planner.radius_m = robot.radius_m;
+  options.planner.footprint = robot.footprint;
+  options.planner.preferred_clearance_m = robot.preferred_clearance_m;
+  options.drive.max_forward_mps = robot.max_forward_mps;
+  options.drive.max_turn_radps = robot.max_turn_radps;
+  options.drive.max_acceleration_mps2 = robot.max_acceleration_mps2;
+  options.drive.max_turn_acceleration_radps2 = robot.max_turn_acceleration_radps2;
+  options.drive.max_wheel_mps = robot.max_wheel_mps;
+  options.drive.track_width_m = robot.track_width_m;
+  options.drive.arrival_distance_m = robot.arrival_distance_m;
+  options.drive.blend_corridor_m = robot.pass_corners_within_m;
+  options.drive.arrival_heading_rad = robot.arrival_heading_rad;
+  options.planner.limits = motion_limits(options.drive);
+  options.route.limits = options.planner.limits;
+  return options;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,307 @@
+#include "app/net/http_server.hpp"
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <fmt/format.h>
+
+#include "maps/input_error.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+using beast::error_code;
+
+using Parser = http::request_parser<http::string_body>;
+using Message = http::response<http::string_body>;
+
+std::string text(beast::string_view view) {
+  return {view.data(), view.size()};
+}
+
+HttpRequest head_of(const Parser& parser) {
+  const auto& fields = parser.get();
+  return {.method = text(fields.method_string()),
+          .target = text(fields.target()),
+          .host = text(fields[http::field::host]),
+          .origin = text(fields[http::field::origin]),
+          .content_type = text(fields[http::field::content_type]),
+          .console_header = text(fields["X-Lodestar"]),
+          .authorization = text(fields[http::field::authorization]),
+          .cookie = text(fields[http::field::cookie]),
+          .if_match = text(fields[http::field::if_match]),
+          .if_none_match = text(fields[http::field::if_none_match]),
+          .wants_socket = websocket::is_upgrade(fields),
+          .subprotocols = text(fields[http::field::sec_websocket_protocol]),
+          .body = {}};
+}
+
+/// Nothing from elsewhere, no script but our own file, no frame around us: whatever a document's text holds.
+void add_safety(Message& message) {
+  message.set("Content-Security-Policy",
+              "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+              "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+  message.set("X-Content-Type-Options", "nosniff");
+  message.set("X-Frame-Options", "DENY");
+  message.set("Referrer-Policy", "no-referrer");
+  message.set("Cross-Origin-Resource-Policy", "same-origin");
+  message.set(http::field::cache_control, "no-cache");
+}
+
+Message message_of(HttpResponse response, bool keep_alive, bool without_body) {
+  Message message(static_cast<http::status>(response.status), 11);
+  message.set(http::field::content_type, response.content_type);
+  add_safety(message);
+  if (!response.etag.empty()) message.set(http::field::etag, response.etag);
+  if (!response.set_cookie.empty()) message.set(http::field::set_cookie, response.set_cookie);
+  message.keep_alive(keep_alive);
+  if (response.status == 304) return message;
+  const std::size_t size = response.body.size();
+  if (!without_body) message.body() = std::move(response.body);
+  message.content_length(size);
+  return message;
+}
+
+int status_of(error_code error) {
+  if (error == http::error::body_limit) return 413;
+  if (error == http::error::header_limit) return 431;
+  return 400;
+}
+
+/// One client of a subprotocol, shared by the two coroutines that read from it and write to it.
+struct SocketClient {
+  SocketClient(beast::tcp_stream connected, const OutboxLimits& limits)
+      : stream(std::move(connected)), outbox(limits), wake(stream.get_executor()) {}
+
+  void rouse() { wake.cancel(); }
+  void leave() {
+    gone = true;
+    wake.cancel();
+    beast::get_lowest_layer(stream).close();
+  }
+
+  websocket::stream<beast::tcp_stream> stream;
+  Outbox outbox;
+  asio::steady_timer wake;
+  std::unique_ptr<SocketSession> session;  // knows the outbox, so it goes first
+  bool gone = false;
+};
+
+/// Sends what comes into the outbox, one message after the other.
+asio::awaitable<void> write_all(std::shared_ptr<SocketClient> client) {
+  error_code error;
+  while (!client->gone) {
+    if (const std::optional<SocketMessage> message = client->outbox.take()) {
+      client->stream.binary(message->binary);
+      co_await client->stream.async_write(asio::buffer(*message->bytes),
+                                          asio::redirect_error(asio::use_awaitable, error));
+      if (error) client->leave();
+    } else {
+      client->wake.expires_at(asio::steady_timer::time_point::max());
+      co_await client->wake.async_wait(asio::redirect_error(asio::use_awaitable, error));
+    }
+  }
+}
+
+/// Hands the session what the client says, until either leaves.
+asio::awaitable<void> read_all(std::shared_ptr<SocketClient> client) {
+  error_code error;
+  beast::flat_buffer buffer;
+  while (!client->gone) {
+    co_await client->stream.async_read(buffer, asio::redirect_error(asio::use_awaitable, error));
+    if (error) break;
+    try {
+      client->session->receive(beast::buffers_to_string(buffer.data()), client->stream.got_binary());
+    } catch (const std::exception&) {
+      break;  // what it sends is not of the subprotocol
+    }
+    buffer.consume(buffer.size());
+  }
+}
+
+}  // namespace
+
+class HttpServer::Impl {
+ public:
+  Impl(const HttpServerOptions& options, Handler handler, std::vector<SocketProtocol> protocols)
+      : options_(options),
+        handler_(std::move(handler)),
+        protocols_(std::move(protocols)),
+        acceptor_(context_) {
+    AccessRules& access = options_.access;
+    if (!is_loopback(access.bind) && !access.asks_for_token()) {
+      throw InputError("--bind: found '" + access.bind + "' without a token, wanted --token or 127.0.0.1");
+    }
+    listen(access.bind == "localhost" ? "127.0.0.1" : access.bind);
+    access.port = acceptor_.local_endpoint().port();
+    asio::co_spawn(context_, accept(), asio::detached);
+  }
+
+  [[nodiscard]] unsigned short port() const { return options_.access.port; }
+  void run_for(std::chrono::milliseconds time) { context_.run_for(time); }
+
+ private:
+  void listen(const std::string& address) {
+    try {
+      const tcp::endpoint endpoint(asio::ip::make_address(address), options_.access.port);
+      acceptor_.open(endpoint.protocol());
+      acceptor_.set_option(asio::socket_base::reuse_address(true));
+      acceptor_.bind(endpoint);
+      acceptor_.listen();
+    } catch (const boost::system::system_error& error) {
+      throw InputError(fmt::format("{} port {}: {}", address, options_.access.port, error.code().message()));
+    }
+  }
+
+  asio::awaitable<void> accept() {
+    for (;;) {
+      error_code error;
+      tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
+      if (error) continue;
+      if (connections_ >= options_.max_connections) continue;  // closes it
+      asio::co_spawn(context_, serve(std::move(socket)), asio::detached);
+    }
+  }
+
+  asio::awaitable<void> serve(tcp::socket socket) {
+    ++connections_;
+    beast::tcp_stream stream(std::move(socket));
+    beast::flat_buffer buffer;
+    Next next = Next::another_request;
+    while (next == Next::another_request) next = co_await serve_one(stream, buffer);
+    --connections_;
+    if (next == Next::went_on) co_return;
+    error_code error;  // of a client that is gone already: no matter
+    error = stream.socket().shutdown(tcp::socket::shutdown_both, error);
+  }
+
+  enum class Next { another_request, end, went_on };  ///< went on: as a WebSocket, the stream is moved from
+
+  /// One request and its answer.
+  asio::awaitable<Next> serve_one(beast::tcp_stream& stream, beast::flat_buffer& buffer) {
+    Parser parser;
+    parser.header_limit(options_.max_header_bytes);
+    parser.body_limit(options_.max_body_bytes);
+    stream.expires_after(options_.patience);
+    error_code error;
+    co_await http::async_read_header(stream, buffer, parser,
+                                     asio::redirect_error(asio::use_awaitable, error));
+    if (error) co_return co_await complain(stream, error);
+
+    HttpRequest request = head_of(parser);
+    std::optional<HttpResponse> response = turned_away(request, options_.access);
+    if (!response && request.wants_socket) {
+      response = no_socket(request);
+      if (!response) {
+        asio::co_spawn(context_, converse(std::move(stream), parser.release(), request), asio::detached);
+        co_return Next::went_on;
+      }
+    }
+    const bool keep = !response && parser.get().keep_alive();
+    if (!response) {
+      co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
+      if (error) co_return co_await complain(stream, error);
+      request.body = std::move(parser.get().body());
+      response = answer(request);
+    }
+    const bool sent = co_await send(stream, message_of(std::move(*response), keep, request.method == "HEAD"));
+    co_return keep&& sent ? Next::another_request : Next::end;
+  }
+
+  /// Why the client cannot have a WebSocket, if so.
+  [[nodiscard]] std::optional<HttpResponse> no_socket(const HttpRequest& request) const {
+    if (chosen_protocol(protocols_, request.subprotocols) == nullptr) {
+      return refusal(400, "found no subprotocol of ours in Sec-WebSocket-Protocol");
+    }
+    if (sockets_ >= options_.max_sockets) return refusal(503, "found too many clients, try again later");
+    return std::nullopt;
+  }
+
+  /// A client from its upgrade until it leaves, or neither reads nor answers pings any more.
+  asio::awaitable<void> converse(beast::tcp_stream stream, Parser::value_type upgrade, HttpRequest head) {
+    const SocketProtocol& protocol = *chosen_protocol(protocols_, head.subprotocols);
+    stream.expires_never();  // the WebSocket has timers of its own
+    const auto client = std::make_shared<SocketClient>(std::move(stream), options_.outbox);
+    client->stream.set_option(websocket::stream_base::timeout{
+        .handshake_timeout = options_.patience, .idle_timeout = options_.patience, .keep_alive_pings = true});
+    client->stream.set_option(
+        websocket::stream_base::decorator([name = protocol.name](websocket::response_type& response) {
+          response.set(http::field::sec_websocket_protocol, name);
+        }));
+    client->stream.read_message_max(options_.max_socket_message_bytes);
+    client->stream.auto_fragment(false);  // a message is one write
+    error_code error;
+    co_await client->stream.async_accept(upgrade, asio::redirect_error(asio::use_awaitable, error));
+    if (error) co_return;
+    ++sockets_;
+    client->outbox.on_work([raw = client.get()] { raw->outbox.overflowed() ? raw->leave() : raw->rouse(); });
+    client->session = protocol.open(*role_of(head, options_.access), client->outbox);
+    asio::co_spawn(context_, write_all(client), asio::detached);
+    co_await read_all(client);
+    client->session.reset();
+    client->leave();
+    --sockets_;
+  }
+
+  HttpResponse answer(const HttpRequest& request) const {
+    try {
+      if (request.target == "/api/session") return answer_session(request, options_.access);
+      return handler_(request);
+    } catch (const std::exception& error) {
+      return refusal(500, error.what());
+    }
+  }
+
+  /// For what is no request: says so, if the client still listens, and ends the connection.
+  asio::awaitable<Next> complain(beast::tcp_stream& stream, error_code error) {
+    const bool gone = error == http::error::end_of_stream || error == beast::error::timeout ||
+                      error.category() == asio::error::get_system_category();
+    if (!gone) {
+      co_await send(stream, message_of(refusal(status_of(error), error.message()), false, false));
+    }
+    co_return Next::end;
+  }
+
+  asio::awaitable<bool> send(beast::tcp_stream& stream, Message message) {
+    stream.expires_after(options_.patience);
+    error_code error;
+    co_await http::async_write(stream, message, asio::redirect_error(asio::use_awaitable, error));
+    co_return !error;
+  }
+
+  HttpServerOptions options_;
+  Handler handler_;
+  std::vector<SocketProtocol> protocols_;
+  asio::io_context context_{1};
+  tcp::acceptor acceptor_;
+  int connections_ = 0;
+  int sockets_ = 0;
+};
+
+HttpServer::HttpServer(const HttpServerOptions& options, Handler handler,
+                       std::vector<SocketProtocol> protocols)
+    : impl_(std::make_unique<Impl>(options, std::move(handler), std::move(protocols))) {}
+HttpServer::~HttpServer() = default;
+
+unsigned short HttpServer::port() const {
+  return impl_->port();
+}
+
+void HttpServer::run_for(std::chrono::milliseconds time) {
+  impl_->run_for(time);
+}
+
+}  // namespace lodestar

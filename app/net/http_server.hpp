@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <utility>  // the coroutines of Boost 1.74 use std::exchange without including it
+
+#include "app/net/access.hpp"
+#include "app/net/socket.hpp"
+
+namespace lodestar {
+
+struct HttpServerOptions {
+  AccessRules access;  ///< its port 0 takes any free one
+  std::size_t max_body_bytes = 4U << 20U;
+  unsigned max_header_bytes = 16U << 10U;
+  int max_connections = 32;
+  int max_sockets = 128;
+  std::size_t max_socket_message_bytes = 64U << 10U;  ///< of what a client sends over a WebSocket
+  OutboxLimits outbox;
+  std::chrono::seconds patience{15};  ///< with a client that sends or takes nothing
+};
+
+/// An HTTP/1.1 and WebSocket server on one thread, the caller's. It enforces the access rules and the limits
+/// before the handler or a session sees anything; a handler that throws gives 500, in words. A request for a
+/// WebSocket, on any target, gets the subprotocol that it offers. Boost.Beast stays in its .cpp.
+class HttpServer {
+ public:
+  using Handler = std::function<HttpResponse(const HttpRequest&)>;
+
+  /// Listens at once. Throws InputError when the address or the port cannot be had, and for an address other
+  /// than loopback without a token. The sessions of `protocols` end with the server, at the latest.
+  HttpServer(const HttpServerOptions& options, Handler handler, std::vector<SocketProtocol> protocols = {});
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  [[nodiscard]] unsigned short port() const;
+
+  /// Serves all clients for so long.
+  void run_for(std::chrono::milliseconds time);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "localization/calibration/calibration_board.hpp"
+#include "localization/calibration/camera_calibration.hpp"
+
+namespace lodestar {
+
+/// The images of one camera calibration: where the board was seen, and where not.
+struct CameraSet {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::string> files;  ///< with the board, as the views
+  std::vector<BoardView> views;
+  std::vector<std::string> files_without_board;
+};
+
+/// Looks for the board in each image (or each of a folder), one at a time. Throws InputError for what is no
+/// image, and for images of different sizes.
+CameraSet read_camera_set(const std::vector<std::string>& images, const CalibrationBoard& board);
+
+/// What came of it, for people: errors of all images, coverage as a small picture, intrinsics with standard
+/// deviations.
+std::string text_report(const CameraSet& set, const CameraCalibration& calibration);
+
+/// The same for programs.
+nlohmann::ordered_json json_report(const CameraSet& set, const CameraCalibration& calibration);
+
+/// Why the set cannot be used, one line a flaw, with what was found and what is wanted; empty when it can.
+std::vector<std::string> complaints(const CameraSet& set, const CameraCalibration& calibration,
+                                    const CameraCalibrationOptions& options);
+
+}  // namespace lodestar

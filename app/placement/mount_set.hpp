@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/frames/drive_log.hpp"
+#include "app/site/site.hpp"
+#include "localization/calibration/mount_calibration.hpp"
+
+namespace lodestar {
+
+/// The frames of a log in which registered markers were seen.
+struct MountSet {
+  std::size_t images = 0;
+  std::vector<MountFrame> frames;
+};
+
+/// Reads a log's images one at a time. Throws InputError for an image that cannot be read.
+MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, const CameraModel& camera,
+                        const Robot& robot);
+
+/// What the robot file says.
+MountBelief belief_of(const Robot& robot);
+
+/// What came of it, for people and for programs.
+std::string text_report(const MountSet& set, const MountCalibration& calibration);
+nlohmann::ordered_json json_report(const MountSet& set, const MountCalibration& calibration);
+
+/// Why the log cannot be used, one line a flaw; empty when it can.
+std::vector<std::string> complaints(const MountSet& set, const MountCalibration& calibration,
+                                    const MountCalibrationOptions& options);
+
+/// The keys of `camera_mount` that were measured, as they are to stand in the robot file.
+std::map<std::string, std::string> measured_keys(const MountEstimate& estimate);
+
+}  // namespace lodestar

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "maps/marker_registry.hpp"
+#include "maps/occupancy_map.hpp"
+
+namespace lodestar {
+
+enum class IssueKind {
+  repeated_id,
+  overlapping,
+  outside_map,
+  similar_ids,
+  mirror_images,
+  blind_route,  ///< this one and the next: see app/placement/coverage.hpp
+  gap
+};
+
+/// As reports name it: `outside-map`.
+std::string_view to_string(IssueKind kind);
+
+/// Something wrong (error) or doubtful with a registry.
+struct RegistryIssue {
+  IssueKind kind = IssueKind::overlapping;
+  bool error = false;
+  std::vector<int> ids;
+  int line = 0;  ///< of the first marker concerned; 0 when none is
+  std::string words;
+  std::vector<Vec2> places_m;  ///< on the map, for a view to go there
+};
+
+/// {"kind", "severity", "ids", "line" where there is one, "words", "places_m"}: the same for everyone who is
+/// told.
+nlohmann::ordered_json issue_json(const RegistryIssue& issue);
+
+/// The middle of a marker's square, on the map.
+Vec3 middle_of(const MarkerRegistry& registry, const RegisteredMarker& marker);
+
+/// Two markers; `first` may be `second` where a marker is compared with its own turned views.
+struct MarkerPair {
+  int first = 0;
+  int second = 0;
+  double apart_m = 0.0;  ///< on the ceiling, from O to O
+  friend bool operator==(const MarkerPair&, const MarkerPair&) = default;
+};
+
+/// How far apart the IDs of a registry are: the number of cells, dots lost or glints won, that must be
+/// misread to take one for another.
+struct DistanceReport {
+  int smallest = 0;  ///< 0 when nothing was compared
+  std::vector<MarkerPair> closest_pairs;
+};
+
+/// Read upright: the IDs' Hamming distance. Needs two markers.
+DistanceReport upright_distances(const MarkerRegistry& registry);
+
+/// One of them turned by quarters or mirrored, each marker with itself too.
+DistanceReport turned_distances(const MarkerRegistry& registry);
+
+/// IDs that stand twice, markers whose printed squares overlap, markers outside the map (where one is given),
+/// IDs one dot apart, markers that are each other's mirror image.
+std::vector<RegistryIssue> check_registry(const MarkerRegistry& registry,
+                                          const std::optional<OccupancyMap>& map);
+
+}  // namespace lodestar

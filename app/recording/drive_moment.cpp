@@ -1,0 +1,35 @@
+#include "app/recording/drive_moment.hpp"
+
+#include <fmt/format.h>
+
+namespace lodestar {
+
+namespace {
+
+std::string path_in_words(const Mission& mission) {
+  const Path& path = mission.path();
+  const Vec2& goal_m = mission.goals()[mission.current()].position_m;
+  const double short_by_m = (path.waypoints_m.back() - goal_m).norm();
+  std::string words = fmt::format("goal {}: a path of {:.2f} m", mission.current() + 1, length_m(path));
+  if (short_by_m > 1e-6)
+    words += fmt::format(", to {:.0f} mm beside the goal, which touches an obstacle", 1e3 * short_by_m);
+  return words;
+}
+
+}  // namespace
+
+std::string in_words(const Mission& mission, MissionEvent event) {
+  switch (event) {
+    case MissionEvent::none:
+      return "";
+    case MissionEvent::path_planned:
+      return path_in_words(mission);
+    case MissionEvent::goal_arrived:
+      return fmt::format("goal {}: arrived", mission.current());
+    case MissionEvent::goal_failed:
+      return fmt::format("goal {}: failed: {}", mission.current(), mission.failure());
+  }
+  return "";
+}
+
+}  // namespace lodestar

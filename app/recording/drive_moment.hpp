@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "app/navigation/mission.hpp"
+#include "app/recording/drive_record.hpp"
+
+namespace lodestar {
+
+/// One step of a drive, for those who only look on.
+struct DriveMoment {
+  const SensorInput& input;
+  const MissionStep& step;
+  const Mission& mission;
+  std::optional<KeptPicture> picture;  ///< that the record keeps of this step, if any
+};
+
+/// Called after each step, once its command is on the way.
+using DriveWatcher = std::function<void(const DriveMoment&)>;
+
+/// What has come of the present goal, in words; empty when nothing has.
+std::string in_words(const Mission& mission, MissionEvent event);
+
+}  // namespace lodestar

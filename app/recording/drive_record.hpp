@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/site/goal.hpp"
+#include "drivers/can/can_bus.hpp"
+#include "localization/integrity/marker_trust.hpp"
+#include "maps/marker_registry.hpp"
+#include "maps/motion.hpp"
+#include "maps/occupancy_map.hpp"
+
+// What a drive leaves behind in memory, as far as the robot itself can know it.
+namespace lodestar {
+
+/// One step of the navigator, at its steady rate.
+struct StepRecord {
+  PoseEstimate estimate;
+  BodyVelocity commanded;
+  BodyVelocity measured;             ///< by the base
+  Vec2 wheel_scales = Vec2::Ones();  ///< true over reported travel, left and right, as learned so far
+};
+
+/// One frame that gave a pose.
+struct FixRecord {
+  Stamp stamp;  ///< capture
+  Pose2 map_from_base;
+  std::vector<int> ids;
+  double confidence = 0.0;
+  bool accepted = false;  ///< by the pose filter
+};
+
+/// A camera frame worth keeping.
+struct KeptPicture {
+  Stamp stamp;                           ///< capture
+  std::shared_future<std::string> jpeg;  ///< made on the side, see PictureKeeper
+};
+
+/// How one goal ended.
+struct GoalRecord {
+  Goal goal;
+  Path planned;
+  bool arrived = false;
+  std::string failure;     ///< in words, when it did not arrive
+  double ideal_s = 0.0;    ///< that the path planned first takes at best
+  Duration travel_time{};  ///< simulated
+  Stamp ended;             ///< when the goal was reached or given up
+};
+
+/// From here on something was wrong, in the navigator's words, or nothing any more.
+struct NoticeRecord {
+  Stamp stamp;
+  std::string words;  ///< empty: all is well again
+  bool stops = false;
+};
+
+struct DriveRecord {
+  std::string site;
+  std::string camera;  ///< profile: wide or paper
+  std::uint64_t seed = 0;
+  std::string repeat;  ///< the command that gives the same run again
+  Pose2 start;
+  double robot_radius_m = 0.0;
+  std::vector<GoalRecord> goals;
+  std::vector<StepRecord> steps;
+  std::vector<FixRecord> fixes;
+  std::vector<KeptPicture> pictures;         ///< a few a second, where wanted
+  std::vector<DistrustedMarker> distrusted;  ///< at the end
+  std::vector<StampedCanFrame> can_frames;
+  std::vector<NoticeRecord> notices;
+  int frames = 0;            ///< that arrived from the camera
+  double wall_time_s = 0.0;  ///< never written to a file that must repeat byte for byte
+
+  [[nodiscard]] bool arrived() const;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,220 @@
+#include "app/simulate/simulated_drive.hpp"
+
+#include <algorithm>
+
+#include "app/common/stopwatch.hpp"
+#include "app/live/operator_session.hpp"
+#include "app/navigation/mission.hpp"
+#include "app/navigation/navigation_setup.hpp"
+#include "app/recording/picture_keeper.hpp"
+#include "app/recording/run_recorder.hpp"
+#include "app/report/run_statistics.hpp"
+#include "drivers/simulation/simulation.hpp"
+#include "drivers/system/clock.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr Duration control_period = std::chrono::milliseconds(20);
+
+SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptions& replay) {
+  SimulationOptions options;
+  options.start = site.start;
+  options.base_from_camera = site.robot.base_from_camera;
+  options.robot_radius_m = site.robot.radius_m;
+  options.base.track_width_m = site.robot.track_width_m;
+  options.seed = replay.seed;
+  options.faults = replay.faults;
+  options.disk = replay.disk;
+  return options;
+}
+
+NavigationOptions replay_navigation(const Site& site, const SimulatedDriveOptions& options) {
+  NavigationOptions navigation = navigation_options(site.robot);
+  navigation.planner.kind = options.planner;
+  navigation.planner.pose_keeping = options.pose_keeping;
+  navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
+  return navigation;
+}
+
+MarkerRegistry hanging_markers(const Site& site, const SimulatedDriveOptions& options) {
+  std::vector<Vec2> places_m{site.start.position_m};
+  for (const Goal& goal : options.goals) places_m.push_back(goal.position_m);
+  return with_markers_removed(site.registry, options.disturbances.removed_markers, places_m, options.seed);
+}
+
+SensorInput sense(Simulation& simulation, BaseDriver& base) {
+  SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
+  while (std::optional<Frame> frame = simulation.camera().poll()) input.frames.push_back(std::move(*frame));
+  return input;
+}
+
+/// Tells the judge what has come of a goal, and records his score.
+void judge(RunRecord& record, Scorer& scorer, const Mission& mission, MissionEvent event) {
+  if (event == MissionEvent::path_planned) scorer.claim_path(mission.path());
+  if (event != MissionEvent::goal_arrived) return;
+  const std::size_t ended = mission.current() - 1;
+  const Goal& goal = record.goals.at(ended).goal;
+  scorer.claim_arrival(goal.position_m, goal.heading_rad);
+  record.scores.resize(ended);  // goals before it that did not arrive have none
+  record.scores.emplace_back(scorer.arrivals().back());
+}
+
+/// The share of the goals done, the present one by the way still to go.
+double share_done(const RunRecord& record, const Mission& mission,
+                  const std::optional<PoseEstimate>& estimate) {
+  const auto total = static_cast<double>(record.goals.size());
+  const auto done = static_cast<double>(mission.current());
+  if (mission.finished() || !estimate || record.goals[mission.current()].planned.waypoints_m.empty())
+    return done / total;
+  const Path& path = mission.path();
+  const double left_m = (path.waypoints_m.back() - estimate->map_from_base.position_m).norm();
+  return (done + 1.0 - std::clamp(left_m / std::max(length_m(path), 1e-9), 0.0, 1.0)) / total;
+}
+
+/// The simulated world, the robot in it, and what its drive leaves behind.
+class SimulatedDrive {
+ public:
+  SimulatedDrive(const Site& site, const SimulatedDriveOptions& options)
+      : site_(site),
+        options_(options),
+        world_(known_world(site, options.camera)),
+        simulation_(world_.map, hanging_markers(site, options), world_.camera,
+                    made_harder(simulation_options(site, options), options.disturbances)),
+        base_(simulation_.can()),
+        mission_(world_, replay_navigation(site, options), options.goals) {
+    simulation_.on_can_frame([this](const StampedCanFrame& frame) { take(frame); });
+  }
+
+  void step(OperatorSession* session = nullptr) {
+    simulation_.advance(control_period);
+    const SensorInput input = sense(simulation_, base_);
+    const Stopwatch computing;
+    const MissionStep step = mission_.step(input);
+    if (options_.on_step) options_.on_step(computing.elapsed());
+    base_.command(step.navigation.command);
+    if (session != nullptr) session->show(input, step, mission_, [&] { return error_of(step.navigation); });
+    if (!recording_) return simulation_.scorer().forget();
+
+    record_step(record_, input, step.navigation);
+    const std::optional<KeptPicture> picture = pictures_.keep(record_, input.frames);
+    record_event(record_, mission_, step.event, simulation_.now());
+    judge(record_, simulation_.scorer(), mission_, step.event);
+    judge_way_back(step.navigation.backtracks);
+    if (options_.watch)
+      options_.watch({.input = input, .step = step, .mission = mission_, .picture = picture});
+    if (options_.progress) options_.progress(share_done(record_, mission_, step.navigation.estimate));
+  }
+
+  /// From now on, for the mission's goals.
+  void begin_record() {
+    const std::vector<TruePose>& track = simulation_.scorer().track();
+    const Pose2 start = track.empty() ? site_.start : track.back().map_from_base;
+    simulation_.scorer().forget();
+    recording_ = true;
+    record_ = {};
+    record_.site = site_.name;
+    record_.camera = options_.camera;
+    record_.seed = options_.seed;
+    record_.start = start;
+    record_.robot_radius_m = site_.robot.radius_m;
+    for (const Goal& goal : mission_.goals()) record_.goals.push_back({.goal = goal});
+    watch_ = {};
+  }
+
+  RunRecord end_record() {
+    recording_ = false;
+    if (!mission_.finished()) record_.goals[mission_.current()].failure = "stopped by the operator";
+    const Scorer& scorer = simulation_.scorer();
+    record_.truth = scorer.track();
+    record_.path_distances_m = scorer.path_distances_m();
+    record_.contacts = scorer.contacts();
+    record_.faults = simulation_.faults();
+    record_.wall_time_s = watch_.seconds();
+    return std::move(record_);
+  }
+
+  Mission& mission() { return mission_; }
+  BaseDriver& base() { return base_; }
+  [[nodiscard]] Stamp now() const { return simulation_.now(); }
+  [[nodiscard]] bool recording() const { return recording_; }
+
+ private:
+  /// Its track is no error while it goes back: then it does not follow the path.
+  void judge_way_back(bool goes_back) {
+    if (goes_back) simulation_.scorer().claim_path({});
+    if (!goes_back && went_back_) simulation_.scorer().claim_path(mission_.path());
+    went_back_ = goes_back;
+  }
+
+  void take(const StampedCanFrame& frame) {
+    if (recording_) record_.can_frames.push_back(frame);
+  }
+
+  /// Of an estimate that was made just now.
+  [[nodiscard]] std::optional<double> error_of(const NavigationStep& step) {
+    if (!step.estimate) return std::nullopt;
+    const std::vector<TruePose>& track = simulation_.scorer().track();
+    RunRecord moment;
+    moment.steps.push_back({.estimate = *step.estimate, .commanded = {}, .measured = {}});
+    moment.truth.assign(track.end() - std::min<std::ptrdiff_t>(10, std::ssize(track)), track.end());
+    const std::vector<EstimateError> errors = estimate_errors(moment);
+    return errors.empty() ? std::nullopt : std::optional(errors.front().position_m);
+  }
+
+  const Site& site_;
+  const SimulatedDriveOptions& options_;
+  KnownWorld world_;
+  Simulation simulation_;
+  BaseDriver base_;
+  Mission mission_;
+  RunRecord record_;
+  PictureKeeper pictures_{{.pictures_hz = options_.pictures_hz, .can_wait = true}};
+  bool recording_ = false;
+  bool went_back_ = false;
+  Stopwatch watch_;
+};
+/// Keeps the world's time and the clock on the wall together.
+class Pace {
+ public:
+  /// Until a control period after the last call.
+  void keep() {
+    next_ = std::max(next_ + control_period, monotonic_now());
+    sleep_until(next_);
+  }
+
+ private:
+  Stamp next_ = monotonic_now();
+};
+
+}  // namespace
+
+RunRecord simulate_drive(const Site& site, const SimulatedDriveOptions& options) {
+  SimulatedDrive drive(site, options);
+  Pace pace;
+  drive.begin_record();
+  while (!drive.mission().finished()) {
+    drive.step();
+    if (options.realtime) pace.keep();
+  }
+  return drive.end_record();
+}
+
+void simulate_attended_drive(const Site& site, const SimulatedDriveOptions& options, OperatorSession& session,
+                             const std::function<bool()>& goes_on,
+                             const std::function<void(RunRecord)>& keep) {
+  SimulatedDrive drive(site, options);
+  Pace pace;
+  while (goes_on()) {
+    session.obey(drive.mission(), drive.base(), drive.now(), monotonic_now());
+    if (!drive.mission().finished() && !drive.recording()) drive.begin_record();
+    drive.step(&session);
+    const bool has_ended = drive.recording() && drive.mission().finished();
+    if (has_ended) keep(drive.end_record());
+    const bool stands = drive.mission().finished() || drive.mission().paused();
+    if (options.realtime || stands) pace.keep();
+  }
+  if (drive.recording()) keep(drive.end_record());
+}
+
+}  // namespace lodestar

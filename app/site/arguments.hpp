@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "app/site/goal.hpp"
+
+namespace lodestar {
+
+/// "X,Y" in metres. Throws InputError naming the option for anything else.
+Vec2 parse_point(const std::string& option, const std::string& text);
+
+/// "X,Y[,DEG]": metres, and the final heading in degrees.
+Goal parse_goal(const std::string& option, const std::string& text);
+
+}  // namespace lodestar

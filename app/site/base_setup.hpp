@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/site/site.hpp"
+#include "drivers/base/base_protocol.hpp"
+
+namespace lodestar {
+
+/// Where the site's base is; on `interface` instead, unless that is empty. Throws InputError when neither is
+/// given.
+BaseConnection connection_of(const Site& site, const std::string& interface);
+
+/// How to talk to that base.
+std::unique_ptr<BaseProtocol> make_protocol(const BaseConnection& connection, const Robot& robot);
+
+}  // namespace lodestar

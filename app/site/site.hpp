@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/site/goal.hpp"
+#include "maps/camera_model.hpp"
+#include "maps/map_file.hpp"
+#include "maps/marker_registry.hpp"
+#include "maps/motion.hpp"
+#include "planning/footprint.hpp"
+
+namespace lodestar {
+
+/// What robot.yaml says of the robot.
+struct Robot {
+  std::string name;
+  double radius_m = 0.0;
+  std::optional<Footprint> footprint;  ///< the outline, when paths shall be planned for it and not for a disc
+  double track_width_m = 0.0;
+  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  RollPitchYaw camera_mount;          ///< the rotation of base_from_camera, Rz(yaw) Ry(pitch) Rx(roll)
+  double mount_tilt_sigma_rad = 0.0;  ///< how well roll and pitch of the camera hold while driving
+  double mount_height_sigma_m = 0.0;
+  // What neighbouring fixes err by alike: survey, mount and floor. Nothing: the filter's own.
+  std::optional<double> shared_fix_sigma_m;
+  std::optional<double> shared_fix_sigma_rad;
+  double preferred_clearance_m = 0.0;
+  double pass_corners_within_m = 0.0;  ///< gentle corners are passed without stopping, so near to the path
+  double max_forward_mps = 0.0;
+  double max_turn_radps = 0.0;
+  double max_acceleration_mps2 = 0.0;
+  double max_turn_acceleration_radps2 = 0.0;
+  double max_wheel_mps = 0.0;
+  double arrival_distance_m = 0.0;
+  double arrival_heading_rad = 0.0;
+};
+
+/// Where the real base is.
+struct BaseConnection {
+  std::string interface;            ///< of CAN
+  std::string protocol = "agilex";  ///< or "odrive"
+  std::string model = "tracer";     ///< of AgileX: or "scout", "hunter"; their fault bits differ
+  // Of ODrive: which node drives which wheel.
+  double wheel_diameter_m = 0.17;
+  int left_node = 0;
+  int right_node = 1;
+  bool right_is_mirrored = true;  ///< turns backwards to drive ahead
+};
+
+/// A site folder: the map, the markers above it, the cameras, the robot and the usual drive.
+struct Site {
+  std::string name;
+  std::filesystem::path folder;
+  LoadedMap map;
+  std::optional<std::filesystem::path> octomap_file;  ///< of the same place, where there is one
+  MarkerRegistry registry;
+  std::filesystem::path registry_file;
+  std::map<std::string, CameraModel> cameras;
+  std::string default_camera;
+  std::filesystem::path robot_file;
+  Robot robot;
+  Pose2 start;
+  std::vector<Goal> goals;
+  std::string camera;                  ///< that is mounted: "simulated"; empty when the site has none
+  std::optional<BaseConnection> base;  ///< nothing when the site is for replays only
+};
+
+/// Reads `folder`/site.yaml and all files that it names. Throws InputError with file and line.
+Site load_site(const std::filesystem::path& folder);
+
+Robot load_robot(const std::filesystem::path& file);
+
+}  // namespace lodestar

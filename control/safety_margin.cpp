@@ -1,0 +1,36 @@
+#include "control/safety_margin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/forward_clearance.hpp"
+#include "control/speed_limit.hpp"
+
+namespace lodestar {
+
+namespace {
+
+/// By so much a robot is usually off; paths have room for that.
+constexpr double usual_sigma_m = 0.005;
+
+double unusual_m(double sigma_m) {
+  return std::sqrt(std::max(sigma_m * sigma_m - usual_sigma_m * usual_sigma_m, 0.0));
+}
+
+}  // namespace
+
+SafetyMargin room_for_doubt(const Eigen::Matrix3d& covariance) {
+  constexpr double sigmas = 2.3;
+  const double sigma_m = larger_sigma_m(covariance);
+  if (sigma_m < usual_sigma_m) return {};
+  const double taken_back = std::min(sigma_m / usual_sigma_m - 1.0, 1.0);
+  return {.here_m = sigmas * unusual_m(sigma_m) + taken_back * ForwardClearance::usual_tolerance_m,
+          .per_m = sigmas * std::sqrt(std::max(covariance(2, 2), 0.0))};
+}
+
+SafetyMargin room_on_the_way_back(const Eigen::Matrix3d& covariance) {
+  constexpr double share = 0.87;
+  return {.here_m = share * room_for_doubt(covariance).here_m, .per_m = 0.0};
+}
+
+}  // namespace lodestar

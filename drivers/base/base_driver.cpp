@@ -1,0 +1,228 @@
+#include "drivers/base/base_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+bool is_older(const std::optional<Stamp>& stamp, Stamp now, Duration age) {
+  return !stamp || now - *stamp > age;
+}
+
+}  // namespace
+
+std::string_view to_string(BaseState state) {
+  switch (state) {
+    case BaseState::waiting_for_base:
+      return "waiting for the base";
+    case BaseState::asking_for_can_mode:
+      return "asking the base for CAN mode";
+    case BaseState::ready:
+      return "ready";
+    case BaseState::fault:
+      return "stopped by a fault";
+  }
+  return "in an unknown state";
+}
+
+std::string_view to_string(BaseFault fault) {
+  switch (fault) {
+    case BaseFault::feedback_lost:
+      return "the base is silent";
+    case BaseFault::left_can_mode:
+      return "the base is not in CAN mode";
+    case BaseFault::emergency_stop:
+      return "the emergency stop is pressed";
+    case BaseFault::vehicle_exception:
+      return "the base reports an exception";
+    case BaseFault::fault_bits:
+      return "the base reports fault bits";
+    case BaseFault::not_following:
+      return "the base does not follow its commands";
+    case BaseFault::second_master:
+      return "somebody else sends motion commands";
+    case BaseFault::send_failed:
+      return "commands cannot be sent";
+    case BaseFault::bus_stalled:
+      return "the CAN bus takes no frames any more";
+    case BaseFault::bus_off:
+      return "the CAN controller is bus-off";
+    case BaseFault::bus_down:
+      return "the CAN interface is switched off";
+    case BaseFault::bus_missing:
+      return "the CAN interface is missing";
+    case BaseFault::guard_stopped:
+      return "the guard has stopped a navigator that hung";
+    case BaseFault::guard_lost:
+      return "the guard process is gone";
+  }
+  return "an unknown fault";
+}
+
+BaseDriver::BaseDriver(CanBus& bus, const BaseDriverOptions& options)
+    : BaseDriver(bus, make_agilex_protocol(), options) {}
+
+BaseDriver::BaseDriver(CanBus& bus, std::unique_ptr<BaseProtocol> protocol, const BaseDriverOptions& options)
+    : bus_(bus), protocol_(std::move(protocol)), options_(options), following_(options.following) {}
+
+BaseFeedback BaseDriver::poll(Stamp now) {
+  // After a pause of our own, what the base said in the meantime may still be on its way.
+  const bool was_asleep = now - now_ > options_.max_feedback_age;
+  now_ = now;
+  std::vector<WheelTravel> travel;
+  while (const auto received = bus_.poll()) take_in(*received, travel);
+  if (const auto fault = complaint_of_bus(); fault && state_ == BaseState::ready) latch(*fault);
+  if (state_ == BaseState::ready) {
+    if (!was_asleep) watch(now);
+  } else if (state_ != BaseState::fault) {
+    shake_hands(now);
+  }
+  return {state_, fault_, std::move(travel), measured_, system_, last_heard_};
+}
+
+void BaseDriver::take_in(const StampedCanFrame& received, std::vector<WheelTravel>& travel) {
+  const HeardFrame heard = protocol_->take_in(received);
+  if (heard.odd) ++counts_.odd_frames;
+  if (heard.command && state_ == BaseState::ready) latch(BaseFault::second_master);
+  if (!heard.from_base) return;
+  last_heard_ = received.stamp;
+  if (heard.system) take_in_system_state(received.stamp, *heard.system);
+  if (heard.measured) {
+    measured_ = heard.measured;
+    last_motion_state_ = received.stamp;
+  }
+  if (heard.travel) {
+    travel.push_back(*heard.travel);
+    last_odometer_ = received.stamp;
+  }
+}
+
+void BaseDriver::take_in_system_state(Stamp stamp, const SystemState& state) {
+  const int steps = system_ ? static_cast<std::uint8_t>(state.counter - system_->counter) : 1;
+  if (steps == 0) ++counts_.counter_repeats;
+  if (steps > 1) ++counts_.counter_jumps;
+  if (steps != 0) last_alive_ = stamp;
+  system_ = state;
+
+  if (state_ != BaseState::ready) return;
+  if (const auto fault = complaint(state)) latch(*fault);
+}
+
+/// What only time can tell of a ready base; what its frames tell is latched as they come.
+void BaseDriver::watch(Stamp now) {
+  if (!hears_everything(now)) return latch(BaseFault::feedback_lost);
+  const bool base_obeys_us = !is_older(commanded_at_, now, options_.base_command_timeout);
+  const BodyVelocity expected = base_obeys_us ? commanded_ : BodyVelocity{};
+  if (following_.strays(now, expected, *measured_)) latch(BaseFault::not_following);
+}
+
+void BaseDriver::shake_hands(Stamp now) {
+  state_ = BaseState::waiting_for_base;
+  fault_ = complaint_of_bus();
+  if (!fault_) fault_ = hears_state(now) ? complaint(*system_) : BaseFault::feedback_lost;
+  if (!fault_ && !hears_everything(now)) fault_ = BaseFault::feedback_lost;
+  if (!fault_) {
+    state_ = BaseState::ready;
+    commanded_at_.reset();
+    following_.restart(now, *measured_);
+  } else if (fault_ == BaseFault::left_can_mode) {
+    state_ = BaseState::asking_for_can_mode;
+    if (asked_at_ && now - *asked_at_ < options_.handshake_period) return;
+    asked_at_ = now;
+    send(protocol_->enable());
+  }
+}
+
+void BaseDriver::latch(BaseFault fault) {
+  state_ = BaseState::fault;
+  fault_ = fault;
+  // One last word: stop. Not to a base that somebody else drives now.
+  if (fault == BaseFault::left_can_mode) return bus_.release();
+  send(protocol_->stop());
+}
+
+void BaseDriver::command(const BodyVelocity& velocity) {
+  if (state_ != BaseState::ready) return;
+  commanded_ = within_limits(velocity);
+  commanded_at_ = now_;
+  if (send(protocol_->command(commanded_))) return;
+  if (failed_sends_in_a_row_ >= options_.max_failed_sends) latch(BaseFault::send_failed);
+}
+
+BodyVelocity BaseDriver::within_limits(const BodyVelocity& velocity) {
+  if (!std::isfinite(velocity.forward_mps) || !std::isfinite(velocity.turn_radps)) {
+    ++counts_.non_finite_commands;
+    return {};
+  }
+  const double share = bus_.health().state == BusState::error_passive ? options_.error_passive_share : 1.0;
+  const double excess = std::max(std::abs(velocity.forward_mps) / (share * options_.max_forward_mps),
+                                 std::abs(velocity.turn_radps) / (share * options_.max_turn_radps));
+  if (excess <= 1.0) return velocity;
+  ++counts_.saturated_commands;
+  return {velocity.forward_mps / excess, velocity.turn_radps / excess};
+}
+
+bool BaseDriver::send(const std::vector<CanFrame>& frames) {
+  bool sent = true;
+  for (const CanFrame& frame : frames) sent = bus_.send(frame) && sent;
+  failed_sends_in_a_row_ = sent ? 0 : failed_sends_in_a_row_ + 1;
+  if (!sent) ++counts_.failed_sends;
+  return sent;
+}
+
+bool BaseDriver::resume(Stamp now) {
+  if (state_ != BaseState::fault) return true;
+  const BusState bus = bus_.health().state;
+  if (!hears_everything(now) || (complaint_of_bus() && bus != BusState::held)) return false;
+  const auto still = complaint(*system_);
+  const bool offers_itself = still == BaseFault::left_can_mode && system_->mode == ControlMode::standby;
+  if (still && still != BaseFault::left_can_mode) send(protocol_->clear_faults());
+  if (still && !offers_itself) return false;
+  if (bus == BusState::held) bus_.resume();
+  state_ = BaseState::waiting_for_base;
+  fault_.reset();
+  failed_sends_in_a_row_ = 0;
+  return true;
+}
+
+bool BaseDriver::hears_state(Stamp now) const {
+  return !is_older(last_heard_, now, options_.max_feedback_age) &&
+         !is_older(last_alive_, now, options_.max_kind_age);
+}
+
+bool BaseDriver::hears_everything(Stamp now) const {
+  return hears_state(now) && !is_older(last_motion_state_, now, options_.max_kind_age) &&
+         !is_older(last_odometer_, now, options_.max_kind_age);
+}
+
+std::optional<BaseFault> BaseDriver::complaint(const SystemState& state) const {
+  if (state.vehicle == VehicleState::emergency_stop) return BaseFault::emergency_stop;
+  if (state.vehicle != VehicleState::normal) return BaseFault::vehicle_exception;
+  if ((state.fault_bits & ~options_.ignored_fault_bits) != 0) return BaseFault::fault_bits;
+  if (state.mode != ControlMode::can) return BaseFault::left_can_mode;
+  return std::nullopt;
+}
+
+std::optional<BaseFault> BaseDriver::complaint_of_bus() const {
+  switch (bus_.health().state) {
+    case BusState::up:
+    case BusState::error_passive:
+      return std::nullopt;
+    case BusState::stalled:
+      return BaseFault::bus_stalled;
+    case BusState::bus_off:
+      return BaseFault::bus_off;
+    case BusState::down:
+      return BaseFault::bus_down;
+    case BusState::missing:
+      return BaseFault::bus_missing;
+    case BusState::held:
+      return BaseFault::guard_stopped;
+    case BusState::guard_lost:
+      return BaseFault::guard_lost;
+  }
+  return BaseFault::bus_missing;
+}
+
+}  // namespace lodestar

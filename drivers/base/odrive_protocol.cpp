@@ -1,0 +1,178 @@
+#include <array>
+#include <fmt/format.h>
+#include <numbers>
+#include <utility>
+
+#include "drivers/base/base_protocol.hpp"
+#include "drivers/base/odrive_table.hpp"
+#include "drivers/base/travel_counter.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace tables = odrive::tables;
+
+/// Of all that an ODrive says and takes, what the driver says or needs to hear.
+constexpr std::array spoken{tables::heartbeat,           tables::encoder_estimates,  tables::set_axis_state,
+                            tables::set_controller_mode, tables::set_input_velocity, tables::clear_errors};
+
+constexpr double mm_per_m = 1000.0;
+/// What both axes say belongs together only when it is about as old.
+constexpr Duration most_apart = std::chrono::milliseconds(300);
+constexpr Duration most_apart_moving = std::chrono::milliseconds(40);
+
+constexpr std::array<std::pair<std::uint32_t, const char*>, 20> error_names{{
+    {0x1, "initializing"},
+    {0x2, "system level"},
+    {0x4, "timing"},
+    {0x8, "missing estimate"},
+    {0x10, "bad configuration"},
+    {0x20, "gate driver"},
+    {0x40, "missing input"},
+    {0x100, "over-voltage"},
+    {0x200, "under-voltage"},
+    {0x400, "over-current"},
+    {0x800, "too much regenerated"},
+    {0x1000, "current limit"},
+    {0x2000, "motor too hot"},
+    {0x4000, "inverter too hot"},
+    {0x8000, "velocity limit"},
+    {0x10000, "position limit"},
+    {odrive::watchdog_expired, "watchdog expired"},
+    {odrive::estop_requested, "emergency stop requested"},
+    {0x04000000, "spinout"},
+    {0x40000000, "calibration"},
+}};
+
+/// The newest word of one axis.
+struct Axis {
+  std::optional<Stamp> heartbeat;
+  std::uint32_t errors = 0;
+  std::uint8_t state = 0;
+  std::optional<Stamp> estimate;
+  double position_rev = 0.0;
+  double velocity_rps = 0.0;
+};
+
+class OdriveProtocol final : public BaseProtocol {
+ public:
+  explicit OdriveProtocol(const OdriveOptions& options)
+      : options_(options), travel_(options.max_plausible_wheel_mps) {}
+
+  HeardFrame take_in(const StampedCanFrame& received) override {
+    HeardFrame heard;
+    for (const bool is_right : {false, true}) {
+      const std::uint32_t offset = offset_of(is_right);
+      const CanFrame& frame = received.frame;
+      Axis& axis = is_right ? right_ : left_;
+      if (const auto heartbeat = decode(tables::heartbeat, frame, offset)) {
+        axis.heartbeat = received.stamp;
+        axis.errors = static_cast<std::uint32_t>((*heartbeat)[0]);
+        axis.state = static_cast<std::uint8_t>((*heartbeat)[1]);
+        heard.from_base = true;
+        heard.system = system_state(received.stamp);
+      } else if (const auto estimate = decode(tables::encoder_estimates, frame, offset)) {
+        axis.estimate = received.stamp;
+        axis.position_rev = (*estimate)[0];
+        axis.velocity_rps = (*estimate)[1];
+        heard.from_base = true;
+        if (is_right) take_in_wheels(received.stamp, heard);
+      } else {
+        heard.odd = heard.odd || frame.id == tables::heartbeat.id + offset ||
+                    frame.id == tables::encoder_estimates.id + offset;
+        heard.command = heard.command || frame.id == tables::set_input_velocity.id + offset;
+      }
+    }
+    return heard;
+  }
+
+  [[nodiscard]] std::vector<CanFrame> enable() const override {
+    std::vector<CanFrame> frames;
+    for (const std::uint32_t offset : {offset_of(false), offset_of(true)}) {
+      frames.push_back(
+          encode(tables::set_controller_mode, {odrive::velocity_control, odrive::passthrough}, offset));
+      frames.push_back(encode(tables::set_input_velocity, {}, offset));
+      frames.push_back(encode(tables::set_axis_state, {odrive::closed_loop_control}, offset));
+    }
+    return frames;
+  }
+
+  [[nodiscard]] std::vector<CanFrame> command(const BodyVelocity& velocity) const override {
+    const double half_difference_mps = velocity.turn_radps * options_.track_width_m / 2.0;
+    const double left_rps = (velocity.forward_mps - half_difference_mps) / m_per_rev();
+    const double right_rps = (velocity.forward_mps + half_difference_mps) / m_per_rev();
+    return {encode(tables::set_input_velocity, {left_rps}, offset_of(false)),
+            encode(tables::set_input_velocity, {right_sign() * right_rps + 0.0}, offset_of(true))};
+  }
+
+  [[nodiscard]] std::vector<CanFrame> clear_faults() const override {
+    return {encode(tables::clear_errors, {}, offset_of(false)),
+            encode(tables::clear_errors, {}, offset_of(true))};
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> identifiers() const override {
+    std::vector<std::uint32_t> all;
+    for (const std::uint32_t offset : {offset_of(false), offset_of(true)}) {
+      for (const MessageSpec& message : spoken) all.push_back(message.id + offset);
+    }
+    return all;
+  }
+
+  [[nodiscard]] std::vector<std::string> fault_names(std::uint32_t bits) const override {
+    std::vector<std::string> names;
+    for (const auto& [bit, name] : error_names) {
+      if ((bits & bit) != 0) names.emplace_back(name);
+      bits &= ~bit;
+    }
+    if (bits != 0) names.push_back(fmt::format("unknown error bits 0x{:08X}", bits));
+    return names;
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t offset_of(bool is_right) const {
+    return odrive::node_step * (is_right ? options_.right_node : options_.left_node);
+  }
+  [[nodiscard]] double m_per_rev() const { return std::numbers::pi * options_.wheel_diameter_m; }
+  [[nodiscard]] double right_sign() const { return options_.right_is_mirrored ? -1.0 : 1.0; }
+
+  /// Nothing until both axes have a pulse: half a base cannot drive.
+  std::optional<SystemState> system_state(Stamp now) {
+    for (const Axis* axis : {&left_, &right_}) {
+      if (!axis->heartbeat || now - *axis->heartbeat > most_apart) return std::nullopt;
+    }
+    SystemState state;
+    state.fault_bits = left_.errors | right_.errors;
+    if ((state.fault_bits & odrive::estop_requested) != 0) state.vehicle = VehicleState::emergency_stop;
+    const bool both_obey =
+        left_.state == odrive::closed_loop_control && right_.state == odrive::closed_loop_control;
+    state.mode = both_obey ? ControlMode::can : ControlMode::standby;
+    state.counter = ++pulses_;
+    return state;
+  }
+
+  /// The right axis speaks after the left one.
+  void take_in_wheels(Stamp now, HeardFrame& heard) {
+    if (!left_.estimate || now - *left_.estimate > most_apart_moving) return;
+    const double left_mps = left_.velocity_rps * m_per_rev();
+    const double right_mps = right_sign() * right_.velocity_rps * m_per_rev();
+    heard.measured =
+        BodyVelocity{(left_mps + right_mps) / 2.0, (right_mps - left_mps) / options_.track_width_m};
+    heard.travel = travel_.take(now, left_.position_rev * m_per_rev() * mm_per_m,
+                                right_sign() * right_.position_rev * m_per_rev() * mm_per_m);
+    heard.odd = !heard.travel;
+  }
+
+  OdriveOptions options_;
+  Axis left_;
+  Axis right_;
+  std::uint8_t pulses_ = 0;
+  TravelCounter travel_;
+};
+
+}  // namespace
+
+std::unique_ptr<BaseProtocol> make_odrive_protocol(const OdriveOptions& options) {
+  return std::make_unique<OdriveProtocol>(options);
+}
+
+}  // namespace lodestar

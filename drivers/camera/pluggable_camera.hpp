@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <future>
+#include <memory>
+
+#include "drivers/camera/camera.hpp"
+#include "drivers/camera/v4l2_camera.hpp"
+#include "drivers/system/clock.hpp"
+
+namespace lodestar {
+
+struct PluggableCameraOptions {
+  Duration retry_period = std::chrono::seconds(1);  ///< between two attempts to open it again
+  Duration max_silence = std::chrono::seconds(2);   ///< after which a camera that is there is opened anew
+  std::function<Stamp()> now = monotonic_now;
+};
+
+/// A camera that may be unplugged, hang, and come back: it is opened again by itself. That is done on the
+/// side, as to open a USB camera takes longer than a robot that drives may go without commands.
+class PluggableCamera final : public Camera {
+ public:
+  using Open = std::function<std::unique_ptr<V4l2Camera>()>;
+
+  /// Opens it for the first time. Throws InputError when that fails: a camera that is not there at the start
+  /// is a mistake, one that vanishes later is a fault.
+  explicit PluggableCamera(Open open, PluggableCameraOptions options = {});
+
+  std::optional<Frame> poll() override;
+
+ private:
+  void open_again();
+  void take_opened();
+
+  Open open_;
+  PluggableCameraOptions options_;
+  std::unique_ptr<V4l2Camera> camera_;
+  Stamp heard_;  ///< the newest frame, or the last attempt to open
+  std::future<std::unique_ptr<V4l2Camera>> opening_;
+};
+
+/// The camera at `/dev/video0`, which must have frames of that size.
+std::unique_ptr<Camera> open_v4l2_camera(const std::string& device, int width_px, int height_px);
+
+}  // namespace lodestar

@@ -1,0 +1,68 @@
+#include "drivers/can/can_interface.hpp"
+
+#include <array>
+#include <libsocketcan.h>
+#include <linux/ethtool.h>
+#include <linux/sockios.h>
+#include <net/if.h>
+#include <string_view>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+
+#include "drivers/system/file_descriptor.hpp"
+
+namespace lodestar {
+namespace {
+
+/// Any socket will do to ask about interfaces.
+FileDescriptor socket_to_ask() {
+  return FileDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+}
+
+bool is_virtual(const std::string& name) {
+  ethtool_drvinfo info{};
+  info.cmd = ETHTOOL_GDRVINFO;
+  ifreq request{};
+  name.copy(request.ifr_name, IFNAMSIZ - 1);
+  request.ifr_data = reinterpret_cast<char*>(&info);
+  if (::ioctl(socket_to_ask().get(), SIOCETHTOOL, &request) != 0) return false;
+  const std::string_view driver(info.driver);
+  return driver == "vcan" || driver == "vxcan";
+}
+
+std::string name_of_state(int state) {
+  constexpr std::array<const char*, 6> names{"error-active", "error-warning", "error-passive",
+                                             "bus-off",      "stopped",       "sleeping"};
+  const auto index = static_cast<std::size_t>(state);
+  return index < names.size() ? names.at(index) : "unknown";
+}
+
+}  // namespace
+
+bool is_switched_on(const std::string& name) {
+  ifreq request{};
+  name.copy(request.ifr_name, IFNAMSIZ - 1);
+  return ::ioctl(socket_to_ask().get(), SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
+}
+
+CanInterface look_at_can_interface(const std::string& name) {
+  CanInterface seen;
+  seen.exists = name.size() < IFNAMSIZ && ::if_nametoindex(name.c_str()) != 0;
+  if (!seen.exists) return seen;
+  seen.is_up = is_switched_on(name);
+  seen.is_virtual = is_virtual(name);
+  if (seen.is_virtual) return seen;
+  can_bittiming timing{};
+  if (can_get_bittiming(name.c_str(), &timing) == 0 && timing.bitrate != 0)
+    seen.bit_rate_bps = timing.bitrate;
+  int state = 0;
+  if (can_get_state(name.c_str(), &state) == 0) seen.controller = name_of_state(state);
+  can_berr_counter errors{};
+  if (can_get_berr_counter(name.c_str(), &errors) == 0) {
+    seen.transmit_errors = errors.txerr;
+    seen.receive_errors = errors.rxerr;
+  }
+  return seen;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "drivers/can/can_bus.hpp"
+#include "drivers/can/candump.hpp"
+
+namespace lodestar {
+
+/// A recorded bus, heard again. Its owner moves time on; the log's first frame is heard at `start`.
+class CandumpBus final : public CanBus {
+ public:
+  /// `own`: identifiers that the listener itself sent at the time, and so did not hear.
+  CandumpBus(std::vector<LoggedCanFrame> log, std::set<std::uint32_t> own, Stamp start = {});
+
+  void advance(Stamp now) { now_ = now; }
+  [[nodiscard]] bool at_end() const { return next_ >= log_.size(); }
+
+  /// Takes every frame, and nobody hears it.
+  bool send(const CanFrame& frame) override;
+  std::optional<StampedCanFrame> poll() override;
+  [[nodiscard]] BusHealth health() const override { return {BusState::up, counts_}; }
+
+ private:
+  std::vector<LoggedCanFrame> log_;
+  std::set<std::uint32_t> own_;
+  Duration shift_{};  ///< from the log's time to the listener's
+  Stamp now_;
+  std::size_t next_ = 0;
+  BusCounts counts_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "drivers/simulation/fault.hpp"
+
+namespace lodestar {
+
+/// One value of a fault as it stands in a file: its key with the unit, its limits, and where it goes.
+struct FaultParameter {
+  std::string_view key;
+  double low = 0.0;
+  double high = 0.0;
+  double Fault::* value = nullptr;
+  double in_our_units = 1.0;  ///< a factor
+};
+
+struct FaultRow {
+  FaultKind kind = FaultKind::markers_occluded;
+  std::string_view name;
+  std::span<const FaultParameter> parameters;
+  bool concerns_a_marker = false;
+  bool happens_at_once = false;  ///< and does not last
+};
+
+/// One row for each kind, in the order of the enumeration.
+std::span<const FaultRow> fault_table();
+
+}  // namespace lodestar

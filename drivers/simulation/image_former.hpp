@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <utility>
+#include <vector>
+
+#include "drivers/simulation/ceiling.hpp"
+#include "drivers/simulation/ceiling_background.hpp"
+#include "drivers/simulation/disc_profile.hpp"
+#include "drivers/simulation/light_image.hpp"
+#include "drivers/simulation/printed_square.hpp"
+#include "drivers/simulation/sensor_noise.hpp"
+#include "drivers/simulation/simulated_camera_options.hpp"
+#include "drivers/simulation/vignetting.hpp"
+#include "maps/camera_model.hpp"
+#include "maps/marker_registry.hpp"
+
+namespace lodestar {
+
+/// A marker's dot that is in view.
+struct SeenDot {
+  std::size_t marker = 0;  ///< which of the registry's
+  Vec3 center_in_map_m = Vec3::Zero();
+  Vec2 center_px = Vec2::Zero();  ///< of its light
+  /// What one frame's pixels tell of the centre at most (Fisher), 1/px^2.
+  Eigen::Matrix2d information_per_px2 = Eigen::Matrix2d::Zero();
+};
+
+/// Forms the image of the ceiling that a camera would take: background with texture and lights, marker dots
+/// as blurred ellipses with motion smear, then noise and 8-bit quantization. Seed, poses and frame number
+/// decide every byte, whatever was formed before. Not for two threads at once.
+class ImageFormer {
+ public:
+  ImageFormer(const MarkerRegistry& registry, const CameraModel& camera,
+              const SimulatedCameraOptions& options, std::uint64_t seed);
+
+  /// One frame (CV_8UC1) of a shutter that opens at the first pose and closes at the second; equal poses
+  /// give a still picture. The frame number decides the noise.
+  cv::Mat expose(const Eigen::Isometry3d& map_from_camera_at_opening,
+                 const Eigen::Isometry3d& map_from_camera_at_closing, std::uint64_t frame_number);
+
+  /// Hangs a printed square on the ceiling, below lamps, glints and markers. It shows no motion smear.
+  void hang(const PrintedSquare& square) { squares_.push_back(square); }
+
+  /// What hides the markers from now on, instead of what did so before.
+  void cover(std::vector<PrintedSquare> covers) { covers_ = std::move(covers); }
+
+  /// Hangs these markers instead of those before, and such lamps beside what the ceiling has.
+  void rehang(std::vector<CeilingMarker> markers, std::vector<CeilingDisc> more_lamps) {
+    ceiling_.markers = std::move(markers);
+    more_lamps_ = std::move(more_lamps);
+  }
+
+  /// Leaves the ceiling as it is, but without the markers.
+  void take_markers_down() { ceiling_.markers.clear(); }
+
+  /// The dots wholly in view of a camera that stands still, hidden or not.
+  [[nodiscard]] std::vector<SeenDot> dots_in_view(const Eigen::Isometry3d& map_from_camera) const;
+
+ private:
+  struct Shutter;  ///< the camera's poses during one exposure
+
+  void paint_tube(const CeilingTube& tube, const Shutter& shutter);
+  void paint_disc(const CeilingDisc& disc, double gray, const Shutter& shutter);
+  void paint_markers(const Shutter& shutter);
+  void paint_squares(const std::vector<PrintedSquare>& squares, const Shutter& shutter);
+
+  /// Is the point in the camera frame within the cone of rays that the image shows?
+  [[nodiscard]] bool may_show(const Vec3& point_in_camera, double reach_m) const;
+  /// Gray of a dot's middle: light of the ring that comes back from there, through the sensor's shoulder.
+  [[nodiscard]] double dot_gray(const CeilingDisc& dot, const Shutter& shutter) const;
+
+  CameraModel camera_;
+  SimulatedCameraOptions options_;
+  Ceiling ceiling_;
+  std::vector<PrintedSquare> squares_;
+  std::vector<PrintedSquare> covers_;
+  std::vector<CeilingDisc> more_lamps_;
+  Vignetting vignetting_;
+  double blur_sigma_px_;  ///< lens and pixel together
+  double widest_ray_;     ///< largest hypot(x, y) of the rays (x, y, 1) in the image
+  DiscProfile profile_;
+  CeilingBackground background_;
+  SensorNoise noise_;
+  LightImage light_;  ///< kept between frames for its memory only
+};
+
+}  // namespace lodestar

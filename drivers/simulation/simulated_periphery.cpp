@@ -1,0 +1,90 @@
+#include "drivers/simulation/simulated_periphery.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "drivers/base/agilex_v2_table.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace tables = agilex::tables;
+
+constexpr double room_degc = 25.0;
+constexpr double charge_percent = 80.0;
+constexpr double healthy_percent = 100.0;
+constexpr std::uint8_t asks = 1;
+
+}  // namespace
+
+void SimulatedPeriphery::take_in(const CanFrame& frame) {
+  if (decode(tables::light_command, frame)) {
+    lights_ = frame;
+  } else if (decode(tables::version_request, frame)) {
+    answer_with_numbers();
+  } else if (frame.id == tables::version_text.id && frame.length == 1 && frame.data[0] == asks) {
+    answer_with_text();
+  }
+}
+
+void SimulatedPeriphery::answer_with_numbers() {
+  constexpr double version_1_0 = 0x0100;  // the high byte counts whole versions
+  answers_.push_back(encode(tables::version_answer, {version_1_0, version_1_0, version_1_0, version_1_0}));
+}
+
+/// Eighty letters in ten frames.
+void SimulatedPeriphery::answer_with_text() {
+  constexpr std::string_view text = "LODESTAR SIMULATED BASE H1.0 S1.0";
+  constexpr std::size_t letters = 80;
+  for (std::size_t at = 0; at < letters; at += tables::version_letters.size()) {
+    CanFrame frame{tables::version_text.id, tables::version_text.length, {}};
+    frame.data.fill(' ');
+    const std::string_view part = text.substr(std::min(at, text.size()), frame.data.size());
+    std::ranges::copy(part, frame.data.begin());
+    answers_.push_back(frame);
+  }
+}
+
+void SimulatedPeriphery::send_answer() {
+  if (!answers_.empty() && bus_.send(answers_.front())) answers_.pop_front();
+}
+
+void SimulatedPeriphery::send_feedback(const BodyVelocity& measured, double track_width_m) {
+  constexpr int slow = 5;        // each 100 ms
+  constexpr int very_slow = 25;  // each 500 ms
+  send_motors(measured, track_width_m);
+  send_panel();
+  if (feedbacks_ % slow == 0) {
+    (void)bus_.send(encode(tables::motor1_slow, {battery_v_, room_degc, room_degc}));
+    (void)bus_.send(encode(tables::motor2_slow, {battery_v_, room_degc, room_degc}));
+  }
+  if (feedbacks_ % very_slow == 0) send_battery();
+  ++feedbacks_;
+}
+
+void SimulatedPeriphery::send_motors(const BodyVelocity& measured, double track_width_m) {
+  constexpr double rim_m_per_turn = 0.5;
+  constexpr double seconds_per_minute = 60.0;
+  const double half_difference_mps = measured.turn_radps * track_width_m / 2.0;
+  const auto rpm = [](double rim_mps) { return rim_mps / rim_m_per_turn * seconds_per_minute; };
+  (void)bus_.send(encode(tables::motor1_fast, {rpm(measured.forward_mps - half_difference_mps)}));
+  (void)bus_.send(encode(tables::motor2_fast, {rpm(measured.forward_mps + half_difference_mps)}));
+}
+
+void SimulatedPeriphery::send_battery() {
+  (void)bus_.send(
+      encode(tables::battery_state, {charge_percent, healthy_percent, battery_v_, 0.0, room_degc}));
+  (void)bus_.send(encode(tables::battery_extended, {}));
+}
+
+/// The lights, and a remote control whose switches are up and whose sticks nobody touches.
+void SimulatedPeriphery::send_panel() {
+  constexpr double up = 2.0;
+  CanFrame state = lights_;
+  state.id = tables::light_state.id;
+  state.data.back() = counter_++;
+  (void)bus_.send(state);
+  (void)bus_.send(encode(tables::remote_state, {up, up, up, up}));
+}
+
+}  // namespace lodestar

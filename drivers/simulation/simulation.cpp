@@ -1,0 +1,165 @@
+#include "drivers/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+#include "drivers/can/in_process_bus.hpp"
+#include "drivers/simulation/disturbed_ceiling.hpp"
+#include "drivers/simulation/fault_schedule.hpp"
+#include "drivers/simulation/faulty_bus.hpp"
+#include "drivers/simulation/faulty_camera.hpp"
+#include "drivers/simulation/simulated_camera.hpp"
+#include "drivers/simulation/simulated_motion.hpp"
+#include "maps/input_error.hpp"
+#include "maps/random.hpp"
+
+namespace lodestar {
+namespace {
+
+// Each purpose draws from its own stream of the seed.
+constexpr std::uint64_t slip_stream = 1;
+constexpr std::uint64_t camera_stream = 2;
+constexpr std::uint64_t schedule_stream = 3;
+constexpr std::uint64_t bad_camera_stream = 4;
+constexpr std::uint64_t bad_bus_stream = 5;
+constexpr std::uint64_t lamps_stream = 6;
+constexpr std::uint64_t kidnapping_stream = 7;
+
+std::uint64_t seed_for(std::uint64_t seed, std::uint64_t purpose) {
+  return Random(seed).stream(purpose).bits();
+}
+
+}  // namespace
+
+struct Simulation::World {
+  World(const OccupancyMap& map, const MarkerRegistry& surveyed, const CameraModel& camera_model,
+        const SimulationOptions& chosen)
+      : options(chosen),
+        registry(surveyed),
+        bus({.latency = chosen.base.can_latency}),
+        navigator_end(bus.attach()),
+        base_end(bus.attach()),
+        motion(chosen.base, chosen.start, seed_for(chosen.seed, slip_stream),
+               SimulatedMotion::Surroundings{map, chosen.robot_radius_m}),
+        base(base_end, motion, chosen.base),
+        camera(registry, camera_model, chosen.base_from_camera, chosen.camera,
+               seed_for(chosen.seed, camera_stream)),
+        faulty_camera(camera, seed_for(chosen.seed, bad_camera_stream)),
+        faulty_bus(navigator_end, seed_for(chosen.seed, bad_bus_stream)),
+        faults(chosen.faults, seed_for(chosen.seed, schedule_stream)),
+        scorer(map, chosen.robot_radius_m) {
+    if (options.physics_step <= Duration::zero()) {
+      throw InputError(
+          fmt::format("physics step: found {} s, wanted a positive time", seconds(options.physics_step)));
+    }
+    camera.observe(now, motion.true_map_from_base());
+    scorer.record({now, motion.true_map_from_base()});
+    next_record += options.scoring_period;
+  }
+
+  void step() {
+    if (faults.advance(now, motion.true_map_from_base().position_m, registry)) suffer();
+    motion.step(options.physics_step);
+    now += options.physics_step;
+    bus.advance(now);
+    faulty_bus.advance(now);
+    faulty_camera.advance(now);
+    base.step(now);
+    camera.observe(now, motion.true_map_from_base());
+    score();
+  }
+
+  /// Everything is as the faults of now have it.
+  void suffer() {
+    const std::vector<Fault> active = faults.active();
+    camera.rehang(disturbed(registry, active),
+                  decoy_lamps(registry, active, seed_for(options.seed, lamps_stream)));
+    faulty_camera.suffer(active);
+    faulty_bus.suffer(active);
+    if (options.disk) options.disk->suffer(active);
+    const auto slip = std::ranges::find(active, FaultKind::wheel_slip, &Fault::kind);
+    motion.slip(slip != active.end() ? slip->left_share : 0.0,
+                slip != active.end() ? slip->right_share : 0.0);
+    base.defects().left_encoder_stuck =
+        std::ranges::find(active, FaultKind::encoder_stuck, &Fault::kind) != active.end();
+    for (const Fault& fault : faults.begun()) {
+      if (fault.kind != FaultKind::kidnapping) continue;
+      motion.carry_off(fault.shift_m, fault.turn_rad, Random(seed_for(options.seed, kidnapping_stream)));
+    }
+  }
+
+  void score() {
+    was_blocked = was_blocked || motion.is_blocked();
+    if (now < next_record) return;
+    next_record += options.scoring_period;
+    scorer.record({now, motion.true_map_from_base()}, std::exchange(was_blocked, false));
+  }
+
+  SimulationOptions options;
+  MarkerRegistry registry;
+  Stamp now;
+  Stamp wanted;  ///< that all calls of advance() so far add up to
+  InProcessBus bus;
+  CanBus& navigator_end;
+  CanBus& base_end;
+  SimulatedMotion motion;
+  SimulatedBase base;
+  SimulatedCamera camera;
+  FaultyCamera faulty_camera;
+  FaultyBus faulty_bus;
+  FaultSchedule faults;
+  Scorer scorer;
+  Stamp next_record;
+  bool was_blocked = false;
+};
+
+Simulation::Simulation(const OccupancyMap& map, const MarkerRegistry& registry, const CameraModel& camera,
+                       const SimulationOptions& options)
+    : world_(std::make_unique<World>(map, registry, camera, options)) {}
+
+Simulation::~Simulation() = default;
+
+void Simulation::advance(Duration by) {
+  world_->wanted += by;
+  while (world_->now + world_->options.physics_step <= world_->wanted) world_->step();
+}
+
+Stamp Simulation::now() const {
+  return world_->now;
+}
+
+Camera& Simulation::camera() {
+  return world_->faulty_camera;
+}
+
+CanBus& Simulation::can() {
+  return world_->faulty_bus;
+}
+
+SimulatedBase& Simulation::base() {
+  return world_->base;
+}
+
+void Simulation::push(const Pose2& by) {
+  world_->motion.push(by);
+}
+
+void Simulation::change_map(const OccupancyMap& map) {
+  world_->motion.change_surroundings(map);
+  world_->scorer.change_map(map);
+}
+
+void Simulation::on_can_frame(std::function<void(const StampedCanFrame&)> listener) {
+  world_->bus.on_frame(std::move(listener));
+}
+
+std::vector<FaultEvent> Simulation::faults() const {
+  return world_->faults.events();
+}
+
+Scorer& Simulation::scorer() {
+  return world_->scorer;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,309 @@
+#include "localization/detection/marker_detector.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+#include "localization/detection/confidence.hpp"
+
+namespace lodestar {
+namespace {
+
+using DotsOfMarker = InlineVector<Dot, MarkerDots::capacity>;
+using DotsOfArea = InlineVector<Dot, 48>;
+
+void require_gray(const cv::Mat& gray) {
+  if (!gray.empty() && gray.type() != CV_8UC1) {
+    throw std::invalid_argument(
+        "found a frame that is not 8-bit gray, wanted one channel of 8 bits (CV_8UC1)");
+  }
+}
+
+DotsOfMarker dots_at(std::span<const Dot> dots, const MarkerDotIndices& indices) {
+  DotsOfMarker result;
+  for (const std::size_t i : indices) result.push_back(dots[i]);
+  return result;
+}
+
+/// `grid_place` tells where a direction dot must be that was not seen.
+template <typename GridPlace>
+DetectedMarker detected(int id, double probability, double confidence, const MarkerDots& dots,
+                        const GridPlace& grid_place) {
+  const auto place = [&](GridCell cell) -> Vec2 {
+    const auto dot = std::ranges::find(dots, cell, &MarkerDot::cell);
+    return dot != dots.end() ? dot->center_px : grid_place(cell);
+  };
+  DetectedMarker marker{.id = id, .probability = probability, .confidence = confidence};
+  marker.o_px = place(cell_of_o);
+  marker.x_px = place(cell_of_x);
+  marker.y_px = place(cell_of_y);
+  marker.center_px = 0.5 * (marker.x_px + marker.y_px);
+  marker.dots = dots;
+  return marker;
+}
+
+/// Eq. (1): the marker nearest to the image centre is the optimal one.
+void sort_by_distance_to_center(std::vector<DetectedMarker>& markers, const cv::Size& size) {
+  const Vec2 center(0.5 * (size.width - 1), 0.5 * (size.height - 1));
+  std::ranges::sort(markers, {},
+                    [&](const DetectedMarker& marker) { return (marker.center_px - center).squaredNorm(); });
+}
+
+/// A dot of another size is a glint, a lamp, or covered in part.
+DotsOfArea dots_of_usual_size(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
+  InlineVector<double, DotsOfArea::capacity> radii;
+  for (const Dot& dot : dots) radii.push_back(dot.radius_px);
+  auto* const middle = radii.begin() + radii.size() / 2;
+  std::nth_element(radii.begin(), middle, radii.end());
+  const double usual_px = *middle;
+  const double tolerance_px = options.alike_tolerance * usual_px + options.alike_tolerance_px2 / usual_px;
+  DotsOfArea result;
+  for (const Dot& dot : dots) {
+    if (std::abs(dot.radius_px - usual_px) <= tolerance_px) result.push_back(dot);
+  }
+  return result;
+}
+
+/// Four by four places of a lattice, and how a marker may hang in them.
+struct Square {
+  MarkerGrid grid;  ///< of the square as it stands, its lower left place taken for O
+  MarkerDots dots;
+  DotsOfMarker measured;
+};
+
+constexpr int quarter_turns = 4;
+
+/// Where a marker's cell comes to lie in the square when the marker hangs turned by quarters.
+GridCell turned(GridCell cell, int quarters) {
+  for (int i = 0; i < quarters; ++i) cell = {cell.column, marker_grid_size - 1 - cell.row};
+  return cell;
+}
+
+CellEvidence evidence_turned(const CellEvidence& square, int quarters) {
+  CellEvidence marker;
+  for (int row = 0; row < marker_grid_size; ++row) {
+    for (int column = 0; column < marker_grid_size; ++column) {
+      marker.at({row, column}) = square.at(turned(GridCell{row, column}, quarters));
+    }
+  }
+  return marker;
+}
+
+MarkerDots turned_back(MarkerDots dots, int quarters) {
+  for (MarkerDot& dot : dots) dot.cell = turned(dot.cell, quarter_turns - quarters);
+  return dots;
+}
+
+/// The square whose top left place is this one of a lattice.
+Square square_at(const DotLattice& lattice, std::span<const Dot> dots, int column, int row) {
+  const auto place = [&](int c, int r) -> Vec2 {
+    return lattice.origin_px + (column + c) * lattice.column_px + (row + r) * lattice.row_px;
+  };
+  const int last = marker_grid_size - 1;
+  Square square{
+      .grid = MarkerGrid(place(0, last), place(last, last), place(0, 0)), .dots = {}, .measured = {}};
+  for (const LatticeDot& dot : lattice.dots) {
+    const Dot& seen = dots[dot.index];
+    square.dots.push_back({{dot.row - row, dot.column - column}, seen.center_px, seen.sigma_px});
+    square.measured.push_back(seen);
+  }
+  square.grid = MarkerGrid::fitted(square.dots, square.grid);
+  return square;
+}
+
+/// Does for all squares that hold all of the lattice's dots.
+template <typename Work>
+void for_each_square(const DotLattice& lattice, std::span<const Dot> dots, const Work& work) {
+  const auto [left, right] = std::ranges::minmax(lattice.dots, {}, &LatticeDot::column);
+  const auto [top, bottom] = std::ranges::minmax(lattice.dots, {}, &LatticeDot::row);
+  for (int column = right.column - marker_grid_size + 1; column <= left.column; ++column) {
+    for (int row = bottom.row - marker_grid_size + 1; row <= top.row; ++row)
+      work(square_at(lattice, dots, column, row));
+  }
+}
+
+/// Of the dots beside the lattice, those that lie within the marker or right beside it.
+std::size_t strangers_in(const Square& square, std::span<const Dot> dots) {
+  const std::size_t near = dots_within(square.grid, dots);
+  return near - std::min(near, square.dots.size());
+}
+
+/// A marker's ID and how it hangs in a square.
+struct Hanging {
+  Square square;
+  int quarters = 0;
+  IdReading id;
+};
+
+/// A lattice fits any few dots, and a square of it somebody's ID: what speaks against a reading must be
+/// balanced by dots that speak for it.
+bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& decoder,
+                const LatticeOptions& options) {
+  const std::size_t dots = marker.square.dots.size();
+  return decoder.accepts(marker.id.id) && marker.id.contradicting <= options.most_contradicting &&
+         4 * strangers <= dots && (marker.id.contradicting == 0 || dots >= options.least_dots_contradicted);
+}
+
+constexpr int pixels_at_once = 16;
+using Bytes [[gnu::vector_size(pixels_at_once)]] = std::uint8_t;
+
+Bytes darker(const Bytes& a, const std::uint8_t* pixels) {
+  Bytes b;
+  std::memcpy(&b, pixels, sizeof(b));
+  return a < b ? a : b;
+}
+
+/// Bit i tells of byte i, all of whose bits are alike: multiplied, each byte's one bit comes to stand in the
+/// uppermost byte, at its own place.
+unsigned bits_of(std::uint64_t bytes) {
+  return static_cast<unsigned>((bytes & 0x0101010101010101U) * 0x0102040810204080U >> 56U);
+}
+
+/// Of pixels in a row from here on, bit by bit: those that are at least `lowest_dot_gray` together with their
+/// four neighbours.
+unsigned inner_pixels(const std::uint8_t* pixels, std::size_t stride) {
+  Bytes least;
+  std::memcpy(&least, pixels, sizeof(least));
+  least = darker(darker(least, pixels - 1), pixels + 1);
+  least = darker(darker(least, pixels - stride), pixels + stride);
+  const auto inner = least >= static_cast<std::uint8_t>(lowest_dot_gray);
+  std::array<std::uint64_t, 2> halves;
+  std::memcpy(halves.data(), &inner, sizeof(inner));
+  return bits_of(halves[0]) | bits_of(halves[1]) << 8U;
+}
+
+/// Adds the pixels of a run that are in the paper's binary image after its erosion by a cross of three. A
+/// frame narrower than what is looked at together has no room for a marker.
+void add_inner_pixels(const cv::Mat& gray, const Run& run, ConfidenceSum& confidence) {
+  if (run.row == 0 || run.row + 1 == gray.rows) return;
+  const auto* const row = gray.ptr<std::uint8_t>(run.row);
+  for (int u = std::max(run.begin, 1); u < run.end; u += pixels_at_once) {
+    const int from = std::min(u, gray.cols - pixels_at_once - 1);
+    if (from < 1) return;
+    const int end = std::min({run.end, from + pixels_at_once, gray.cols - 1});
+    if (end <= u) return;
+    const unsigned of_run = (1U << (end - from)) - (1U << (u - from));
+    for (unsigned bits = inner_pixels(row + from, gray.step[0]) & of_run; bits != 0; bits &= bits - 1)
+      confidence.add(row[from + std::countr_zero(bits)]);
+  }
+}
+
+}  // namespace
+
+DetectorOptions paper_method() {
+  DetectorOptions options;
+  options.dots.fixed_threshold = 200;
+  options.dots.by_binary_center = true;
+  options.dots.tail_px = 2.5;
+  options.dots.min_radius_px = 1.3;
+  options.lattice_search = false;
+  return options;
+}
+
+DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options) {
+  options.registered_ids = registered_ids(registry);
+  return options;
+}
+
+MarkerDetector::MarkerDetector(const DetectorOptions& options)
+    : options_(options),
+      dot_finder_(options.dots),
+      area_finder_(options.areas),
+      area_reader_(options.decoder),
+      id_decoder_(options.registered_ids) {}
+
+std::span<const DetectedMarker> MarkerDetector::detect(const cv::Mat& gray) {
+  require_gray(gray);
+  return read(gray, dot_finder_.find(gray));
+}
+
+std::span<const DetectedMarker> MarkerDetector::detect_within(std::span<const cv::Rect> parts,
+                                                              const cv::Mat& gray) {
+  require_gray(gray);
+  return read(gray, dot_finder_.find_within(parts, gray));
+}
+
+std::span<const DetectedMarker> MarkerDetector::read(const cv::Mat& gray, std::span<const Dot> dots) {
+  markers_.clear();
+  const std::size_t areas = area_finder_.find(dots);
+  for (std::size_t i = 0; i < areas; ++i) {
+    const std::span<const Dot> area = area_finder_.dots_of(i);
+    if (area.size() >= 3) append_markers_of_area(gray, area, dots);
+  }
+  sort_by_distance_to_center(markers_, gray.size());
+  return markers_;
+}
+
+void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots,
+                                            std::span<const Dot> of_frame) {
+  const std::span<const MarkerReading> readings = area_reader_.read(dots);
+  for (const MarkerReading& reading : readings) {
+    const DotsOfMarker own = dots_at(dots, reading.indices);
+    const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
+    const bool cover_shows = shows_a_cover(reading.grid, own, of_frame, options_.evidence);
+    const IdReading id = id_decoder_.read(cells, cover_shows);
+    const double probability = id.weight / id.all_weight;
+    if (probability < options_.least_probability || cells.undecided() > options_.most_undecided ||
+        id.contradicting > 0 || !id_decoder_.accepts(id.id)) {
+      continue;
+    }
+    markers_.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
+                                [&](GridCell cell) { return reading.grid.center_px(cell); }));
+  }
+  if (readings.empty() && options_.lattice_search && id_decoder_.knows_ids())
+    append_marker_of_lattice(gray, dots, of_frame);
+}
+
+/// Every way that a marker may hang on the lattice is weighed against all others.
+void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots,
+                                              std::span<const Dot> of_frame) {
+  if (dots.size() > DotsOfArea::capacity) return;
+  const DotsOfArea usual = dots_of_usual_size(dots, options_.decoder);
+  const std::optional<DotLattice> lattice = find_lattice(usual, options_.lattice);
+  if (!lattice) return;
+  std::optional<Hanging> best;
+  double all_weight = 0.0;
+  bool is_decided = true;
+  for_each_square(*lattice, usual, [&](const Square& square) {
+    const CellEvidence cells =
+        look_at_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
+    const bool cover_shows = shows_a_cover(square.grid, square.measured, of_frame, options_.evidence);
+    is_decided = is_decided && cells.undecided() <= options_.most_undecided;
+    for (int turn = 0; turn < quarter_turns; ++turn) {
+      const IdReading id = id_decoder_.read(evidence_turned(cells, turn), cover_shows);
+      all_weight += id.all_weight;
+      if (!best || id.weight > best->id.weight) best = Hanging{square, turn, id};
+    }
+  });
+  if (!best || !is_decided) return;  // any of the squares may be the one
+  const double probability = best->id.weight / all_weight;
+  if (probability < options_.lattice.least_probability ||
+      !is_trusted(*best, strangers_in(best->square, dots), id_decoder_, options_.lattice)) {
+    return;
+  }
+  markers_.push_back(detected(best->id.id, probability, confidence_of(gray, best->square.measured),
+                              turned_back(best->square.dots, best->quarters), [&](GridCell cell) {
+                                return best->square.grid.center_px(turned(cell, best->quarters));
+                              }));
+}
+
+/// The local 'and' of dilation area and eroded image (Fig. 2d) leaves the eroded dots of this marker, whose
+/// gray values Eq. (3) counts. Whatever threshold found them, the paper's is 200.
+double MarkerDetector::confidence_of(const cv::Mat& gray, std::span<const Dot> dots) const {
+  ConfidenceSum confidence;
+  for (const Dot& dot : dots) {
+    for (const Run& run : dot_finder_.pixels_of(dot)) add_inner_pixels(gray, run, confidence);
+  }
+  return confidence.value();
+}
+
+std::vector<DetectedMarker> detect_markers(const cv::Mat& gray, const DetectorOptions& options) {
+  MarkerDetector detector(options);
+  const std::span<const DetectedMarker> markers = detector.detect(gray);
+  return {markers.begin(), markers.end()};
+}
+
+}  // namespace lodestar

@@ -1,0 +1,188 @@
+#include "localization/filter/pose_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lodestar {
+namespace {
+
+WheelTravel interpolated(const WheelTravel& before, const WheelTravel& after, Stamp stamp) {
+  const double share = seconds(stamp - before.stamp) / seconds(after.stamp - before.stamp);
+  return {stamp, std::lerp(before.left_m, after.left_m, share),
+          std::lerp(before.right_m, after.right_m, share)};
+}
+
+}  // namespace
+
+void PoseFilter::add_travel(const WheelTravel& reading) {
+  if (!readings_.empty() && reading.stamp <= readings_.back().stamp) return;
+  const WheelTravel travel = zero_velocity_.settled(reading);
+  readings_.push_back(travel);
+  while (readings_.size() > 2 && readings_[1].stamp <= travel.stamp - options_.history) readings_.pop_front();
+  if (believed_) believed_->add_travel(travel, options_);
+  if (rival_) rival_->history.add_travel(travel, options_);
+}
+
+FixOutcome PoseFilter::add_fix(const PlanarFix& fix) {
+  const std::optional<PlacedFix> at = placed(fix);
+  if (!at || (believed_ && at->travel.stamp < believed_->oldest())) return FixOutcome::refused_late;
+  if (believed_ && believed_->add_fix(at->fix, at->travel, options_)) {
+    rival_.reset();
+    last_fix_ = std::max(last_fix_, fix.stamp);
+    last_agreed_ = std::max(last_agreed_, fix.stamp);
+    motions_refused_ = 0;
+    return FixOutcome::accepted;
+  }
+
+  // What the estimate contradicts may be an outlier, or the truth after the robot has been carried away. Only
+  // fixes that agree among themselves, given the wheels' travel between them, can tell.
+  add_to_rival(*at);
+  const bool relocating = believed_.has_value();
+  if (!rival_prevails()) return relocating ? FixOutcome::refused_gate : FixOutcome::collecting;
+  begin_with(std::move(*rival_), fix.stamp);
+  return relocating ? FixOutcome::relocated : FixOutcome::started;
+}
+
+void PoseFilter::add_to_rival(const PlacedFix& placed) {
+  if (rival_ && rival_->history.add_fix(placed.fix, placed.travel, options_)) {
+    ++rival_->fixes;
+  } else {
+    rival_ = rival_from(placed);
+  }
+  rival_->ids.insert(placed.fix.ids.begin(), placed.fix.ids.end());
+}
+
+bool PoseFilter::rival_prevails() const {
+  if (!believed_) return rival_->fixes >= options_.fixes_to_start;
+  const double apart_m =
+      (rival_->history.newest().map_from_base().position_m - believed_->newest().map_from_base().position_m)
+          .norm();
+  const bool by_one_marker = rival_->ids.size() == 1;
+  return rival_->fixes >= options_.fixes_to_relocate &&
+         (!by_one_marker || apart_m >= options_.relocation_by_one_marker_m);
+}
+
+void PoseFilter::begin_with(Rival rival, Stamp last_fix) {
+  believed_ = std::move(rival.history);
+  rival_.reset();
+  last_fix_ = last_agreed_ = last_fix;
+  motions_refused_ = 0;
+}
+
+bool PoseFilter::start_at(const PlanarFix& fix) {
+  const std::optional<PlacedFix> at = placed(fix);
+  if (!at) return false;
+  begin_with(rival_from(*at), fix.stamp);
+  return true;
+}
+
+std::optional<FixExpectation> PoseFilter::expectation(const PlanarFix& fix) const {
+  const std::optional<PlacedFix> at = placed(fix);
+  if (!at || !believed_) return std::nullopt;
+  const std::optional<Belief> belief = believed_->at(at->travel, options_);
+  if (!belief) return std::nullopt;
+  const Vec2 moved_m = fix.map_from_base.position_m - at->fix.map_from_base.position_m;
+  const double moved_rad = fix.map_from_base.yaw_rad - at->fix.map_from_base.yaw_rad;
+  const Pose2 expected = belief->map_from_base();
+  const double distance = squared_distance(*belief, at->fix, options_);
+  return FixExpectation{{expected.position_m + moved_m, wrap_angle(expected.yaw_rad + moved_rad)},
+                        distance,
+                        distance <= options_.gate_chi2};
+}
+
+std::optional<PictureExpectation> PoseFilter::expected_motion(Stamp stamp) const {
+  const std::optional<WheelTravel> travel = travel_at(stamp);
+  if (!travel || !believed_) return std::nullopt;
+  const std::optional<Belief> belief = believed_->at(*travel, options_);
+  if (!belief || !belief->pictured) return std::nullopt;
+  return PictureExpectation{*belief->pictured,
+                            inverse(belief->map_from_pictured()) * belief->map_from_base()};
+}
+
+bool PoseFilter::keep_picture(Stamp stamp, double sway_m) {
+  const std::optional<WheelTravel> travel = travel_at(stamp);
+  return travel && believed_ && believed_->keep_picture(*travel, sway_m, options_);
+}
+
+bool PoseFilter::add_motion(const VisualOdometryIncrement& motion, bool keeps) {
+  const std::optional<WheelTravel> travel = travel_at(motion.to);
+  if (!travel || !believed_) return false;
+  const bool agrees = believed_->add_motion(motion, *travel, keeps, options_);
+  if (motions_refused_ < options_.motions_refused_to_doubt) {
+    motions_refused_ = agrees ? 0 : motions_refused_ + 1;
+    if (agrees) last_agreed_ = std::max(last_agreed_, motion.to);
+  }
+  return agrees;
+}
+
+/// Between readings; nothing beyond them and for what is older than the history.
+std::optional<WheelTravel> PoseFilter::travel_at(Stamp stamp) const {
+  if (readings_.size() < 2 || stamp < readings_.front().stamp || stamp > readings_.back().stamp ||
+      stamp < readings_.back().stamp - options_.history) {
+    return std::nullopt;
+  }
+  const auto after = std::ranges::lower_bound(readings_, stamp, {}, &WheelTravel::stamp);
+  return after->stamp == stamp ? *after : interpolated(*std::prev(after), *after, stamp);
+}
+
+/// Nothing for a fix that is out of the readings' reach.
+std::optional<PoseFilter::PlacedFix> PoseFilter::placed(const PlanarFix& fix) const {
+  if (const std::optional<WheelTravel> travel = travel_at(fix.stamp)) return PlacedFix{fix, *travel};
+  const bool is_ahead = readings_.size() >= 2 && fix.stamp > readings_.back().stamp &&
+                        fix.stamp <= readings_.back().stamp + options_.max_ahead;
+  return is_ahead ? std::optional(brought_back(fix)) : std::nullopt;
+}
+
+/// A fix that is ahead of the wheels' last word, brought back to it at the wheels' last pace. Of the way
+/// thus guessed half may be wrong.
+PoseFilter::PlacedFix PoseFilter::brought_back(const PlanarFix& fix) const {
+  const WheelTravel& newest = readings_.back();
+  const WheelTravel ahead = interpolated(readings_[readings_.size() - 2], newest, fix.stamp);
+  const double left_m = ahead.left_m - newest.left_m;
+  const double right_m = ahead.right_m - newest.right_m;
+  const double doubt_m = 0.5 * std::max(std::abs(left_m), std::abs(right_m));
+  const double doubt_rad = 2.0 * doubt_m / options_.track_width_m;
+  const Pose2 newest_from_ahead = rolled({}, left_m, right_m, options_.track_width_m);
+
+  PlacedFix placed{fix, newest};
+  placed.fix.map_from_base = fix.map_from_base * inverse(newest_from_ahead);
+  placed.fix.covariance.diagonal() += Vec3(doubt_m * doubt_m, doubt_m * doubt_m, doubt_rad * doubt_rad);
+  return placed;
+}
+
+/// The scales, once learned, outlive the robot's being carried elsewhere.
+PoseFilter::Rival PoseFilter::rival_from(const PlacedFix& placed) const {
+  Rival rival{BeliefHistory(belief_from(placed.fix, placed.travel, scales(), options_))};
+  for (const WheelTravel& reading : readings_)
+    if (reading.stamp > placed.travel.stamp) rival.history.add_travel(reading, options_);
+  return rival;
+}
+
+std::optional<PoseEstimate> PoseFilter::estimate() const {
+  if (!believed_) return std::nullopt;
+  const Belief& newest = believed_->newest();
+  return PoseEstimate{.stamp = newest.travel.stamp,
+                      .map_from_base = newest.map_from_base(),
+                      .covariance = pose_covariance(newest, options_),
+                      .last_fix = last_fix_,
+                      .last_agreed = last_agreed_};
+}
+
+std::optional<PoseEstimate> PoseFilter::estimate_at(Stamp stamp) const {
+  const std::optional<PlacedFix> origin = placed({.stamp = stamp});  // a robot at the map's origin then
+  if (!origin || !believed_) return std::nullopt;
+  const std::optional<Belief> belief = believed_->at(origin->travel, options_);
+  if (!belief) return std::nullopt;
+  return PoseEstimate{.stamp = stamp,
+                      .map_from_base = belief->map_from_base() * inverse(origin->fix.map_from_base),
+                      .covariance = pose_covariance(*belief, options_) + origin->fix.covariance,
+                      .last_fix = last_fix_,
+                      .last_agreed = last_agreed_};
+}
+
+WheelScales PoseFilter::scales() const {
+  return believed_ ? believed_->newest().scales() : scales_as_built(options_);
+}
+
+}  // namespace lodestar

@@ -1,0 +1,106 @@
+#include "localization/integrity/integrity_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lodestar {
+namespace {
+
+/// Markers that agree with each other are one witness, whichever they are.
+constexpr int several = -1;
+
+}  // namespace
+
+void IntegrityMonitor::add_travel(const WheelTravel& reading) {
+  if (last_travel_) {
+    rolled_m_ += 0.5 * (std::abs(reading.left_m - last_travel_->left_m) +
+                        std::abs(reading.right_m - last_travel_->right_m));
+  }
+  last_travel_ = reading;
+}
+
+void IntegrityMonitor::add_fix(const FixVerdict& fix) {
+  switch (fix.outcome) {
+    case FixOutcome::accepted:
+      return agree();
+    case FixOutcome::started:
+      if (is_out_of_reach(fix)) for_good_ = IntegrityAlarm::carried_away;
+      blamed_at_.reset();
+      return agree();
+    case FixOutcome::relocated:
+      if (is_gross(fix)) for_good_ = IntegrityAlarm::carried_away;
+      moved_at_ = fix.stamp;
+      return agree();
+    case FixOutcome::refused_gate:
+      return contradict(fix);
+    case FixOutcome::collecting:
+    case FixOutcome::refused_late:
+      return;
+  }
+}
+
+void IntegrityMonitor::agree() {
+  gross_in_a_row_ = 0;
+  witnesses_.clear();
+  rolled_at_agreement_m_ = rolled_m_;
+}
+
+void IntegrityMonitor::contradict(const FixVerdict& fix) {
+  gross_in_a_row_ = is_gross(fix) ? gross_in_a_row_ + 1 : 0;
+  if (!fix.expected || fix.ids.empty()) return;
+  const Pose2 map_from_estimated = fix.map_from_base * inverse(*fix.expected);
+  const int who = fix.ids.size() == 1 ? fix.ids.front() : several;
+  const auto [witness, is_new] = witnesses_.try_emplace(who, Witness{map_from_estimated, rolled_m_});
+  if (is_new) return;
+  const Witness& first = witness->second;
+  const double apart_m =
+      (map_from_estimated * fix.expected->position_m - first.map_from_estimated * fix.expected->position_m)
+          .norm();
+  const double turned_rad =
+      std::abs(wrap_angle(map_from_estimated.yaw_rad - first.map_from_estimated.yaw_rad));
+  if (apart_m <= options_.steady_m && turned_rad <= options_.steady_rad) return;
+  if (rolled_m_ - first.rolled_m < options_.rolled_m) {
+    for_good_ = IntegrityAlarm::carried_away;
+  } else {
+    blame_wheels(fix);
+  }
+}
+
+void IntegrityMonitor::blame_wheels(const FixVerdict& fix) {
+  fooled_ = true;
+  blamed_at_ = Blame{fix.expected->position_m, rolled_m_};
+  witnesses_.clear();
+  gross_in_a_row_ = 0;
+  std::erase_if(wheel_errors_, [&](Stamp error) { return fix.stamp - error > options_.memory; });
+  wheel_errors_.push_back(fix.stamp);
+  if (wheel_errors_.size() >= options_.most_wheel_errors) for_good_ = IntegrityAlarm::wheels_broken;
+}
+
+bool IntegrityMonitor::is_gross(const FixVerdict& fix) const {
+  return fix.expected &&
+         ((fix.map_from_base.position_m - fix.expected->position_m).norm() > options_.gross_m ||
+          std::abs(wrap_angle(fix.map_from_base.yaw_rad - fix.expected->yaw_rad)) > options_.gross_rad);
+}
+
+/// The belief that begins anew after wheels were wrong cannot begin farther away than they have rolled since:
+/// there a marker lies, or somebody has carried the robot.
+bool IntegrityMonitor::is_out_of_reach(const FixVerdict& start) const {
+  return blamed_at_ && (start.map_from_base.position_m - blamed_at_->position_m).norm() >
+                           rolled_m_ - blamed_at_->rolled_m + options_.gross_m;
+}
+
+bool IntegrityMonitor::wheels_fooled_us() {
+  return std::exchange(fooled_, false);
+}
+
+std::optional<IntegrityAlarm> IntegrityMonitor::reason(Stamp now) const {
+  if (for_good_) return for_good_;
+  if (gross_in_a_row_ >= options_.gross_fixes_to_stop) return IntegrityAlarm::contradicted;
+  if (!wheel_errors_.empty() && now - wheel_errors_.back() <= options_.calm)
+    return IntegrityAlarm::wheels_wrong;
+  if (moved_at_ && now - *moved_at_ <= options_.calm) return IntegrityAlarm::moved;
+  return std::nullopt;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,229 @@
+#include "localization/pose/pose_fixer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "localization/pose/pose_guess.hpp"
+
+namespace lodestar {
+namespace {
+
+/// Of small numbers, which std::hypot would guard from overflow.
+double root_of_squares(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
+
+/// How large a metre of the marker's plane is in the picture, by the edges that its frame spans.
+double px_per_m(const DetectedMarker& seen) {
+  constexpr double edges_m = 2 * (marker_grid_size - 1) * marker_pitch_m;
+  return ((seen.x_px - seen.o_px).norm() + (seen.y_px - seen.o_px).norm()) / edges_m;
+}
+
+KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
+                         const PoseFixOptions& options, double variance_factor) {
+  const double sigma_factor = std::sqrt(variance_factor);
+  const double place_px = options.dot_place_sigma_m * px_per_m(seen);
+  const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
+    const Vec2 in_marker = cell_in_marker(cell);
+    const double own_px = sigma_factor * (sigma_px > 0.0 ? sigma_px : options.dot_sigma_px);
+    return SurveyedDot{map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0), center_px,
+                       place_px > 0.0 ? root_of_squares(own_px, place_px) : own_px, place_px};
+  };
+  KnownMarker known{.id = seen.id,
+                    .confidence = seen.confidence,
+                    .direction_dots = {surveyed(cell_of_o, seen.o_px), surveyed(cell_of_x, seen.x_px),
+                                       surveyed(cell_of_y, seen.y_px)},
+                    .dots = {}};
+  for (const MarkerDot& dot : seen.dots)
+    known.dots.push_back(surveyed(dot.cell, dot.center_px, dot.sigma_px));
+  return known;
+}
+
+/// Root mean square distance of dots from where the pose would show them.
+double residual_px(const Eigen::Isometry3d& map_from_camera, std::span<const SurveyedDot> dots,
+                   const CameraModel& camera) {
+  const Eigen::Isometry3d camera_from_map = map_from_camera.inverse();
+  double sum = 0.0;
+  for (const SurveyedDot& dot : dots) {
+    const std::optional<Vec2> seen = camera.project(camera_from_map * dot.point_in_map);
+    if (!seen) return std::numeric_limits<double>::infinity();
+    sum += (*seen - dot.center_px).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(dots.size()));
+}
+
+/// Does every marker lie about where a pose that the prior allows would show it?
+bool fits(const MapEstimate& estimate, std::span<const KnownMarker> markers, const CameraModel& camera,
+          const PoseFixOptions& options) {
+  if (prior_cost(estimate.map_from_camera, options.prior) > options.max_prior_chi2) return false;
+  return std::ranges::all_of(markers, [&](const KnownMarker& marker) {
+    return residual_px(estimate.map_from_camera, marker.dots, camera) <= options.max_residual_px;
+  });
+}
+
+struct Guess {
+  Eigen::Isometry3d map_from_camera;
+  double cost = 0.0;
+};
+using Guesses = InlineVector<Guess, 5>;
+
+/// What P3P makes of the optimal marker, the first, and what it looks like from below; the pose that explains
+/// all dots best comes first. A tilt that the prior knows has been tried already.
+Guesses guesses(const KnownMarker& optimal, std::span<const SurveyedDot> dots, const CameraModel& camera,
+                const PoseFixOptions& options) {
+  Guesses scored;
+  const auto add = [&](const Eigen::Isometry3d& guess) {
+    scored.push_back({guess, cost_of(guess, dots, camera, options)});
+    for (std::size_t i = scored.size() - 1; i > 0 && scored[i].cost < scored[i - 1].cost; --i)
+      std::swap(scored[i], scored[i - 1]);
+  };
+  if (!options.prior.tilt_sigma_rad) {
+    if (const auto level = level_guess(optimal.dots, camera, options.prior)) add(*level);
+  }
+  for (const Eigen::Isometry3d& camera_from_map : p3p_guesses(optimal.direction_dots, camera))
+    add(camera_from_map.inverse());
+  return scored;
+}
+
+/// Where a mirrored view may explain the dots too, both have their say.
+MapEstimate with_mirrored_view(const MapEstimate& estimate, std::span<const SurveyedDot> dots,
+                               const CameraModel& camera, const PoseFixOptions& options) {
+  if (options.prior.tilt_sigma_rad == 0.0) return estimate;
+  const Eigen::Isometry3d other = mirrored(estimate.map_from_camera, dots);
+  constexpr double hopeless = 50.0;  // twice the logarithm of the odds
+  if (prior_cost(other, options.prior) > estimate.cost + hopeless) return estimate;
+  const std::optional<MapEstimate> mirrored_estimate = maximize_posterior(other, dots, camera, options);
+  return mirrored_estimate ? likelier(estimate, *mirrored_estimate) : estimate;
+}
+
+}  // namespace
+
+PoseFixer::PoseFixer(const MarkerRegistry& registry, const CameraModel& camera) : camera_(camera) {
+  for (const RegisteredMarker& marker : registry.markers) {
+    if (registry.find(marker.id) != nullptr)
+      markers_in_map_.push_back({marker.id, map_from_marker(registry, marker)});
+  }
+  std::ranges::sort(markers_in_map_, {}, &MarkerInMap::id);
+}
+
+const PoseFix* PoseFixer::fix(Stamp stamp, std::span<const DetectedMarker> markers,
+                              const PoseFixOptions& options) {
+  find_known(markers, options);
+  // A marker that hangs elsewhere than surveyed contradicts the others. Three or more can tell which; of two
+  // that contradict each other nobody knows, and a robot must not guess.
+  while (!known_.empty()) {
+    const std::optional<MapEstimate> estimate = best_estimate(known_, options);
+    if (estimate && fits(*estimate, known_, camera_, options)) {
+      learn(*estimate);
+      conclude(stamp, *estimate);
+      return &fix_;
+    }
+    if (known_.size() <= 2) return nullptr;
+    leave_out_the_odd_one(options);
+  }
+  return nullptr;
+}
+
+const PoseFixer::MarkerInMap* PoseFixer::marker_in_map(int id) const {
+  const auto place = std::ranges::lower_bound(markers_in_map_, id, {}, &MarkerInMap::id);
+  return place != markers_in_map_.end() && place->id == id ? &*place : nullptr;
+}
+
+/// Registered markers in the order of the detections. One ID cannot hang in two places: seen twice, it tells
+/// nothing.
+void PoseFixer::find_known(std::span<const DetectedMarker> markers, const PoseFixOptions& options) {
+  known_.clear();
+  for (const DetectedMarker& marker : markers) {
+    const auto times = std::ranges::count(markers, marker.id, &DetectedMarker::id);
+    const MarkerInMap* const registered = marker_in_map(marker.id);
+    if (registered == nullptr || times > 1 || marker.dots.empty()) continue;
+    known_.push_back(known_marker(marker, registered->map_from_marker, options, variance_factor_.value()));
+  }
+}
+
+/// The maximum of the posterior: of the guesses, the first that leads to a pose that fits all markers, or
+/// else the best. Where the tilt is known, the pose with that tilt leads there and nothing else need be
+/// tried.
+std::optional<MapEstimate> PoseFixer::best_estimate(std::span<const KnownMarker> markers,
+                                                    const PoseFixOptions& options) {
+  dots_.clear();
+  for (const KnownMarker& marker : markers) dots_.insert(dots_.end(), marker.dots.begin(), marker.dots.end());
+  std::optional<MapEstimate> best;
+  const auto leads_to_a_fit = [&](const Eigen::Isometry3d& guess) {
+    const std::optional<MapEstimate> estimate = maximize_posterior(guess, dots_, camera_, options);
+    if (!estimate || (best && best->cost <= estimate->cost)) return false;
+    best = estimate;
+    return fits(*best, markers, camera_, options);
+  };
+  const auto level = options.prior.tilt_sigma_rad ? level_guess_by(markers, options.prior) : std::nullopt;
+  if (!level || !leads_to_a_fit(*level)) {
+    for (const Guess& guess : guesses(markers.front(), dots_, camera_, options)) {
+      if (leads_to_a_fit(guess.map_from_camera)) break;
+    }
+  }
+  if (!best) return std::nullopt;
+  return with_mirrored_view(*best, dots_, camera_, options);
+}
+
+/// By O, X and Y of all markers that hang as high as the first.
+std::optional<Eigen::Isometry3d> PoseFixer::level_guess_by(std::span<const KnownMarker> markers,
+                                                           const PosePrior& prior) {
+  constexpr double same_height_m = 0.001;
+  const auto height_m = [](const KnownMarker& marker) { return marker.direction_dots[0].point_in_map.z(); };
+  if (markers.size() == 1) return level_guess(markers.front().dots, camera_, prior);
+  guess_dots_.clear();
+  for (const KnownMarker& marker : markers) {
+    if (std::abs(height_m(marker) - height_m(markers.front())) > same_height_m) continue;
+    guess_dots_.insert(guess_dots_.end(), marker.direction_dots.begin(), marker.direction_dots.end());
+  }
+  return level_guess(guess_dots_, camera_, prior);
+}
+
+/// Keeps all known markers but the one without which the others agree best; none when none agree.
+void PoseFixer::leave_out_the_odd_one(const PoseFixOptions& options) {
+  best_others_.clear();
+  double least_cost = std::numeric_limits<double>::infinity();
+  for (std::size_t odd = 0; odd < known_.size(); ++odd) {
+    others_.clear();
+    for (std::size_t i = 0; i < known_.size(); ++i)
+      if (i != odd) others_.push_back(known_[i]);
+    const std::optional<MapEstimate> estimate = best_estimate(others_, options);
+    if (!estimate || estimate->cost >= least_cost) continue;
+    least_cost = estimate->cost;
+    std::swap(best_others_, others_);
+  }
+  std::swap(known_, best_others_);
+}
+
+/// While the camera stands, every frame has the same errors but for noise, and tells nothing new of them.
+void PoseFixer::learn(const MapEstimate& estimate) {
+  constexpr double moved_px = 0.5;
+  const Vec2& at_px = dots_.front().center_px;
+  if ((at_px - learned_at_px_).squaredNorm() < moved_px * moved_px) return;
+  learned_at_px_ = at_px;
+  variance_factor_.add(estimate.chi2, estimate.freedom);
+}
+
+void PoseFixer::conclude(Stamp stamp, const MapEstimate& estimate) {
+  fix_.stamp = stamp;
+  fix_.map_from_camera = estimate.map_from_camera;
+  fix_.covariance = estimate.covariance;
+  fix_.shared_covariance = estimate.shared_covariance;
+  fix_.ids.clear();
+  for (const KnownMarker& marker : known_) fix_.ids.push_back(marker.id);
+  fix_.confidence = known_.front().confidence;
+  fix_.dots = static_cast<int>(dots_.size());
+  fix_.residual_px = residual_px(estimate.map_from_camera, dots_, camera_);
+}
+
+std::optional<PoseFix> fix_pose(Stamp stamp, std::span<const DetectedMarker> markers,
+                                const MarkerRegistry& registry, const CameraModel& camera,
+                                const PoseFixOptions& options) {
+  PoseFixer fixer(registry, camera);
+  const PoseFix* const fix = fixer.fix(stamp, markers, options);
+  return fix != nullptr ? std::optional(*fix) : std::nullopt;
+}
+
+}  // namespace lodestar

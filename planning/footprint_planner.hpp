@@ -1,0 +1,42 @@
+#pragma once
+
+#include "planning/footprint_search.hpp"
+#include "planning/grid_planner.hpp"
+
+namespace lodestar {
+
+/// Plans for a robot with an outline. The paths of two discs enclose the answer: that of the inner one is no
+/// slower than any path of the outline, and taken when the outline fits along it; that of the outer one
+/// always fits, and is taken when it takes hardly longer. Else headings are searched as well.
+class FootprintPlanner {
+ public:
+  /// The map must outlive it.
+  FootprintPlanner(const OccupancyMap& map, const Footprint& footprint, const GridPlannerOptions& options);
+
+  [[nodiscard]] PlanResult plan(const Vec2& start_m, const Vec2& goal_m, const PlanHeadings& headings) const;
+  [[nodiscard]] bool is_clear(const Vec2& from_m, const Vec2& to_m) const;
+  [[nodiscard]] std::optional<Vec2> nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const;
+
+ private:
+  /// A query in grid coordinates, and the same as asked.
+  struct Query;
+
+  [[nodiscard]] std::optional<PlanFailure> fits_at_ends(const Query& query) const;
+  [[nodiscard]] std::optional<Plan> fitting(const PlanResult& result, const Query& query) const;
+  [[nodiscard]] PlanResult searched(const Query& query) const;
+  [[nodiscard]] PlanResult sampled(const Query& query) const;
+  [[nodiscard]] PlanResult plan_over(std::vector<Vec2> points, std::size_t expanded,
+                                     const Query& query) const;
+  [[nodiscard]] double time_s(const Plan& plan, const Query& query) const;
+
+  const OccupancyMap& map_;
+  GridPlannerOptions options_;
+  FootprintCollisionChecker space_;
+  GridPlanner inner_;
+  GridPlanner outer_;
+  std::unique_ptr<FootprintSearch> search_;
+  CellCosts even_;
+  std::optional<UncertaintyConstrainedPlanner> sure_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planning/corners.hpp"
+#include "planning/path_cost.hpp"
+
+namespace lodestar {
+
+struct TurnPath {
+  std::vector<Vec2> points;  ///< start, turns, goal in grid coordinates
+  double cost = 0.0;
+  std::size_t expanded = 0;  ///< turn points from which the search went on
+};
+
+/// The shortest, or nearly the fastest, path of straight clear legs that turns at turn points only: A* on
+/// their visibility graph. A state is a turn point and the heading of arrival, for the next turn depends on
+/// it; one that could be reached cheaper by another way and a turn on the spot is dropped. Lines of sight are
+/// looked at last, for the few legs that come up as cheapest (lazy A*, Cohen, Phillips and Likhachev 2014).
+/// Memory is kept from search to search.
+class VisibilityGraphSearch {
+ public:
+  /// The space must outlive it.
+  VisibilityGraphSearch(const CollisionChecker& space, std::vector<TurnPoint> turn_points);
+
+  /// `known` is a clear path from start to goal: no costlier way is looked at, its points are turn points
+  /// too, and when nothing cheaper is found it is the answer.
+  TurnPath find(std::span<const Vec2> known, const EndHeadings& headings, const PathCost& cost);
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  /// A turn point that can lie on a path cheaper than the known one.
+  struct Candidate {
+    Vec2 position = Vec2::Zero();
+    Vec2 corner = Vec2::Zero();
+    double least_to_goal = 0.0;
+    double heading_to_goal_rad = 0.0;
+    std::uint32_t turn_point = none;  ///< none: a point of the known path
+    std::uint32_t newest_label = none;
+  };
+  /// A way to a candidate.
+  struct Label {
+    double cost = 0.0;
+    double heading_rad = 0.0;
+    std::uint32_t candidate = 0;
+    std::uint32_t parent = none;
+    std::uint32_t older_label = none;  ///< of the same candidate
+  };
+  struct Open {
+    double total = 0.0;
+    double cost = 0.0;  ///< up to the candidate
+    double heading_rad = 0.0;
+    std::uint32_t candidate = 0;
+    std::uint32_t parent = 0;
+    bool looked_at = false;  ///< the leg is known to be clear, and what it costs
+  };
+  /// The place that is expanded, and what the ways on from there are compared with.
+  struct Expanded {
+    Vec2 position = Vec2::Zero();
+    Vec2 arrival = Vec2::Zero();  ///< the leg to it
+    Vec2 to_corner = Vec2::Zero();
+    double corner_side = 0.0;  ///< of the arrival: cross product with the way to the corner
+    std::uint32_t turn_point = none;
+  };
+  struct Later;
+  enum class Sight : std::uint8_t { unknown, clear, blocked };
+
+  [[nodiscard]] const Vec2& position_of(const Label& label) const {
+    return label.candidate == none ? start_ : candidates_[label.candidate].position;
+  }
+  void gather_candidates(std::span<const Vec2> known);
+  void add_candidate(const Vec2& position, std::uint32_t turn_point);
+  void expand(std::uint32_t label);
+  void consider(std::uint32_t label, std::uint32_t candidate);
+  void push(const Open& open);
+  [[nodiscard]] bool turns_around_its_corner(const Vec2& way) const;
+  [[nodiscard]] Sight known_sight(std::uint32_t from_turn_point, std::uint32_t to_turn_point) const;
+  [[nodiscard]] bool is_dominated(const Open& open) const;
+  [[nodiscard]] double least_rest(const Candidate& candidate, double heading_rad) const;
+  bool goes_on(Open& open);
+  bool sees(std::uint32_t from_turn_point, std::uint32_t to_turn_point, const Vec2& from, const Vec2& to);
+  [[nodiscard]] std::vector<Vec2> points_to(std::uint32_t label) const;
+
+  const CollisionChecker& space_;
+  std::vector<TurnPoint> turn_points_;
+  std::vector<Sight>
+      sights_;  ///< between turn points, as far as they were looked at; empty when there are too many
+  const PathCost* cost_ = nullptr;  ///< of the present search, as all that follows
+  EndHeadings headings_;
+  Vec2 start_ = Vec2::Zero();
+  Vec2 goal_ = Vec2::Zero();
+  double limit_ = 0.0;
+  std::vector<Candidate> candidates_;  ///< the goal first
+  std::vector<Label> labels_;
+  std::vector<Open> open_;
+  Expanded from_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,249 @@
+#include "app/navigation/navigation.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+#include <set>
+
+#include "app/navigation/mission.hpp"
+#include "app/navigation/navigation_setup.hpp"
+#include "app/simulate/disturbances.hpp"
+#include "drivers/base/base_driver.hpp"
+#include "drivers/simulation/simulation.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr Duration period = std::chrono::milliseconds(20);
+
+Site lab() {
+  return load_site(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab");
+}
+
+/// The lab as it is, with the robot in it that knows the lab as surveyed.
+struct Lab {
+  Site site = lab();
+  KnownWorld known = known_world(site, "wide");
+  MarkerRegistry registered_marker = site.registry;  ///< how the markers really hang
+  std::uint64_t seed = 1;
+  Disturbances disturbances;
+  bool has_plain_ceiling = false;                                ///< nothing to be seen on it but markers
+  std::function<bool(Stamp)> sees = [](Stamp) { return true; };  ///< or the lens is covered
+
+  [[nodiscard]] Simulation simulation() const {
+    SimulationOptions options;
+    options.start = site.start;
+    options.base_from_camera = site.robot.base_from_camera;
+    options.robot_radius_m = site.robot.radius_m;
+    options.base.track_width_m = site.robot.track_width_m;
+    options.seed = seed;
+    return {known.map, registered_marker, known.camera, made_harder(options, disturbances)};
+  }
+};
+
+SensorInput sense(const Lab& lab, Simulation& simulation, BaseDriver& base) {
+  simulation.advance(period);
+  SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
+  while (std::optional<Frame> frame = simulation.camera().poll()) {
+    if (!lab.sees(frame->stamp)) cv::blur(frame->gray, frame->gray, {101, 101});
+    input.frames.push_back(std::move(*frame));
+  }
+  return input;
+}
+
+struct Drive {
+  bool arrived = false;
+  std::string failure;
+  std::vector<DistrustedMarker> distrusted;
+  double goal_error_m = 0.0;
+  int contacts = 0;
+  bool looked_around = false;
+  bool went_back = false;
+  bool took_another_way = false;
+  bool came_through_the_north = false;
+  double most_forward_mps = 0.0;  ///< while looking around
+  double most_change_mps = 0.0;   ///< from one command to the next
+};
+
+/// To one goal.
+Drive drive(const Lab& lab, const Goal& goal) {
+  Simulation simulation = lab.simulation();
+  BaseDriver base(simulation.can());
+  Mission mission(lab.known, navigation_options(lab.site.robot), {goal});
+  Drive result;
+  double last_forward_mps = 0.0;
+  while (!mission.finished()) {
+    const SensorInput input = sense(lab, simulation, base);
+    const MissionStep step = mission.step(input);
+    base.command(step.navigation.command);
+    const double forward_mps = step.navigation.command.forward_mps;
+    result.most_change_mps = std::max(result.most_change_mps, std::abs(forward_mps - last_forward_mps));
+    last_forward_mps = forward_mps;
+    result.distrusted = step.navigation.distrusted;
+    result.went_back = result.went_back || step.navigation.backtracks;
+    const std::optional<RouteUpdate>& reroute = step.navigation.reroute;
+    result.took_another_way = result.took_another_way || (reroute && reroute->change == RouteChange::surer);
+    if (step.navigation.stop && step.navigation.command.turn_radps == SpinOptions{}.turn_radps) {
+      result.looked_around = true;
+      result.most_forward_mps = std::max(result.most_forward_mps, step.navigation.command.forward_mps);
+    }
+    result.arrived = result.arrived || step.event == MissionEvent::goal_arrived;
+  }
+  result.failure = mission.failure();
+  result.goal_error_m =
+      (simulation.scorer().track().back().map_from_base.position_m - goal.position_m).norm();
+  result.contacts = simulation.scorer().contacts();
+  result.came_through_the_north = std::ranges::any_of(simulation.scorer().track(), [](const auto& at) {
+    const Vec2& place_m = at.map_from_base.position_m;
+    return place_m.x() > 7.0 && place_m.x() < 9.0 && place_m.y() > 5.0;
+  });
+  return result;
+}
+
+/// The marker nearest to the middle of the way.
+RegisteredMarker& marker_on_the_way(MarkerRegistry& registry) {
+  return *std::ranges::min_element(registry.markers, {}, [](const RegisteredMarker& marker) {
+    return (marker.position_m.head<2>() - Vec2(5.4, 3.7)).norm();
+  });
+}
+
+TEST(Navigation, arrives_and_trusts_all_markers_where_they_hang_as_surveyed) {
+  const Lab lab;
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.distrusted.empty());
+  EXPECT_FALSE(result.looked_around);
+}
+
+TEST(Navigation, names_a_moved_marker_and_arrives_without_it) {
+  for (const Vec2& moved : {Vec2(0.06, -0.03), Vec2(-0.15, 0.1), Vec2(0.3, 0.3)}) {
+    Lab lab;
+    RegisteredMarker& marker = marker_on_the_way(lab.registered_marker);
+    marker.position_m.head<2>() += moved;
+    const Drive result = drive(lab, lab.site.goals.front());
+    EXPECT_TRUE(result.arrived) << result.failure;
+    EXPECT_EQ(result.contacts, 0);
+    EXPECT_LT(result.goal_error_m, 0.02);
+    ASSERT_EQ(result.distrusted.size(), 1U) << moved.transpose();
+    EXPECT_EQ(result.distrusted.front().id, marker.id);
+    EXPECT_LT((result.distrusted.front().offset_m - moved).norm(), 0.02) << moved.transpose();
+  }
+}
+
+TEST(Navigation, takes_another_way_where_it_found_no_marker) {
+  Lab lab;
+  lab.seed = 72;  // no marker on the corridor, some in the north
+  lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03, .plain_ceiling = true};
+  std::vector<Vec2> places_m{lab.site.start.position_m};
+  for (const Goal& goal : lab.site.goals) places_m.push_back(goal.position_m);
+  lab.registered_marker = with_markers_removed(lab.registered_marker, 0.5, places_m, lab.seed);
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.took_another_way);
+  EXPECT_TRUE(result.came_through_the_north);
+  EXPECT_EQ(result.contacts, 0);
+  EXPECT_LT(result.goal_error_m, 0.02);
+}
+
+TEST(Navigation, when_blind_goes_back_and_drives_on_when_it_sees_again) {
+  Lab lab;
+  lab.disturbances.plain_ceiling = true;
+  lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0 || seconds(stamp) > 34.0; };
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.went_back);
+  EXPECT_EQ(result.most_forward_mps, 0.0);
+  EXPECT_LT(result.most_change_mps, 0.03) << "gently";
+  EXPECT_EQ(result.contacts, 0);
+  EXPECT_LT(result.goal_error_m, 0.02);
+}
+
+TEST(Navigation, goes_back_to_learn_its_wheels_when_the_next_marker_is_too_far) {
+  const std::set<int> left{447, 2357, 3501, 1135, 1849};  // four metres without one, and a gate on the way
+  for (const std::uint64_t seed : {2U, 3U, 5U}) {
+    Lab lab;
+    lab.seed = seed;
+    lab.disturbances.plain_ceiling = true;
+    std::erase_if(lab.registered_marker.markers,
+                  [&](const RegisteredMarker& marker) { return !left.contains(marker.id); });
+    const Drive result = drive(lab, lab.site.goals.front());
+    EXPECT_TRUE(result.arrived) << result.failure;
+    EXPECT_TRUE(result.went_back);
+    EXPECT_EQ(result.contacts, 0);
+    EXPECT_LT(result.goal_error_m, 0.02);
+  }
+}
+
+TEST(Navigation, goes_by_the_ceiling_where_markers_are_far_between) {
+  for (const std::uint64_t seed : {2U, 3U, 4U}) {
+    Lab lab;
+    lab.seed = seed;
+    lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03};
+    const Goal& goal = lab.site.goals.front();
+    std::erase_if(lab.registered_marker.markers, [&](const RegisteredMarker& marker) {
+      const Vec2 place_m = marker.position_m.head<2>();
+      return (place_m - lab.site.start.position_m).norm() > 2.0 && (place_m - goal.position_m).norm() > 2.0;
+    });
+    const Drive result = drive(lab, goal);
+    EXPECT_TRUE(result.arrived) << result.failure;
+    EXPECT_FALSE(result.went_back) << "ten metres by the ceiling alone";
+    EXPECT_EQ(result.contacts, 0);
+    EXPECT_LT(result.goal_error_m, 0.02);
+  }
+}
+
+TEST(Navigation, turns_to_find_its_first_marker) {
+  Lab lab;
+  lab.sees = [](Stamp stamp) { return seconds(stamp) > 5.0; };
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.looked_around);
+  EXPECT_LT(result.goal_error_m, 0.02);
+}
+
+TEST(Navigation, gives_up_in_place_when_it_stays_blind) {
+  Lab lab;
+  lab.disturbances.plain_ceiling = true;
+  lab.sees = [](Stamp stamp) { return seconds(stamp) < 10.0; };
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_FALSE(result.arrived);
+  EXPECT_FALSE(result.failure.empty());
+  EXPECT_TRUE(result.looked_around);
+  EXPECT_EQ(result.contacts, 0);
+}
+
+TEST(Navigation, pauses_goes_on_and_can_be_cancelled) {
+  const Lab lab;
+  Simulation simulation = lab.simulation();
+  BaseDriver base(simulation.can());
+  Navigation navigation(lab.known, navigation_options(lab.site.robot));
+  const auto run = [&](int steps) {
+    BodyVelocity command;
+    for (int i = 0; i < steps; ++i) {
+      command = navigation.step(sense(lab, simulation, base)).command;
+      base.command(command);
+    }
+    return command;
+  };
+  run(100);
+  ASSERT_TRUE(navigation.go_to(lab.site.goals.front()));
+  for (int i = 0; i < 20 && run(25).forward_mps < 0.5; ++i) continue;
+  EXPECT_GT(run(1).forward_mps, 0.4);
+  navigation.pause();
+  EXPECT_TRUE(navigation.paused());
+  EXPECT_EQ(run(150).forward_mps, 0.0);
+  navigation.resume();
+  for (int i = 0; i < 20 && run(25).forward_mps < 0.3; ++i) continue;
+  EXPECT_GT(run(1).forward_mps, 0.1);
+  navigation.cancel();
+  EXPECT_GT(run(1).forward_mps, 0.1) << "gently";
+  EXPECT_EQ(run(200).forward_mps, 0.0);
+  EXPECT_FALSE(navigation.arrived());
+  navigation.resume();
+  EXPECT_EQ(run(50).forward_mps, 0.0) << "there is nothing to go on with";
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,173 @@
+#include "drivers/camera/v4l2_camera.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "maps/input_error.hpp"
+
+#include "tests/drivers/video_device_stand_in.hpp"
+
+namespace lodestar {
+namespace {
+
+using ::testing::HasSubstr;
+
+V4l2Camera camera_on(VideoScript& script, const V4l2CameraOptions& options = {}) {
+  return {std::make_unique<VideoDeviceStandIn>(script), "/dev/video7", options};
+}
+
+/// The pixel's number as its gray, line after line.
+std::vector<std::uint8_t> counted(std::size_t bytes) {
+  std::vector<std::uint8_t> result(bytes);
+  for (std::size_t i = 0; i < bytes; ++i) result[i] = static_cast<std::uint8_t>(i);
+  return result;
+}
+
+std::string refusal(VideoScript& script, const V4l2CameraOptions& options = {}) {
+  try {
+    const V4l2Camera camera = camera_on(script, options);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(V4l2Camera, prefers_gray_and_hands_out_frames_in_order) {
+  VideoScript script;
+  script.captures = {{.bytes = counted(32), .stamp = {.tv_sec = 7, .tv_usec = 250'000}},
+                     {.bytes = std::vector<std::uint8_t>(32, 9), .stamp = {.tv_sec = 7, .tv_usec = 290'000}}};
+  V4l2Camera camera = camera_on(script);
+  EXPECT_EQ(script.chosen_format, V4L2_PIX_FMT_GREY);
+  EXPECT_TRUE(script.streaming);
+
+  const std::optional<Frame> first = camera.poll();
+  const std::optional<Frame> second = camera.poll();
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->gray.size(), cv::Size(8, 4));
+  EXPECT_EQ(first->gray.at<std::uint8_t>(2, 3), 19) << "still its own after the next one";
+  EXPECT_EQ(second->gray.at<std::uint8_t>(0, 0), 9);
+  EXPECT_EQ(first->stamp, Stamp(std::chrono::milliseconds(7250)));
+  EXPECT_FALSE(camera.poll());
+  EXPECT_FALSE(camera.lost()) << "nothing there is not gone";
+}
+
+TEST(V4l2Camera, goes_on_for_longer_than_it_has_buffers) {
+  VideoScript script;
+  for (int i = 0; i < 25; ++i) script.captures.push_back({.bytes = counted(32)});
+  V4l2Camera camera = camera_on(script);
+  int frames = 0;
+  while (camera.poll()) ++frames;
+  EXPECT_EQ(frames, 25);
+}
+
+TEST(V4l2Camera, stamps_the_middle_of_the_exposure) {
+  constexpr auto monotonic = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  VideoScript script;
+  script.exposure_100us = 80;  // 8 ms
+  script.captures = {{counted(32), monotonic | V4L2_BUF_FLAG_TSTAMP_SRC_SOE, {.tv_sec = 1, .tv_usec = 0}},
+                     {counted(32), monotonic | V4L2_BUF_FLAG_TSTAMP_SRC_EOF, {.tv_sec = 1, .tv_usec = 0}},
+                     {counted(32), V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN, {.tv_sec = 1, .tv_usec = 0}}};
+  V4l2Camera camera = camera_on(script, {.readout = std::chrono::milliseconds(30)});
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1004))) << "from the start of the exposure";
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1000 - 30 - 4))) << "from the frame's end";
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(50'000 - 4))) << "no stamp: the arrival";
+}
+
+TEST(V4l2Camera, leaves_out_damaged_and_short_frames) {
+  VideoScript script;
+  script.captures = {{.bytes = counted(32), .flags = V4L2_BUF_FLAG_ERROR},
+                     {.bytes = counted(31)},
+                     {.bytes = counted(32), .stamp = {.tv_sec = 3, .tv_usec = 0}}};
+  V4l2Camera camera = camera_on(script);
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::seconds(3)));
+}
+
+TEST(V4l2Camera, skips_the_padding_after_each_line) {
+  VideoScript script;
+  script.padding = 5;
+  script.captures = {{.bytes = counted(4 * 13)}};
+  EXPECT_EQ(camera_on(script).poll()->gray.at<std::uint8_t>(2, 1), 27);
+}
+
+TEST(V4l2Camera, says_when_it_is_gone) {
+  VideoScript script;
+  V4l2Camera camera = camera_on(script);
+  script.captures = {{.bytes = counted(32)}};
+  script.unplugged = true;
+  EXPECT_FALSE(camera.poll());
+  EXPECT_TRUE(camera.lost());
+  script.unplugged = false;
+  EXPECT_FALSE(camera.poll()) << "gone is gone";
+}
+
+TEST(V4l2Camera, stops_and_closes_at_the_end) {
+  VideoScript script;
+  {
+    const V4l2Camera camera = camera_on(script);
+  }
+  EXPECT_FALSE(script.streaming);
+  EXPECT_TRUE(script.closed);
+}
+
+TEST(V4l2Camera, refuses_what_it_cannot_use_by_name) {
+  VideoScript output;
+  output.capabilities = V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_STREAMING;
+  EXPECT_THAT(refusal(output), HasSubstr("/dev/video7: found a video device that does not capture"));
+  VideoScript strange;
+  strange.formats = {V4L2_PIX_FMT_H264};
+  EXPECT_THAT(refusal(strange), HasSubstr("found pixel formats H264 only"));
+  VideoScript used;
+  used.in_use = true;
+  EXPECT_THAT(refusal(used), HasSubstr("found a camera that is in use"));
+  VideoScript small;
+  EXPECT_THAT(refusal(small, {.width_px = 640, .height_px = 480}),
+              HasSubstr("found 8 x 4 pixels, wanted 640 x 480"));
+  VideoScript none;
+  none.unplugged = true;
+  EXPECT_THAT(refusal(none), HasSubstr("found no video device"));
+}
+
+TEST(V4l2Pixels, full_gray_comes_of_limited_luma_in_every_layout) {
+  // Two pixels: black and white of BT.601, 16 and 235, with colour between that must not matter.
+  V4l2Layout layout{.fourcc = V4L2_PIX_FMT_YUYV, .width_px = 2, .height_px = 1, .bytes_per_line = 4};
+  const std::vector<std::uint8_t> yuyv{16, 77, 235, 99};
+  const std::vector<std::uint8_t> uyvy{77, 16, 99, 235};
+  const std::vector<std::uint8_t> nv12{16, 235, 77, 99};
+  for (const auto& [fourcc, bytes] :
+       {std::pair(V4L2_PIX_FMT_YUYV, yuyv), {V4L2_PIX_FMT_UYVY, uyvy}, {V4L2_PIX_FMT_NV12, nv12}}) {
+    layout.fourcc = fourcc;
+    layout.bytes_per_line = fourcc == V4L2_PIX_FMT_NV12 ? 2 : 4;
+    const cv::Mat gray = gray_of(layout, bytes);
+    ASSERT_EQ(gray.size(), cv::Size(2, 1)) << fourcc_name(fourcc);
+    EXPECT_EQ(gray.at<std::uint8_t>(0, 0), 0) << fourcc_name(fourcc);
+    EXPECT_EQ(gray.at<std::uint8_t>(0, 1), 255) << fourcc_name(fourcc);
+  }
+  layout.limited_luma = false;
+  layout.fourcc = V4L2_PIX_FMT_YUYV;
+  layout.bytes_per_line = 4;
+  EXPECT_EQ(gray_of(layout, yuyv).at<std::uint8_t>(0, 1), 235);
+}
+
+TEST(V4l2Pixels, deep_gray_keeps_its_highest_bits) {
+  V4l2Layout layout{.fourcc = V4L2_PIX_FMT_Y10, .width_px = 1, .height_px = 1, .bytes_per_line = 2};
+  const std::vector<std::uint8_t> low_byte_first{0x24, 0x03};  // 0x324 = 804 of 1023
+  EXPECT_EQ(gray_of(layout, low_byte_first).at<std::uint8_t>(0, 0), 804 / 4);
+  layout.fourcc = V4L2_PIX_FMT_Y12;
+  EXPECT_EQ(gray_of(layout, low_byte_first).at<std::uint8_t>(0, 0), 804 / 16);
+  layout.fourcc = V4L2_PIX_FMT_Y16;
+  EXPECT_EQ(gray_of(layout, low_byte_first).at<std::uint8_t>(0, 0), 804 / 256);
+}
+
+TEST(V4l2Pixels, a_jpeg_of_another_size_is_no_frame) {
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", cv::Mat(16, 24, CV_8UC1, cv::Scalar(120)), jpeg);
+  V4l2Layout layout{.fourcc = V4L2_PIX_FMT_MJPEG, .width_px = 24, .height_px = 16};
+  EXPECT_EQ(gray_of(layout, jpeg).at<std::uint8_t>(8, 8), 120);
+  layout.width_px = 32;
+  EXPECT_TRUE(gray_of(layout, jpeg).empty());
+  EXPECT_TRUE(gray_of(layout, {}).empty());
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,412 @@
+#include "drivers/simulation/simulated_base.hpp"
+
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <sstream>
+
+#include "drivers/base/base_driver.hpp"
+#include "drivers/can/candump.hpp"
+#include "drivers/can/in_process_bus.hpp"
+#include "drivers/simulation/simulated_motion.hpp"
+
+#include "tests/drivers/perfect_base.hpp"
+
+namespace lodestar {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// Loses frames at random, either way.
+class LossyBus final : public CanBus {
+ public:
+  LossyBus(CanBus& bus, double loss) : bus_(bus), loss_(loss) {}
+  bool send(const CanFrame& frame) override { return random_.uniform() < loss_ || bus_.send(frame); }
+  std::optional<StampedCanFrame> poll() override {
+    auto frame = bus_.poll();
+    while (frame && random_.uniform() < loss_) frame = bus_.poll();
+    return frame;
+  }
+
+ private:
+  CanBus& bus_;
+  double loss_;
+  Random random_{9};
+};
+
+/// The base on one end of a bus, the navigator's driver on the other: they know each other by frames only.
+struct World {
+  explicit World(const SimulatedBaseOptions& options = {}, std::uint64_t seed = 1,
+                 std::optional<SimulatedMotion::Surroundings> surroundings = std::nullopt, double loss = 0.0)
+      : bus({.latency = options.can_latency}),
+        navigator_end(bus.attach(), loss),
+        motion(options, {}, seed, std::move(surroundings)),
+        base(bus.attach(), motion, options) {
+    bus.on_frame([this](const StampedCanFrame& frame) { log.write(frame); });
+  }
+
+  /// Runs for some time; the navigator polls every 20 ms and commands what it is told, if anything.
+  void run(Duration time, const std::function<std::optional<BodyVelocity>()>& navigator) {
+    for (const Stamp end = now + time; now < end;) {
+      now += milliseconds(1);
+      motion.step(milliseconds(1));
+      bus.advance(now);
+      base.step(now);
+      if (now.time_since_epoch() % milliseconds(20) != Duration::zero()) continue;
+      feedback = driver.poll(now);
+      if (!feedback.travel.empty()) travel = feedback.travel.back();
+      if (const auto velocity = navigator()) driver.command(*velocity);
+    }
+  }
+  void drive(const BodyVelocity& velocity, Duration time) {
+    run(time, [&] { return velocity; });
+  }
+  void wait(Duration time) {
+    run(time, [] { return std::nullopt; });
+  }
+
+  const Pose2& truth() const { return motion.true_map_from_base(); }
+
+  std::ostringstream log_text;
+  CandumpWriter log{log_text};
+  InProcessBus bus;
+  LossyBus navigator_end;
+  BaseDriver driver{navigator_end};
+  SimulatedMotion motion;
+  SimulatedBase base;
+  Stamp now;
+  BaseFeedback feedback;
+  WheelTravel travel;
+};
+
+TEST(SimulatedBase, is_handed_over_by_the_handshake) {
+  World world;
+  world.wait(milliseconds(20));
+  EXPECT_NE(world.feedback.state, BaseState::ready);
+  world.wait(milliseconds(200));
+  EXPECT_EQ(world.feedback.state, BaseState::ready);
+  EXPECT_EQ(world.driver.counts().odd_frames, 0U);
+  EXPECT_NE(world.log_text.str().find(" can0 421#01\n"), std::string::npos);
+}
+
+/// A base without a navigator; the test says every frame.
+struct BareBase {
+  /// Commands every 20 ms, if there is a velocity, and returns how far x has come.
+  double run(Duration time, const std::optional<BodyVelocity>& velocity) {
+    const double before_m = motion.true_map_from_base().position_m.x();
+    for (const Stamp end = now + time; now < end;) {
+      now += milliseconds(1);
+      if (velocity && now.time_since_epoch() % milliseconds(20) == Duration::zero()) {
+        EXPECT_TRUE(stranger.send(agilex::encode_motion_command(*velocity)));
+      }
+      motion.step(milliseconds(1));
+      bus.advance(now);
+      base.step(now);
+    }
+    return motion.true_map_from_base().position_m.x() - before_m;
+  }
+  void ask_for(agilex::ControlMode mode) { EXPECT_TRUE(stranger.send(agilex::encode_control_mode(mode))); }
+
+  InProcessBus bus;
+  CanBus& stranger = bus.attach();
+  SimulatedMotion motion{perfect_base(), {}, 1};
+  SimulatedBase base{bus.attach(), motion, perfect_base()};
+  Stamp now;
+};
+
+TEST(SimulatedBase, takes_no_command_while_it_stands_by) {
+  BareBase bare;
+  EXPECT_EQ(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.0);
+  bare.ask_for(agilex::ControlMode::remote);
+  EXPECT_EQ(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.0)
+      << "nobody is handed the base in the remote control's name";
+  bare.ask_for(agilex::ControlMode::can);
+  EXPECT_GT(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.3);
+}
+
+TEST(SimulatedBase, forgets_its_command_when_it_is_stopped) {
+  BareBase bare;
+  bare.ask_for(agilex::ControlMode::can);
+  bare.run(seconds(2), BodyVelocity{0.5, 0.0});
+  bare.base.press_emergency_stop(true);
+  bare.run(milliseconds(20), std::nullopt);
+  bare.base.press_emergency_stop(false);
+  EXPECT_LT(bare.run(milliseconds(400), std::nullopt), 0.15) << "the command is young, but it is void";
+}
+
+TEST(SimulatedBase, keeps_the_curve_of_a_command_beyond_its_motors) {
+  BareBase bare;
+  bare.ask_for(agilex::ControlMode::can);
+  bare.run(seconds(3), BodyVelocity{6.0, 3.0});
+  const Pose2 before = bare.motion.true_map_from_base();
+  bare.run(milliseconds(100), BodyVelocity{6.0, 3.0});
+  const Pose2 moved = inverse(before) * bare.motion.true_map_from_base();
+  // Wheels at 5.4 and 6.6 m/s become 1.309 and 1.6 m/s: the centre of the circle stays 2 m to the left.
+  EXPECT_NEAR(moved.position_m.norm(), 0.1454, 0.001);
+  EXPECT_NEAR(moved.position_m.norm() / moved.yaw_rad, 2.0, 0.01);
+}
+
+TEST(SimulatedBase, drives_as_commanded_over_the_bus) {
+  World world(perfect_base());
+  world.wait(milliseconds(200));
+  world.drive({0.5, 0.0}, seconds(4));
+  EXPECT_NEAR(world.feedback.measured->forward_mps, 0.5, 0.03);
+  world.drive({}, seconds(2));
+  // Lag shifts start and stop alike, so that it leaves the distance as commanded.
+  EXPECT_NEAR(world.truth().position_m.x(), 2.0, 0.03);
+  EXPECT_NEAR(world.truth().position_m.y(), 0.0, 1e-9);
+  EXPECT_NEAR(world.travel.left_m, world.truth().position_m.x(), 0.002);
+  EXPECT_EQ(world.feedback.state, BaseState::ready);
+}
+
+TEST(SimulatedBase, drives_on_when_a_third_of_all_frames_is_lost) {
+  World world(perfect_base(), 1, std::nullopt, 0.3);
+  world.wait(milliseconds(500));
+  for (int i = 0; i < 30; ++i) {
+    world.drive({0.6, 0.3}, seconds(1));
+    world.drive({-0.6, -0.3}, seconds(1));
+  }
+  EXPECT_EQ(world.feedback.state, BaseState::ready);
+  EXPECT_GT(world.driver.counts().counter_jumps, 500U);
+  EXPECT_NEAR(world.travel.left_m, world.motion.left_encoder_m(), 0.1) << "no travel is lost with the frames";
+}
+
+TEST(SimulatedBase, drives_on_when_every_frame_comes_50_ms_late) {
+  SimulatedBaseOptions options = perfect_base();
+  options.can_latency = milliseconds(50);
+  World world(options);
+  world.wait(milliseconds(500));
+  for (int i = 0; i < 5; ++i) {
+    world.drive({0.6, 0.0}, seconds(2));
+    world.drive({-0.6, 0.5}, seconds(2));
+  }
+  EXPECT_EQ(world.feedback.state, BaseState::ready);
+}
+
+TEST(SimulatedBase, turns_on_the_spot_as_commanded) {
+  World world(perfect_base());
+  world.wait(milliseconds(200));
+  world.drive({0.0, 1.0}, seconds(2));
+  world.drive({}, seconds(1));
+  EXPECT_NEAR(world.truth().yaw_rad, 2.0, 0.03);
+  EXPECT_NEAR(world.truth().position_m.norm(), 0.0, 1e-9);
+  EXPECT_NEAR((world.travel.right_m - world.travel.left_m) / 0.40, world.truth().yaw_rad, 0.01);
+}
+
+TEST(SimulatedBase, follows_the_exact_arc) {
+  SimulatedBaseOptions options = perfect_base();
+  options.motor_lag_s = 0.0;
+  options.max_wheel_acceleration_mps2 = 1e9;
+  const double radius_m = 0.5 / 0.8;
+  SimulatedMotion motion(options, {}, 1);
+  motion.set_wheel_targets(0.5 - 0.8 * 0.2, 0.5 + 0.8 * 0.2);
+  motion.step(milliseconds(1));
+  const Pose2 start = motion.true_map_from_base();
+  const Vec2 centre = start * Vec2(0.0, radius_m);
+  for (int i = 0; i < 5000; ++i) {
+    motion.step(milliseconds(1));
+    ASSERT_NEAR((motion.true_map_from_base().position_m - centre).norm(), radius_m, 1e-9);
+  }
+  EXPECT_NEAR(wrap_angle(motion.true_map_from_base().yaw_rad - start.yaw_rad - 0.8 * 5.0), 0.0, 1e-9);
+}
+
+TEST(SimulatedBase, comes_to_rest_when_the_commands_stop) {
+  World world(perfect_base());
+  world.wait(milliseconds(200));
+  world.drive({0.6, 0.0}, seconds(3));
+  world.wait(milliseconds(480));
+  const double before_timeout_m = world.truth().position_m.x();
+  EXPECT_NEAR(world.feedback.measured->forward_mps, 0.6, 0.03) << "the base believes the last command 500 ms";
+  // 0.6 m/s at 2 m/s^2 is 300 ms, and the lag of the speed loop at the end.
+  world.wait(milliseconds(20 + 300 + 6 * 80));
+  const double at_rest_m = world.truth().position_m.x();
+  world.wait(seconds(1));
+  EXPECT_NEAR(world.truth().position_m.x(), at_rest_m, 1e-3);
+  EXPECT_NEAR(at_rest_m - before_timeout_m, 0.02 * 0.6 + 0.6 * 0.6 / (2 * 2.0), 0.04);
+  EXPECT_EQ(world.feedback.state, BaseState::ready) << "which is no fault of the base";
+}
+
+TEST(SimulatedBase, never_accelerates_beyond_what_its_motors_can) {
+  const SimulatedBaseOptions options = perfect_base();
+  SimulatedMotion motion(options, {}, 1);
+  motion.set_wheel_targets(1.0, 1.0);
+  double speed_mps = 0.0;
+  double x_m = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    motion.step(milliseconds(1));
+    const double now_mps = (motion.true_map_from_base().position_m.x() - x_m) / 0.001;
+    x_m = motion.true_map_from_base().position_m.x();
+    EXPECT_LE(now_mps - speed_mps, options.max_wheel_acceleration_mps2 * 0.001 + 1e-9);
+    speed_mps = now_mps;
+  }
+  EXPECT_NEAR(speed_mps, 1.0, 1e-3);
+}
+
+TEST(SimulatedBase, unequal_wheels_bend_what_the_odometer_believes_straight) {
+  SimulatedBaseOptions options = perfect_base();
+  options.left_wheel_scale = 1.006;
+  options.right_wheel_scale = 0.994;
+  World world(options);
+  world.wait(milliseconds(200));
+  world.drive({0.5, 0.0}, seconds(4));
+  world.drive({}, seconds(1));
+  EXPECT_NEAR(world.travel.left_m, world.travel.right_m, 1e-9) << "straight on, says the odometer";
+  const double rolled_m = world.travel.left_m;
+  EXPECT_NEAR(world.truth().yaw_rad, -0.012 * rolled_m / options.true_track_width_m, 1e-3);
+  EXPECT_LT(world.truth().position_m.y(), -0.04);
+}
+
+TEST(SimulatedBase, slips_with_the_square_root_of_the_way_whatever_the_step) {
+  SimulatedBaseOptions options = perfect_base();
+  options.slip_sigma_per_sqrt_m = 0.002;
+  for (const int step_ms : {1, 4}) {
+    double squares = 0.0;
+    constexpr int runs = 200;
+    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+      SimulatedMotion motion(options, {}, seed);
+      motion.set_wheel_targets(1.0, 1.0);
+      for (int ms = 0; ms < 4000; ms += step_ms) motion.step(milliseconds(step_ms));
+      const double turned_m = motion.true_map_from_base().yaw_rad * options.true_track_width_m;
+      squares += turned_m * turned_m / (motion.left_encoder_m() + motion.right_encoder_m());
+    }
+    // Both wheels slip by 2 mm each in a metre; 200 runs tell the deviation to 5 %.
+    EXPECT_NEAR(std::sqrt(squares / runs), 0.002, 4 * 0.0001) << "at a step of " << step_ms << " ms";
+  }
+}
+
+TEST(SimulatedBase, counts_its_wheels_in_encoder_steps) {
+  SimulatedBaseOptions options = perfect_base();
+  options.encoder_step_m = 0.01;
+  SimulatedMotion motion(options, {}, 1);
+  motion.set_wheel_targets(0.3, -0.3);
+  for (int i = 0; i < 500; ++i) {
+    motion.step(milliseconds(1));
+    const double steps = motion.left_encoder_m() / 0.01;
+    EXPECT_NEAR(steps, std::round(steps), 1e-9);
+    EXPECT_LE(motion.left_encoder_m(), motion.true_map_from_base().position_m.norm() + 1.0);
+  }
+  EXPECT_GT(motion.left_encoder_m(), 0.08);
+  EXPECT_LT(motion.right_encoder_m(), -0.08);
+}
+
+TEST(SimulatedBase, odometer_may_wrap_around_on_the_way) {
+  SimulatedBaseOptions options = perfect_base();
+  options.odometer_start_mm = std::numeric_limits<std::int32_t>::max() - 500;
+  World world(options);
+  world.wait(milliseconds(200));
+  world.drive({0.5, 0.0}, seconds(4));
+  EXPECT_NEAR(world.travel.left_m, world.truth().position_m.x(), 0.02);
+  EXPECT_EQ(world.driver.counts().odd_frames, 0U);
+}
+
+TEST(SimulatedBase, sends_each_state_every_20_ms) {
+  World world;
+  world.wait(seconds(1));
+  std::istringstream log(world.log_text.str());
+  std::vector<Stamp> odometers;
+  for (const LoggedCanFrame& logged : read_candump(log, "can.log")) {
+    if (logged.received.frame.id == agilex::odometer_id) odometers.push_back(logged.received.stamp);
+  }
+  ASSERT_GE(odometers.size(), 49U);
+  for (std::size_t i = 1; i < odometers.size(); ++i) {
+    EXPECT_NEAR(lodestar::seconds(odometers[i] - odometers[i - 1]), 0.020, 0.0005);
+  }
+}
+
+TEST(SimulatedBase, emergency_stop_stops_it_and_releasing_it_moves_nothing) {
+  World world(perfect_base());
+  world.wait(milliseconds(200));
+  world.drive({0.5, 0.0}, seconds(2));
+  world.base.press_emergency_stop(true);
+  world.drive({0.5, 0.0}, milliseconds(40));
+  EXPECT_EQ(world.feedback.fault, BaseFault::emergency_stop);
+  world.drive({0.5, 0.0}, seconds(1));
+  const double at_rest_m = world.truth().position_m.x();
+  EXPECT_FALSE(world.driver.resume(world.now));
+  world.base.press_emergency_stop(false);
+  world.drive({0.5, 0.0}, seconds(1));
+  EXPECT_NEAR(world.truth().position_m.x(), at_rest_m, 1e-4);
+  EXPECT_EQ(world.feedback.state, BaseState::fault);
+
+  EXPECT_TRUE(world.driver.resume(world.now));
+  world.drive({0.5, 0.0}, seconds(1));
+  EXPECT_GT(world.truth().position_m.x(), at_rest_m + 0.2);
+}
+
+TEST(SimulatedBase, remote_control_takes_it_without_a_fight) {
+  World world(perfect_base());
+  world.wait(milliseconds(200));
+  world.drive({0.5, 0.0}, seconds(2));
+  world.base.take_over_by_remote(true);
+  world.drive({0.5, 0.0}, milliseconds(40));
+  EXPECT_EQ(world.feedback.fault, BaseFault::left_can_mode);
+  const std::size_t log_length = world.log_text.str().size();
+  world.drive({0.5, 0.0}, seconds(1));
+  const std::string since = world.log_text.str().substr(log_length);
+  EXPECT_EQ(since.find(" 111#"), std::string::npos);
+  EXPECT_EQ(since.find(" 421#"), std::string::npos);
+  ASSERT_TRUE(world.bus.attach().send(agilex::encode_control_mode(agilex::ControlMode::can)));
+  world.wait(milliseconds(100));
+  EXPECT_EQ(world.feedback.system->mode, agilex::ControlMode::remote) << "it has the highest right";
+
+  world.base.take_over_by_remote(false);
+  world.drive({0.5, 0.0}, milliseconds(100));
+  EXPECT_EQ(world.feedback.state, BaseState::fault);
+  EXPECT_TRUE(world.driver.resume(world.now));
+  world.drive({0.5, 0.0}, milliseconds(200));
+  EXPECT_EQ(world.feedback.state, BaseState::ready);
+}
+
+TEST(SimulatedBase, fault_bits_stop_it_until_they_are_cleared) {
+  World world(perfect_base());
+  world.wait(milliseconds(200));
+  world.drive({0.5, 0.0}, seconds(1));
+  world.base.set_fault_bits(0x0100);
+  world.drive({0.5, 0.0}, seconds(1));
+  EXPECT_EQ(world.feedback.state, BaseState::fault);
+  EXPECT_FALSE(world.driver.resume(world.now));
+  ASSERT_TRUE(world.bus.attach().send(agilex::encode_clear_fault()));
+  world.wait(milliseconds(40));
+  EXPECT_TRUE(world.driver.resume(world.now));
+}
+
+TEST(SimulatedBase, stops_against_an_obstacle_and_may_turn_away) {
+  OccupancyMap map;
+  map.columns = 20;
+  map.rows = 10;
+  map.resolution_m = 0.1;
+  map.map_from_grid.position_m = {-0.5, -0.5};
+  map.cells.assign(200, OccupancyMap::free);
+  for (int row = 0; row < 10; ++row) map.cells[map.index({15, row})] = OccupancyMap::occupied;  // x = 1.0 m
+  World world(perfect_base(), 1, SimulatedMotion::Surroundings{map, 0.2});
+  world.wait(milliseconds(200));
+  world.drive({0.5, 0.0}, seconds(4));
+  EXPECT_TRUE(world.motion.is_blocked());
+  EXPECT_NEAR(world.truth().position_m.x(), 0.8, 0.001);
+  EXPECT_LE(world.truth().position_m.x(), 0.8 + 1e-9);
+  EXPECT_GT(world.travel.left_m, 1.5) << "the wheels spin on";
+  world.drive({0.0, 1.0}, milliseconds(3200));
+  world.drive({0.5, 0.0}, seconds(1));
+  EXPECT_FALSE(world.motion.is_blocked());
+  EXPECT_LT(world.truth().position_m.x(), 0.5);
+}
+
+TEST(SimulatedBase, the_same_seed_gives_the_same_bytes_and_another_seed_another_track) {
+  const auto drive = [](std::uint64_t seed) {
+    World world({}, seed);
+    world.wait(milliseconds(200));
+    world.drive({0.5, 0.3}, seconds(3));
+    return std::pair(world.log_text.str(), world.truth().position_m);
+  };
+  const auto [log, position] = drive(7);
+  const auto [log_again, position_again] = drive(7);
+  EXPECT_EQ(log, log_again);
+  EXPECT_EQ(position, position_again);
+  EXPECT_NE(drive(8).second, position);
+  EXPECT_GT(log.size(), 10'000U);
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,129 @@
+#include "localization/integrity/integrity_monitor.hpp"
+
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace lodestar {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A robot that drives straight along x; the wheels say so, and fixes say what a test has them say.
+class Drive {
+ public:
+  void fix(const Pose2& seen, FixOutcome outcome, std::vector<int> ids = {447}) {
+    now_ += milliseconds(50);
+    rolled_m_ += pace_m;
+    monitor.add_travel({now_, rolled_m_, rolled_m_});
+    monitor.add_fix(
+        {.stamp = now_, .ids = ids, .map_from_base = seen, .expected = expected(), .outcome = outcome});
+  }
+  [[nodiscard]] Pose2 expected() const { return {{rolled_m_, 0.0}, 0.0}; }
+  /// Where the estimate will have the robot at the next fix.
+  [[nodiscard]] Pose2 ahead() const { return {{rolled_m_ + pace_m, 0.0}, 0.0}; }
+  [[nodiscard]] Stamp now() const { return now_; }
+
+  IntegrityMonitor integrity;
+  double pace_m = 0.03;
+
+ private:
+  Stamp now_;
+  double rolled_m_ = 0.0;
+};
+
+TEST(IntegrityMonitor, has_none_while_fixes_agree) {
+  Drive drive;
+  for (int i = 0; i < 20; ++i) drive.fix(drive.ahead(), FixOutcome::accepted);
+  EXPECT_FALSE(drive.monitor.reason(drive.now()));
+  EXPECT_EQ(drive.monitor.rolled_since_agreement_m(), 0.0);
+}
+
+TEST(IntegrityMonitor, lets_a_marker_that_hangs_elsewhere_contradict_as_long_as_it_likes) {
+  Drive drive;
+  for (int i = 0; i < 40; ++i) drive.fix(Pose2{{0.1, -0.1}, 0.05} * drive.ahead(), FixOutcome::refused_gate);
+  EXPECT_FALSE(drive.monitor.reason(drive.now()));
+  EXPECT_FALSE(drive.monitor.wheels_fooled_us());
+  EXPECT_NEAR(drive.monitor.rolled_since_agreement_m(), 39 * 0.03, 1e-9) << "the first reading is no travel";
+}
+
+TEST(IntegrityMonitor, calls_an_estimate_contradicted_from_the_first_refused_fix_until_one_agrees) {
+  Drive drive;
+  drive.fix(drive.ahead(), FixOutcome::accepted);
+  EXPECT_FALSE(drive.monitor.is_contradicted());
+  drive.fix(Pose2{{0.1, -0.1}, 0.05} * drive.ahead(), FixOutcome::refused_gate);
+  EXPECT_TRUE(drive.monitor.is_contradicted());
+  drive.fix(Pose2{{0.1, -0.1}, 0.05} * drive.ahead(), FixOutcome::refused_late);
+  EXPECT_TRUE(drive.monitor.is_contradicted());
+  drive.fix(drive.ahead(), FixOutcome::accepted);
+  EXPECT_FALSE(drive.monitor.is_contradicted());
+}
+
+TEST(IntegrityMonitor, blames_the_wheels_when_what_one_marker_says_changes) {
+  Drive drive;
+  int fixes = 0;
+  while (!drive.monitor.wheels_fooled_us() && fixes < 20) {
+    ++fixes;
+    Pose2 seen = drive.ahead();
+    seen.position_m.x() *= 0.6;  // the wheels slip
+    drive.fix(seen, FixOutcome::refused_gate);
+  }
+  EXPECT_LE(fixes, 6);
+  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::wheels_wrong);
+  EXPECT_FALSE(drive.monitor.reason(drive.now() + milliseconds(1001))) << "it may try again";
+}
+
+TEST(IntegrityMonitor, gives_up_on_wheels_that_are_wrong_again_and_again) {
+  Drive drive;
+  for (int i = 0; i < 40; ++i) {
+    Pose2 seen = drive.ahead();
+    seen.position_m.x() *= 0.5;
+    drive.fix(seen, FixOutcome::refused_gate);
+  }
+  EXPECT_EQ(drive.monitor.reason(drive.now() + std::chrono::hours(1)), IntegrityAlarm::wheels_broken);
+}
+
+TEST(IntegrityMonitor, stops_at_gross_contradictions_and_for_good_when_they_prevail) {
+  Drive drive;
+  const Pose2 elsewhere{{2.0, 1.0}, 0.5};
+  drive.fix(elsewhere * drive.ahead(), FixOutcome::refused_gate);
+  EXPECT_FALSE(drive.monitor.reason(drive.now())) << "one may be read wrong";
+  drive.fix(elsewhere * drive.ahead(), FixOutcome::refused_gate);
+  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::contradicted);
+  drive.fix(elsewhere * drive.ahead(), FixOutcome::relocated);
+  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::carried_away);
+  drive.fix(drive.ahead(), FixOutcome::accepted);
+  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::carried_away);
+}
+
+TEST(IntegrityMonitor, waits_a_moment_where_the_estimate_has_moved_a_little) {
+  Drive drive;
+  drive.fix(Pose2{{0.1, 0.0}, 0.0} * drive.ahead(), FixOutcome::relocated);
+  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::moved);
+  EXPECT_FALSE(drive.monitor.reason(drive.now() + milliseconds(1001)));
+}
+
+TEST(IntegrityMonitor, does_not_let_a_belief_begin_anew_out_of_the_wheels_reach) {
+  for (const double aside_m : {0.1, 2.0}) {
+    Drive drive;
+    while (!drive.monitor.wheels_fooled_us()) {
+      Pose2 seen = drive.ahead();
+      seen.position_m.x() *= 0.6;
+      drive.fix(seen, FixOutcome::refused_gate);
+    }
+    drive.fix(Pose2{{0.0, aside_m}, 0.0} * drive.ahead(), FixOutcome::started, {2400});
+    const auto later = drive.now() + std::chrono::hours(1);
+    EXPECT_EQ(drive.monitor.reason(later),
+              aside_m > 1.0 ? std::optional(IntegrityAlarm::carried_away) : std::nullopt);
+  }
+}
+
+TEST(IntegrityMonitor, knows_a_robot_that_moves_without_its_wheels) {
+  Drive drive;
+  drive.pace_m = 0.0;
+  drive.fix({{0.1, 0.0}, 0.0}, FixOutcome::refused_gate);
+  drive.fix({{0.2, 0.0}, 0.0}, FixOutcome::refused_gate);
+  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::carried_away);
+}
+
+}  // namespace
+}  // namespace lodestar
