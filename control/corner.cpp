@@ -6,10 +6,6 @@
 namespace lodestar {
 namespace {
 
-double direction_of(const Vec2& way) {
-  return std::atan2(way.y(), way.x());
-}
-
 /// To the left of a heading.
 Vec2 left_of(double heading_rad) {
   return {-std::sin(heading_rad), std::cos(heading_rad)};
@@ -38,8 +34,8 @@ std::optional<Corner> corner_at(const Vec2& before_m, const Vec2& waypoint_m, co
   const Vec2 out = after_m - waypoint_m;
   if (options.blend_corridor_m <= 0.0 || in.isZero() || out.isZero()) return std::nullopt;
   Corner corner;
-  corner.heading_rad = direction_of(in);
-  corner.turn_rad = wrap_angle(direction_of(out) - corner.heading_rad);
+  corner.heading_rad = heading_of(in);
+  corner.turn_rad = wrap_angle(heading_of(out) - corner.heading_rad);
   const double half_rad = 0.5 * std::abs(corner.turn_rad);
   if (half_rad < 1e-3 || std::abs(corner.turn_rad) > options.max_blend_turn_rad) return std::nullopt;
 
@@ -59,8 +55,8 @@ std::optional<Corner> corner_at(const Vec2& before_m, const Vec2& waypoint_m, co
 OnCorner on_corner(const Corner& corner, const Vec2& point_m) {
   const double side = std::copysign(1.0, corner.turn_rad);
   const Vec2 from_center = point_m - corner.center_m;
-  const double begins_rad = direction_of(-side * left_of(corner.heading_rad));
-  return {side * wrap_angle(direction_of(from_center) - begins_rad),
+  const double begins_rad = heading_of(-side * left_of(corner.heading_rad));
+  return {side * wrap_angle(heading_of(from_center) - begins_rad),
           side * (corner.radius_m - from_center.norm())};
 }
 

@@ -8,11 +8,6 @@
 namespace lodestar {
 namespace {
 
-/// The direction from one point to another, Eq. (18) with atan2.
-double direction_of(const Vec2& from, const Vec2& to) {
-  return std::atan2(to.y() - from.y(), to.x() - from.x());
-}
-
 /// The speed from which a distance is just enough to brake; never below the slowest that moves the motors.
 double approach_speed(double distance, double deceleration, double slowest, double fastest) {
   return std::clamp(std::sqrt(2.0 * deceleration * std::max(distance, 0.0)), slowest, fastest);
@@ -109,7 +104,7 @@ void RotateThenDrive::next_phase_rotating(const Pose2& pose) {
     return;
   }
   if (!turn_heading_rad_) {
-    turn_heading_rad_ = direction_of(pose.position_m, target_m());
+    turn_heading_rad_ = heading_between(pose.position_m, target_m());
     const double beside_rad = std::abs(wrap_angle(*turn_heading_rad_ - leg_heading_rad()));
     if (beside_rad > 0.5 * options_.turn_again_rad) leg_start_m_ = pose.position_m;
   }
@@ -203,7 +198,7 @@ BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose, const SpeedLimit& lim
   const double leg_heading = leg_heading_rad();
   const Vec2 ahead(std::cos(leg_heading), std::sin(leg_heading));
   const Vec2 from_target = pose.position_m - target_m();
-  const double beside_m = ahead.x() * from_target.y() - ahead.y() * from_target.x();
+  const double beside_m = cross(ahead, from_target);
   const double wanted_heading = leg_heading - std::atan(options_.lateral_gain_per_m * beside_m);
   const double turn = steered(wanted_heading, pose);
   if (limit.forward_mps < options_.min_forward_mps) return {0.0, turn};
@@ -275,7 +270,7 @@ double RotateThenDrive::remaining_m(const Pose2& pose) const {
 }
 
 double RotateThenDrive::leg_heading_rad() const {
-  return direction_of(leg_start_m_, target_m());
+  return heading_between(leg_start_m_, target_m());
 }
 
 }  // namespace lodestar

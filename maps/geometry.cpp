@@ -9,6 +9,14 @@ double wrap_angle(double angle_rad) {
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
 }
 
+double heading_of(const Vec2& way) {
+  return std::atan2(way.y(), way.x());
+}
+
+double heading_between(const Vec2& from, const Vec2& to) {
+  return heading_of(to - from);
+}
+
 Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c) {
   return {a_from_b * b_from_c.position_m, wrap_angle(a_from_b.yaw_rad + b_from_c.yaw_rad)};
 }

@@ -18,8 +18,23 @@ constexpr double degrees(double rad) {
   return rad * (180.0 / std::numbers::pi);
 }
 
+constexpr double square(double x) {
+  return x * x;
+}
+
+/// The third component of the cross product: positive when `b` points to the left of `a`.
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// The same direction in (-pi, pi].
 double wrap_angle(double angle_rad);
+
+/// The heading of a vector in the plane, in (-pi, pi]: 0 along x, counter-clockwise.
+double heading_of(const Vec2& way);
+
+/// The heading of the way from one point to another, Eq. (18) with atan2.
+double heading_between(const Vec2& from, const Vec2& to);
 
 /// A rigid motion of the plane, or the place of one frame in another: x and y in metres, yaw
 /// counter-clockwise.

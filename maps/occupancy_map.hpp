@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -14,6 +15,16 @@ struct Cell {
   int row = 0;
   friend bool operator==(const Cell&, const Cell&) = default;
 };
+
+/// The centre of a cell in grid coordinates: in units of cells from the grid's lower-left corner.
+inline Vec2 center_of(Cell cell) {
+  return {cell.column + 0.5, cell.row + 0.5};
+}
+
+/// The cell that holds a point in grid coordinates, which must lie within the range of int.
+inline Cell cell_at(const Vec2& point_in_grid) {
+  return {static_cast<int>(std::floor(point_in_grid.x())), static_cast<int>(std::floor(point_in_grid.y()))};
+}
 
 /// The floor as known: ROS occupancy values (0 free .. 100 occupied, -1 unknown) on a grid that may lie
 /// rotated in the map frame.

@@ -28,7 +28,7 @@ double travel_time_s(const Path& path, std::optional<double> start_heading_rad,
   for (std::size_t i = 1; i < path.waypoints_m.size(); ++i) {
     const Vec2 leg = path.waypoints_m[i] - path.waypoints_m[i - 1];
     if (leg.isZero()) continue;
-    const double leg_heading = std::atan2(leg.y(), leg.x());
+    const double leg_heading = heading_of(leg);
     if (heading) time_s += limits.turn_time_s(wrap_angle(leg_heading - *heading));
     time_s += limits.leg_time_s(leg.norm());
     heading = leg_heading;

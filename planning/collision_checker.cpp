@@ -51,7 +51,7 @@ bool crosses(const Vec2& from, const Vec2& to, Cell cell) {
 /// leg.
 bool within(const Vec2& from, const Vec2& to, Cell cell, double radius) {
   const double limit = radius * radius;
-  const Vec2 center(cell.column + 0.5, cell.row + 0.5);
+  const Vec2 center = center_of(cell);
   const double far = radius + 0.5 * std::numbers::sqrt2 + rounding;  // from here on no square of this centre
   if ((nearest_on_leg(from, to, center) - center).squaredNorm() > far * far) return false;
   if (squared_distance(from, cell) < limit || squared_distance(to, cell) < limit) return true;
@@ -168,7 +168,7 @@ bool CollisionChecker::along(const Vec2& from, const Vec2& to) const {
       at += sure_stride;
       continue;
     }
-    const double off_center = (point - Vec2(cell.column + 0.5, cell.row + 0.5)).norm();
+    const double off_center = (point - center_of(cell)).norm();
     // A square reaches at least half a side from its centre, at most half a diagonal.
     if (to_obstacle + off_center + rounding < radius_cells_ + 0.5) return false;
     const double stride = to_obstacle - off_center - 0.5 * std::numbers::sqrt2 - radius_cells_ - rounding;

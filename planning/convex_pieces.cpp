@@ -11,10 +11,6 @@ namespace {
 
 constexpr double touching = 1e-9;  ///< rounding must not turn touching into overlapping
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 std::array<Vec2, 4> square_of(Cell cell) {
   const Vec2 low(cell.column, cell.row);
   return {low, low + Vec2(1.0, 0.0), low + Vec2(1.0, 1.0), low + Vec2(0.0, 1.0)};
@@ -74,8 +70,8 @@ void add_crossings(const Vec2& point, const Vec2& normal, double distance, doubl
   const double radius = point.norm() * normal.norm();
   if (!(std::abs(distance) <= radius) || radius == 0.0) return;
   const double between_rad = std::acos(distance / radius);
-  const double start_rad = std::atan2(point.y(), point.x());
-  const double normal_rad = std::atan2(normal.y(), normal.x());
+  const double start_rad = heading_of(point);
+  const double normal_rad = heading_of(normal);
   for (const double at_rad : {normal_rad + between_rad, normal_rad - between_rad}) {
     const double angle_rad = wrap_angle(at_rad - start_rad);
     for (const double whole : {-2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi}) {

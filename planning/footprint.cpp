@@ -100,8 +100,7 @@ bool turn_stays_on(const OccupancyMap& map, const std::vector<Polygon>& pieces, 
       bounds.add(corner);
       bounds.add(Pose2{about, turn_rad} * from);
       for (const Vec2& side : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
-        const double to_side_rad =
-            wrap_angle(std::atan2(side.y(), side.x()) - std::atan2(from.y(), from.x()));
+        const double to_side_rad = wrap_angle(heading_of(side) - heading_of(from));
         const bool passes = to_side_rad * turn_rad > 0.0 && std::abs(to_side_rad) < std::abs(turn_rad);
         if (passes) bounds.add(about + from.norm() * side);
       }
@@ -182,7 +181,7 @@ bool Footprint::is_clear_along(const OccupancyMap& map, const Path& path,
   for (const Vec2& next : path.waypoints_m) {
     const Vec2 leg = next - at_m;
     if (leg.isZero()) continue;
-    const double heading_rad = std::atan2(leg.y(), leg.x());
+    const double heading_rad = heading_of(leg);
     if (yaw_rad && !is_clear_turning(map, {at_m, *yaw_rad}, heading_rad)) return false;
     if (!is_clear_driving(map, {at_m, heading_rad}, next)) return false;
     yaw_rad = heading_rad;

@@ -6,10 +6,6 @@
 
 namespace lodestar {
 
-double heading_between(const Vec2& from, const Vec2& to) {
-  return std::atan2(to.y() - from.y(), to.x() - from.x());
-}
-
 FootprintCollisionChecker::FootprintCollisionChecker(const OccupancyMap& map, Footprint footprint)
     : map_(map),
       footprint_(std::move(footprint)),

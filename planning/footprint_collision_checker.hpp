@@ -41,7 +41,4 @@ class FootprintCollisionChecker {
   CollisionChecker outer_;
 };
 
-/// Of the way from one point to another, in (-pi, pi].
-double heading_between(const Vec2& from, const Vec2& to);
-
 }  // namespace lodestar

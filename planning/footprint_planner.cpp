@@ -117,8 +117,7 @@ double FootprintPlanner::time_s(const Plan& plan, const Query& query) const {
 }
 
 bool FootprintPlanner::is_clear(const Vec2& from_m, const Vec2& to_m) const {
-  const Vec2 leg = to_m - from_m;
-  return space_.footprint().is_clear_driving(map_, {from_m, std::atan2(leg.y(), leg.x())}, to_m);
+  return space_.footprint().is_clear_driving(map_, {from_m, heading_between(from_m, to_m)}, to_m);
 }
 
 /// Where the outer disc fits, the robot can turn into whatever heading it needs.

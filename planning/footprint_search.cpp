@@ -8,14 +8,6 @@ namespace {
 
 constexpr double eighth_rad = std::numbers::pi / 4.0;
 
-Vec2 center_of(Cell cell) {
-  return {cell.column + 0.5, cell.row + 0.5};
-}
-
-Cell cell_at(const Vec2& point) {
-  return {static_cast<int>(std::floor(point.x())), static_cast<int>(std::floor(point.y()))};
-}
-
 std::array<Cell, 9> cells_about(const Vec2& point) {
   const Cell middle = cell_at(point);
   std::array<Cell, 9> cells;

@@ -17,14 +17,6 @@
 namespace lodestar {
 namespace {
 
-Cell cell_of(const Vec2& point_in_grid) {
-  return {static_cast<int>(std::floor(point_in_grid.x())), static_cast<int>(std::floor(point_in_grid.y()))};
-}
-
-Vec2 center_of(Cell cell) {
-  return {cell.column + 0.5, cell.row + 0.5};
-}
-
 /// Every leg as far along the points as it is clear.
 std::vector<Vec2> pulled_tight(const std::vector<Vec2>& points, const CollisionChecker& space) {
   std::vector<Vec2> tight{points.front()};
@@ -40,7 +32,7 @@ bool leads_over_drivable(const OccupancyMap& map, const Vec2& from, const Vec2& 
   constexpr double spacing_cells = 0.05;
   const int samples = 1 + static_cast<int>((to - from).norm() / spacing_cells);
   for (int i = 0; i <= samples; ++i) {
-    const Cell cell = cell_of(from + (to - from) * (static_cast<double>(i) / samples));
+    const Cell cell = cell_at(from + (to - from) * (static_cast<double>(i) / samples));
     if (!map.contains(cell) || !is_drivable(map.at(cell))) return false;
   }
   return true;
@@ -119,8 +111,8 @@ void GridPlanner::weigh_shunned() {
   std::vector<bool> is_shunned(costs_.size(), false);
   for (const Vec2& place_m : shunned.places_m) {
     const Vec2 place = in_grid(place_m);
-    const Cell low = cell_of(place - Vec2::Constant(within));
-    const Cell high = cell_of(place + Vec2::Constant(within));
+    const Cell low = cell_at(place - Vec2::Constant(within));
+    const Cell high = cell_at(place + Vec2::Constant(within));
     for (int row = std::max(low.row, 0); row <= std::min(high.row, map_.rows - 1); ++row)
       for (int column = std::max(low.column, 0); column <= std::min(high.column, map_.columns - 1); ++column)
         if ((center_of({column, row}) - place).norm() <= within) is_shunned[map_.index({column, row})] = true;
@@ -163,7 +155,7 @@ bool GridPlanner::is_clear(const Vec2& from_m, const Vec2& to_m) const {
 
 /// The nearest clear cell whose centre can be reached straight from the point.
 std::optional<Cell> GridPlanner::clear_cell_near(const Vec2& point_in_grid) const {
-  const Cell middle = cell_of(point_in_grid);
+  const Cell middle = cell_at(point_in_grid);
   std::optional<Cell> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int row = middle.row - 1; row <= middle.row + 1; ++row) {
@@ -183,7 +175,7 @@ std::optional<Cell> GridPlanner::clear_cell_near(const Vec2& point_in_grid) cons
 /// From a place too near to an obstacle, the nearest clear cell within the radius, straight over drivable
 /// cells.
 std::optional<Cell> GridPlanner::way_out(const Vec2& start_in_grid) const {
-  const Cell start = cell_of(start_in_grid);
+  const Cell start = cell_at(start_in_grid);
   const int reach = 1 + static_cast<int>(std::ceil(options_.radius_m / map_.resolution_m));
   std::optional<Cell> nearest;
   double least = std::numeric_limits<double>::infinity();
@@ -212,7 +204,7 @@ std::variant<GridPlanner::Ends, PlanFailure> GridPlanner::ends_of(const Vec2& st
   const CollisionChecker& space = searches_->space;
   if (!start.allFinite() || !map_.contains(map_.cell_at(start_m))) return PlanFailure::start_outside_map;
   if (!goal.allFinite() || !map_.contains(map_.cell_at(goal_m))) return PlanFailure::goal_outside_map;
-  if (!is_drivable(map_.at(cell_of(start)))) return PlanFailure::start_occupied;
+  if (!is_drivable(map_.at(cell_at(start)))) return PlanFailure::start_occupied;
   if (!space.along(goal, goal)) return PlanFailure::goal_occupied;
 
   const bool starts_clear = space.along(start, start);

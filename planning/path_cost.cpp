@@ -35,8 +35,7 @@ double PathCost::path(std::span<const Vec2> points, const EndHeadings& headings)
   for (std::size_t i = 1; i < points.size(); ++i) {
     cost += leg(points[i - 1], points[i]);
     if (!counts_turns() || points[i] == points[i - 1]) continue;
-    const Vec2 way = points[i] - points[i - 1];
-    const double next = std::atan2(way.y(), way.x());
+    const double next = heading_between(points[i - 1], points[i]);
     if (heading) cost += turn(*heading, next);
     heading = next;
   }

@@ -103,10 +103,10 @@ class Refining {
     const Vec2 in = points_[i] - points_[i - 1];
     const Vec2 out = points_[i + 2] - points_[i + 1];
     const Vec2 between = points_[i + 1] - points_[i];
-    const double parallel = in.x() * out.y() - in.y() * out.x();
+    const double parallel = cross(in, out);
     if (std::abs(parallel) < 1e-9) return std::nullopt;
-    const double beyond = (between.x() * out.y() - between.y() * out.x()) / parallel;
-    const double before = (in.x() * between.y() - in.y() * between.x()) / parallel;
+    const double beyond = cross(between, out) / parallel;
+    const double before = cross(in, between) / parallel;
     if (beyond < 0.0 || before > 0.0) return std::nullopt;
     return points_[i] + beyond * in;
   }

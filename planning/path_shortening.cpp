@@ -10,7 +10,7 @@ namespace {
 bool goes_straight(const Vec2& before, const Vec2& at, const Vec2& after) {
   const Vec2 a = at - before;
   const Vec2 b = after - at;
-  return std::abs(a.x() * b.y() - a.y() * b.x()) < 1e-9 && a.dot(b) > 0.0;
+  return std::abs(cross(a, b)) < 1e-9 && a.dot(b) > 0.0;
 }
 
 }  // namespace

@@ -8,14 +8,6 @@
 #include "planning/path_shortening.hpp"
 
 namespace lodestar {
-namespace {
-
-Vec2 center_of(Cell cell) {
-  return {cell.column + 0.5, cell.row + 0.5};
-}
-
-}  // namespace
-
 /// A way to a place that no other way to it beats in both cost and deviation.
 struct UncertaintyConstrainedPlanner::Label {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -48,7 +40,7 @@ std::optional<double> UncertaintyConstrainedPlanner::along(double sigma_m, const
   const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * length)));
   for (int i = 1; i <= steps; ++i) {
     const Vec2 at = from + (to - from) * (static_cast<double>(i) / steps);
-    const Cell cell{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
+    const Cell cell = cell_at(at);
     sigma_m = after_step(sigma_m, length / steps, cell);
     if (sigma_m > keeping_.limit_m) return std::nullopt;
   }

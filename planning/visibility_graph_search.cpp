@@ -14,14 +14,6 @@ constexpr double as_good_s = 0.3;
 constexpr double stretch = 0.2;
 constexpr std::uint32_t goal_candidate = 0;
 
-double heading_of(const Vec2& way) {
-  return std::atan2(way.y(), way.x());
-}
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 }  // namespace
 
 /// The least total first; ties are broken the same way every time.

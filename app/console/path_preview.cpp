@@ -32,8 +32,7 @@ ordered_json PathPreview::plan(const Pose2& start, const std::vector<Goal>& goal
     time_s += ideal_travel_time_s(path, heading_rad, goal.heading_rad, options_.drive);
     turns += points.size() > 2 ? points.size() - 2 : 0;
     whole.waypoints_m.insert(whole.waypoints_m.end(), points.begin() + 1, points.end());
-    const Vec2 last_leg = points.back() - points[points.size() - 2];
-    heading_rad = goal.heading_rad ? *goal.heading_rad : std::atan2(last_leg.y(), last_leg.x());
+    heading_rad = goal.heading_rad.value_or(heading_between(points[points.size() - 2], points.back()));
   }
   return {
       {"points", points_json(whole)}, {"length_m", length_m(whole)}, {"time_s", time_s}, {"turns", turns}};

@@ -29,16 +29,12 @@ class Sight {
   }
 
  private:
-  static Cell cell_of(const Vec2& at) {
-    return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
-  }
-
   /// What the marker itself hangs over leaves it in sight: it does not reach the ceiling.
   [[nodiscard]] bool is_free_on_map(const Vec2& at, const Vec2& marker) const {
     const auto steps = static_cast<int>(std::ceil((at - marker).norm()));
     bool is_over = true;
     for (int i = 0; i < steps; ++i) {
-      const Cell cell = cell_of(marker + (at - marker) * (static_cast<double>(i) / steps));
+      const Cell cell = cell_at(marker + (at - marker) * (static_cast<double>(i) / steps));
       if (!floor_.map.contains(cell)) return false;
       const bool is_occupied = floor_.map.at(cell) >= 50;
       if (is_occupied && !is_over) return false;
@@ -58,7 +54,7 @@ class Sight {
     for (int i = 1; i < steps; ++i) {
       const double t = static_cast<double>(i) / steps;
       if (std::min(t, 1.0 - t) * length_m <= heights.touch_m) continue;
-      const Cell cell = cell_of(at + t * (marker - at));
+      const Cell cell = cell_at(at + t * (marker - at));
       if (!map.contains(cell)) continue;
       const double z_m = camera_z_m + t * (marker_z_m - camera_z_m);
       const auto band = static_cast<int>(std::floor((z_m - heights.low_m) / heights.step_m));
@@ -107,7 +103,7 @@ std::vector<bool> blind_cells(const MarkerRegistry& registry, const CoveredFloor
       for (int column = static_cast<int>(low.x()); column < std::min<double>(map.columns, high.x());
            ++column) {
         const std::size_t index = map.index({column, row});
-        const Vec2 at(column + 0.5, row + 0.5);
+        const Vec2 at = center_of({column, row});
         if (!blind[index] || (at - marker.middle).squaredNorm() > marker.reach * marker.reach) continue;
         if (sight.is_free(at, marker.middle, marker.z_m)) blind[index] = false;
       }

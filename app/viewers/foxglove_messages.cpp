@@ -135,10 +135,7 @@ Json path_message(Stamp stamp, const Path& path) {
   double yaw_rad = 0.0;
   for (std::size_t i = 0; i < path.waypoints_m.size(); ++i) {
     const Vec2& at = path.waypoints_m[i];
-    if (i + 1 < path.waypoints_m.size()) {
-      const Vec2 leg = path.waypoints_m[i + 1] - at;
-      yaw_rad = std::atan2(leg.y(), leg.x());
-    }
+    if (i + 1 < path.waypoints_m.size()) yaw_rad = heading_between(at, path.waypoints_m[i + 1]);
     poses.push_back(pose_json(lifted({at, yaw_rad})));
   }
   return {{"timestamp", time_json(stamp)}, {"frame_id", map_frame}, {"poses", poses}};
@@ -185,7 +182,7 @@ Json robot_message(const PoseEstimate& estimate, const RobotBody& robot) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(estimate.covariance.topLeftCorner<2, 2>());
   const Vec2 sigma_m = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   const Vec2 axis = solver.eigenvectors().col(0);
-  const Pose2 ellipse{estimate.map_from_base.position_m, std::atan2(axis.y(), axis.x())};
+  const Pose2 ellipse{estimate.map_from_base.position_m, heading_of(axis)};
   Json doubt = entity_json(stamp, map_frame, "three standard deviations");
   doubt["cylinders"].push_back(disc_json(lifted(ellipse, height_m),
                                          {2.0 * sigmas * sigma_m.x(), 2.0 * sigmas * sigma_m.y(), 0.01},

@@ -23,11 +23,11 @@ Moments moments_of(const std::array<Vec2, corners>& polygon) {
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     const Vec2 a = polygon[i] - polygon[0];
     const Vec2 b = polygon[i + 1] - polygon[0];
-    const double cross = a.x() * b.y() - a.y() * b.x();
+    const double twice_triangle = cross(a, b);
     const Vec2 sum = a + b;
-    twice_area += cross;
-    first += cross * sum;
-    second += cross * (a * a.transpose() + b * b.transpose() + sum * sum.transpose());
+    twice_area += twice_triangle;
+    first += twice_triangle * sum;
+    second += twice_triangle * (a * a.transpose() + b * b.transpose() + sum * sum.transpose());
   }
   const double area = 0.5 * twice_area;
   const Vec2 centroid = first / (6.0 * area);

@@ -98,7 +98,7 @@ std::optional<Circle> circle_of(std::span<const MountFrame> frames, const Drive&
 /// in which the camera sees itself go. Without a straight way, as believed.
 double first_yaw(const Drive& drive, const MountBelief& belief) {
   constexpr double least_m = 0.3;
-  return drive.ahead.norm() > least_m ? -std::atan2(drive.ahead.y(), drive.ahead.x()) : belief.angles.yaw_rad;
+  return drive.ahead.norm() > least_m ? -heading_of(drive.ahead) : belief.angles.yaw_rad;
 }
 
 /// Eq. (17): the circle's centre is the base's place, so each frame of the spin shows the camera's offset;

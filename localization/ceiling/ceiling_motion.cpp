@@ -16,10 +16,6 @@ constexpr double least_noise_gray = 0.2;  // of the reduced picture: whole gray 
 constexpr double least_lean_rad = 1e-5;
 constexpr double outlier_sigmas = 3.5;
 
-constexpr double square(double x) {
-  return x * x;
-}
-
 /// Correlation of weighted pairs, made sum by sum.
 class Correlation {
  public:

@@ -13,10 +13,6 @@ constexpr double remembered = 0.9995;  // of all that is known, from dot to dot:
 constexpr int saturated_gray = 250;    // noise does not show there
 constexpr double most_sigmas = 5.0;    // more is no noise
 
-constexpr double square(double x) {
-  return x * x;
-}
-
 /// Where the four pixels' middle lies (u, v) from the dot's, a round shape f(d^2) makes the difference 4 f''
 /// u v: less than two gray levels of a dot that shines by 200, has a radius of 1.2 px and a blur of 0.5 px.
 bool shape_shows(const Vec2& center_px, int u, int v) {

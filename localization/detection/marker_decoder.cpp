@@ -9,10 +9,6 @@ namespace {
 
 constexpr double radii_per_pitch = marker_pitch_m / marker_dot_radius_m;
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 std::pair<std::size_t, std::size_t> farthest_pair(std::span<const Dot> dots) {
   std::pair<std::size_t, std::size_t> best;
   double longest = -1.0;

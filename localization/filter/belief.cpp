@@ -34,10 +34,6 @@ Eigen::Matrix<double, 3, 2> pose_by_arc(double yaw_rad, const Arc& arc) {
   return jacobian;
 }
 
-constexpr double square(double x) {
-  return x * x;
-}
-
 /// Of the error that fixes about here have in common: what is known of the site, and what this one says of
 /// its markers.
 Mat3 shared_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {

@@ -5,10 +5,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double square(double x) {
-  return x * x;
-}
-
 /// The lever from the base to the camera turns with the base.
 Eigen::Matrix<double, 6, 3> camera_by_base(const Eigen::Isometry3d& map_from_base,
                                            const Eigen::Isometry3d& map_from_camera) {

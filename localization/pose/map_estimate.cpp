@@ -14,10 +14,6 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double square(double x) {
-  return x * x;
-}
-
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vec6& step) {
   Eigen::Isometry3d result = pose;
   result.translation() += step.head<3>();

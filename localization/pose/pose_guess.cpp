@@ -54,12 +54,12 @@ std::optional<Eigen::Isometry3d> level_guess(std::span<const SurveyedDot> dots, 
     ray_sum += ray;
     point_sum += point;
     along += ray.dot(point.head<2>());
-    across += ray.x() * point.y() - ray.y() * point.x();
+    across += cross(ray, point.head<2>());
     spread += ray.squaredNorm();
   }
   const double per_dot = 1.0 / static_cast<double>(dots.size());
   along -= per_dot * ray_sum.dot(point_sum.head<2>());
-  across -= per_dot * (ray_sum.x() * point_sum.y() - ray_sum.y() * point_sum.x());
+  across -= per_dot * cross(ray_sum, point_sum.head<2>());
   spread -= per_dot * ray_sum.squaredNorm();
   const double distance_m = Vec2(along, across).norm() / spread;
   if (!std::isfinite(distance_m) || distance_m <= 0.0) return std::nullopt;

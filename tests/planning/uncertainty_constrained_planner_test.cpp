@@ -90,10 +90,6 @@ TEST(UncertaintyConstrainedPlanner, takes_the_dearer_way_to_a_place_when_only_th
   EXPECT_TRUE(by_the_top);
 }
 
-Vec2 center_of(Cell cell) {
-  return {cell.column + 0.5, cell.row + 0.5};
-}
-
 /// The cost of the cheapest way, by going on from every pair of cost and deviation until nothing changes.
 double cheapest_by_trying_all(const OccupancyMap& map, const CollisionChecker& space,
                               const UncertaintyConstrainedPlanner& sure, Cell start, Cell goal) {

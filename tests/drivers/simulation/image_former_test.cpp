@@ -40,9 +40,9 @@ std::optional<Vec2> true_centroid(const Vec3& center, double radius, const Eigen
   for (int i = 0; i < count; ++i) {
     const Vec2 a = *rim(i) - *middle;
     const Vec2 b = *rim(i + 1) - *middle;
-    const double cross = a.x() * b.y() - a.y() * b.x();
-    area += cross / 2.0;
-    moment += cross * (a + b) / 6.0;
+    const double twice_triangle = cross(a, b);
+    area += twice_triangle / 2.0;
+    moment += twice_triangle * (a + b) / 6.0;
   }
   return Vec2(*middle + moment / area);
 }
