@@ -52,8 +52,9 @@ std::size_t dots_within(const MarkerGrid& grid, std::span<const Dot> dots) {
 
 bool shows_a_cover(const MarkerGrid& grid, std::span<const Dot> dots, std::span<const Dot> of_frame,
                    const CellEvidenceOptions& options) {
-  InlineVector<double, MarkerDots::capacity> radii;
+  InlineVector<double, MarkerDots::static_capacity> radii;
   for (const Dot& dot : dots) radii.push_back(dot.radius_px);
+  if (radii.empty()) return false;
   std::ranges::sort(radii);
   const double usual_px = *(radii.begin() + radii.size() / 2);
   return *radii.begin() < options.whole_dot * usual_px - options.whole_dot_tolerance_px2 / usual_px ||

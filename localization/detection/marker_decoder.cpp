@@ -94,7 +94,7 @@ MarkerDotIndices dots_about(std::span<const Dot> dots, const DirectionDots& dire
   for (std::size_t i = 0; i < dots.size(); ++i) {
     const Vec2 q = pitches_from_px * (dots[i].center_px - o);
     if (!(q.minCoeff() > -guard && q.maxCoeff() < marker_grid_size - 1 + guard)) continue;
-    if (indices.full()) return {};
+    if (indices.size() == indices.capacity()) return {};
     indices.push_back(i);
   }
   return indices;
@@ -106,7 +106,7 @@ std::optional<MarkerReading> read_marker_among(std::span<const Dot> dots, const 
   if (!spans_a_grid(dots, direction, options)) return std::nullopt;
   const MarkerDotIndices indices = dots_about(dots, direction, options.guard_pitches);
   if (indices.size() < options.least_dots_in_a_crowd) return std::nullopt;
-  InlineVector<Dot, MarkerDotIndices::capacity> members;
+  InlineVector<Dot, MarkerDotIndices::static_capacity> members;
   for (const std::size_t i : indices) members.push_back(dots[i]);
   const auto among_members = [&](std::size_t i) {
     return static_cast<std::size_t>(std::ranges::lower_bound(indices, i) - indices.begin());

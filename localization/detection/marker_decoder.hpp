@@ -55,7 +55,7 @@ std::optional<DirectionDots> direction_dots(std::span<const Dot> dots);
 int id_of(std::span<const MarkerDot> dots);
 
 /// Of a marker's dots among others.
-using MarkerDotIndices = InlineVector<std::size_t, MarkerDots::capacity>;
+using MarkerDotIndices = InlineVector<std::size_t, MarkerDots::static_capacity>;
 
 /// A marker read from dots.
 struct MarkerReading {

@@ -12,7 +12,7 @@
 namespace lodestar {
 namespace {
 
-using DotsOfMarker = InlineVector<Dot, MarkerDots::capacity>;
+using DotsOfMarker = InlineVector<Dot, MarkerDots::static_capacity>;
 using DotsOfArea = InlineVector<Dot, 48>;
 
 void require_gray(const cv::Mat& gray) {
@@ -54,9 +54,9 @@ void sort_by_distance_to_center(std::vector<DetectedMarker>& markers, const cv::
 
 /// A dot of another size is a glint, a lamp, or covered in part.
 DotsOfArea dots_of_usual_size(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
-  InlineVector<double, DotsOfArea::capacity> radii;
+  InlineVector<double, DotsOfArea::static_capacity> radii;
   for (const Dot& dot : dots) radii.push_back(dot.radius_px);
-  auto* const middle = radii.begin() + radii.size() / 2;
+  const auto middle = radii.begin() + radii.size() / 2;
   std::nth_element(radii.begin(), middle, radii.end());
   const double usual_px = *middle;
   const double tolerance_px = options.alike_tolerance * usual_px + options.alike_tolerance_px2 / usual_px;
@@ -260,7 +260,7 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const
 /// Every way that a marker may hang on the lattice is weighed against all others.
 void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots,
                                               std::span<const Dot> of_frame) {
-  if (dots.size() > DotsOfArea::capacity) return;
+  if (dots.size() > DotsOfArea::static_capacity) return;
   const DotsOfArea usual = dots_of_usual_size(dots, options_.decoder);
   const std::optional<DotLattice> lattice = find_lattice(usual, options_.lattice);
   if (!lattice) return;

@@ -32,7 +32,7 @@ LatticeDots dots_on(std::span<const Dot> dots, const Basis& basis, double tolera
     LatticeDot dot;
     double distance = 0.0;
   };
-  InlineVector<Taken, LatticeDots::capacity> taken;
+  InlineVector<Taken, LatticeDots::static_capacity> taken;
   for (std::size_t i = 0; i < dots.size(); ++i) {
     const Vec2 place = places_from_px * (dots[i].center_px - basis.origin_px);
     const Vec2 whole(std::round(place.x()), std::round(place.y()));
@@ -131,7 +131,8 @@ std::optional<DotLattice> lattice_from(std::span<const Dot> dots, const Basis& s
 }  // namespace
 
 std::optional<DotLattice> find_lattice(std::span<const Dot> dots, const LatticeOptions& options) {
-  if (dots.size() < options.least_dots || dots.size() > std::min(options.most_dots, LatticeDots::capacity))
+  if (dots.size() < options.least_dots ||
+      dots.size() > std::min(options.most_dots, LatticeDots::static_capacity))
     return std::nullopt;
   std::optional<DotLattice> best;
   for (std::size_t a = 0; a < dots.size(); ++a) {

@@ -23,7 +23,7 @@ using LatticeDots = InlineVector<LatticeDot, 24>;
 struct LatticeOptions {
   std::size_t least_dots = 5;  ///< fewer always fit some lattice
   /// An area with more holds no single marker.
-  std::size_t most_dots = LatticeDots::capacity;
+  std::size_t most_dots = LatticeDots::static_capacity;
   double size_tolerance = 0.25;   ///< how near 4 radii must be to a pitch, foreshortened or not
   double first_tolerance = 0.28;  ///< how far a dot may be from its place, in pitches, on the square lattice
   double tolerance = 0.12;        ///< and on the fitted one

@@ -17,7 +17,7 @@ struct KnownMarker {
   int id = 0;
   double confidence = 0.0;
   std::array<SurveyedDot, 3> direction_dots;  ///< O, X, Y
-  InlineVector<SurveyedDot, MarkerDots::capacity> dots;
+  InlineVector<SurveyedDot, MarkerDots::static_capacity> dots;
 };
 
 /// Finds the camera's pose frame after frame and learns their VarianceFactor. Soon it takes no more memory.
