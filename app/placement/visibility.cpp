@@ -142,15 +142,6 @@ std::vector<double> ways_to_a_view_m(const Visibility& visibility) {
   return ways;
 }
 
-/// The nearest rank; nothing of no values.
-std::optional<double> value_at_share(std::vector<double> values, double share) {
-  if (values.empty()) return std::nullopt;
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size())));
-  const auto value = values.begin() + std::max<std::ptrdiff_t>(rank - 1, 0);
-  std::ranges::nth_element(values, value);
-  return *value;
-}
-
 }  // namespace
 
 VisibilityOptions visibility_options(const Robot& robot) {
@@ -213,9 +204,9 @@ VisibilitySummary summarize(const Visibility& visibility) {
   summary.share_one = share(one);
   summary.share_two = share(two);
   summary.share_some_heading = share(some);
-  summary.position_sigma_p50_m = value_at_share(position_sigmas_m, 0.5);
-  summary.position_sigma_p95_m = value_at_share(std::move(position_sigmas_m), 0.95);
-  summary.heading_sigma_p95_rad = value_at_share(std::move(heading_sigmas_rad), 0.95);
+  summary.position_sigma_p50_m = percentile(position_sigmas_m, 0.5);
+  summary.position_sigma_p95_m = percentile(std::move(position_sigmas_m), 0.95);
+  summary.heading_sigma_p95_rad = percentile(std::move(heading_sigmas_rad), 0.95);
   return summary;
 }
 
