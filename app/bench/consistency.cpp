@@ -9,6 +9,7 @@
 #include "app/common/parallel.hpp"
 #include "localization/detection/marker_detector.hpp"
 #include "localization/pose/pose_fixer.hpp"
+#include "maps/chi_square.hpp"
 
 namespace lodestar {
 namespace {
@@ -121,7 +122,8 @@ Consistency measure(const Conditions& conditions, int frames, const Random& rand
 }  // namespace
 
 double Consistency::half_band_per_degree() const {
-  return 1.96 * std::sqrt(2.0 / (static_cast<double>(degrees_of_freedom) * std::max(poses, 1)));
+  const double degrees = static_cast<double>(degrees_of_freedom) * std::max(poses, 1);
+  return 0.5 * (chi_square_quantile(0.975, degrees) - chi_square_quantile(0.025, degrees)) / degrees;
 }
 
 std::size_t consistency_conditions() {

@@ -1,10 +1,10 @@
 #include "app/report/nees.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "app/report/run_statistics.hpp"
+#include "maps/chi_square.hpp"
 
 namespace lodestar {
 namespace {
@@ -17,18 +17,14 @@ struct Sum {
   double nees = 0.0;
 };
 
-/// Quantile of chi-squared, Wilson and Hilferty 1931; `z` is that of the normal distribution.
-double chi_squared_quantile(double degrees_of_freedom, double z) {
-  const double variance = 2.0 / (9.0 * degrees_of_freedom);
-  return degrees_of_freedom * std::pow(1.0 - variance + z * std::sqrt(variance), 3.0);
-}
+constexpr double below = 0.025;  // 95 % lie between
+constexpr double above = 0.975;
 
-/// Of the mean over so many independent runs, each with 3 degrees of freedom. `z` as above.
-double bound_of_mean(int runs, double z) {
-  return chi_squared_quantile(3.0 * runs, z) / runs;
+/// Below which the mean over so many independent runs, each with 3 degrees of freedom, lies with this
+/// probability.
+double bound_of_mean(int runs, double probability) {
+  return chi_square_quantile(probability, 3.0 * runs) / runs;
 }
-
-constexpr double z_of_95_percent = 1.959964;
 
 }  // namespace
 
@@ -78,13 +74,12 @@ std::optional<NeesVerdict> nees_verdict(const std::vector<std::vector<NeesSample
   const auto inside = std::ranges::count_if(by_second, [](const auto& entry) {
     const Sum& sum = entry.second;
     const double mean = sum.nees / sum.count;
-    return mean >= bound_of_mean(sum.count, -z_of_95_percent) &&
-           mean <= bound_of_mean(sum.count, z_of_95_percent);
+    return mean >= bound_of_mean(sum.count, below) && mean <= bound_of_mean(sum.count, above);
   });
   const int count = static_cast<int>(runs.size());
   return NeesVerdict{.mean = all.nees / all.count,
-                     .low = bound_of_mean(count, -z_of_95_percent),
-                     .high = bound_of_mean(count, z_of_95_percent),
+                     .low = bound_of_mean(count, below),
+                     .high = bound_of_mean(count, above),
                      .share_inside = static_cast<double>(inside) / static_cast<double>(by_second.size()),
                      .seconds = static_cast<int>(by_second.size())};
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/chi_square.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -225,6 +227,11 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   to.covariance.diagonal().segment<3>(3).array() += square(options.wheel_scale_drift_per_sqrt_m) * way_m;
   to.covariance.block<3, 3>(6, 6) += (1.0 - kept * kept) * from.shared;
   return to;
+}
+
+double gate_squared_distance() {
+  static const double gate = chi_square_quantile(0.999, 3.0);
+  return gate;
 }
 
 double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {

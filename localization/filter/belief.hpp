@@ -53,6 +53,10 @@ Belief belief_from(const PlanarFix& fix, const WheelTravel& travel, const WheelS
 /// The belief after the wheels have rolled on: an arc of constant curvature.
 Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOptions& options);
 
+/// The gate: a fix or a motion that lies farther off (squared Mahalanobis distance, 3 degrees of freedom) is
+/// taken for false. Of a thousand true ones it refuses one.
+double gate_squared_distance();
+
 /// How far a fix of the same time lies off, squared Mahalanobis distance with 3 degrees of freedom.
 double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options);
 

@@ -36,7 +36,7 @@ std::optional<Belief> BeliefHistory::at(const WheelTravel& travel, const PoseFil
 bool BeliefHistory::add_fix(const PlanarFix& fix, const WheelTravel& travel,
                             const PoseFilterOptions& options) {
   const std::optional<Belief> expected = at(travel, options);
-  if (!expected || squared_distance(*expected, fix, options) > options.gate_chi2) return false;
+  if (!expected || squared_distance(*expected, fix, options) > gate_squared_distance()) return false;
   PlanarFix weighed = fix;
   weighed.covariance += (variance_growth(std::chrono::abs(travel.stamp - last_fix_), options) - 1.0) *
                         (fix.covariance - fix.shared_covariance);
@@ -56,7 +56,7 @@ bool BeliefHistory::add_motion(const VisualOdometryIncrement& motion, const Whee
                                const PoseFilterOptions& options) {
   const std::optional<Belief> expected = at(travel, options);
   if (!expected || expected->pictured != motion.from) return false;
-  if (squared_distance(*expected, motion, options) > options.gate_chi2) return false;
+  if (squared_distance(*expected, motion, options) > gate_squared_distance()) return false;
   VisualOdometryIncrement weighed = motion;
   weighed.sway_m *= std::sqrt(variance_growth(std::chrono::abs(travel.stamp - last_motion_), options));
   last_motion_ = std::max(last_motion_, travel.stamp);

@@ -88,7 +88,7 @@ std::optional<FixExpectation> PoseFilter::expectation(const PlanarFix& fix) cons
   const double distance = squared_distance(*belief, at->fix, options_);
   return FixExpectation{{expected.position_m + moved_m, wrap_angle(expected.yaw_rad + moved_rad)},
                         distance,
-                        distance <= options_.gate_chi2};
+                        distance <= gate_squared_distance()};
 }
 
 std::optional<PictureExpectation> PoseFilter::expected_motion(Stamp stamp) const {

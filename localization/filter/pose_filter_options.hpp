@@ -25,7 +25,6 @@ struct PoseFilterOptions {
   /// A body sways slowly on its floor, and the camera's tilt with it: fixes much nearer to each other in time
   /// than this have the same error, not two. Chosen by the NEES of simulated drives.
   Duration fix_correlation = std::chrono::milliseconds(60);
-  double gate_chi2 = 16.27;   ///< a fix farther away (Mahalanobis, 3 dof, 99.9 %) is refused
   int fixes_to_start = 2;     ///< consecutive consistent fixes that a start takes
   int fixes_to_relocate = 5;  ///< consecutive refused fixes that agree among themselves and move the estimate
   /// Nearer than this, the fixes that move the estimate must rest on two markers or more: one that hangs

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/filter/belief.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -24,7 +26,7 @@ void add_last(std::vector<int>& ids, int id) {
 }  // namespace
 
 void MarkerTrust::charge(const MarkerSighting& sighting) {
-  if (sighting.squared_distance <= options_.contradiction_chi2) return;
+  if (sighting.squared_distance <= gate_squared_distance()) return;
   if (witnesses_beside(sighting.id) < options_.witnesses) return;
   Suspect& suspect = suspects_[sighting.id];
   if (suspect.distrusted) return;

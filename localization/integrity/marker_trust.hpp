@@ -10,10 +10,9 @@
 namespace lodestar {
 
 struct MarkerTrustOptions {
-  double contradiction_chi2 = 16.27;  ///< a fix farther from the estimate (Mahalanobis, 3 dof) contradicts it
-  int witnesses = 2;                  ///< other markers that must agree with the estimate, before and after
-  int charges_to_distrust = 6;        ///< confirmed contradictions, agreements deducted
-  double tolerated_offset_m = 0.03;   ///< a marker surveyed no worse than this is never accused
+  int witnesses = 2;                 ///< other markers that must agree with the estimate, before and after
+  int charges_to_distrust = 6;       ///< confirmed contradictions, agreements deducted
+  double tolerated_offset_m = 0.03;  ///< a marker surveyed no worse than this is never accused
   double tolerated_turn_rad = radians(3.0);
   std::size_t remembered_witnesses = 6;  ///< the markers that agreed last
 };
