@@ -1,7 +1,7 @@
 #include "planning/sampling_search.hpp"
 
-#include <atomic>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <ompl/base/MotionValidator.h>
@@ -11,6 +11,7 @@
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/informedtrees/ABITstar.h>
 #include <ompl/geometric/planners/informedtrees/BITstar.h>
@@ -220,15 +221,14 @@ std::optional<Solution> solution_of(SamplingMethod method, const ob::SpaceInform
   const ob::PlannerPtr planner = planner_of(method, information);
   planner->setProblemDefinition(problem);
   planner->setup();
-  std::atomic<std::size_t> iterations = 0;
-  const ob::PlannerTerminationCondition out_of_iterations([&] {
-    return ++iterations > static_cast<std::size_t>(options.max_iterations) && options.max_iterations > 0;
-  });
+  ob::IterationTerminationCondition out_of_iterations(options.max_iterations > 0
+                                                          ? static_cast<unsigned>(options.max_iterations)
+                                                          : std::numeric_limits<unsigned>::max());
   const ob::PlannerStatus status = planner->solve(ob::plannerOrTerminationCondition(
       out_of_iterations, ob::timedPlannerTerminationCondition(options.time_limit_s)));
   if (status != ob::PlannerStatus::EXACT_SOLUTION)
     return std::nullopt;  // an approximate one is "true" as well
-  Solution solution{.states = {}, .iterations = iterations};
+  Solution solution{.states = {}, .iterations = out_of_iterations.getTimesCalled()};
   for (const ob::State* state : problem->getSolutionPath()->as<og::PathGeometric>()->getStates())
     solution.states.push_back(state);
   return solution;
