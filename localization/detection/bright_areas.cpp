@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <opencv2/core/hal/intrin.hpp>
 #include <utility>
 
 #include "localization/detection/disjoint_sets.hpp"
+#include "localization/sixteen_pixels.hpp"
 
 namespace lodestar {
 namespace {
@@ -24,20 +24,14 @@ std::uint32_t bright_bits(const std::uint8_t* pixels, int count, std::uint8_t th
 /// The same of rows of a tile.
 void find_bright_bits(const std::uint8_t* pixels, std::size_t stride, int count, std::uint8_t threshold,
                       std::span<std::uint32_t> rows) {
-#if CV_SIMD128
   if (count == tile) {
-    const cv::v_uint8x16 limit = cv::v_setall_u8(threshold);
-    const auto half = [&](const std::uint8_t* first) {
-      const cv::v_uint8x16 seen = cv::v_load(first);
-      return static_cast<std::uint32_t>(cv::v_signmask(cv::v_max(seen, limit) == seen));
-    };
     for (std::uint32_t& bits : rows) {
-      bits = half(pixels) | half(pixels + tile / 2) << 16U;
+      bits = bits_of(sixteen_at(pixels) >= threshold) | bits_of(sixteen_at(pixels + tile / 2) >= threshold)
+                                                            << 16U;
       pixels += stride;
     }
     return;
   }
-#endif
   for (std::uint32_t& bits : rows) {
     bits = bright_bits(pixels, count, threshold);
     pixels += stride;

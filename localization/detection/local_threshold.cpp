@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "localization/detection/wide_registers.hpp"
+#include "localization/sixteen_pixels.hpp"
 
 namespace lodestar {
 namespace {
@@ -21,29 +22,25 @@ struct Extremes {
 
 /// As many pixels as a tile is wide.
 using TileRow [[gnu::vector_size(tile)]] = std::uint8_t;
-using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
 
-Bytes least_of(const Bytes& a, const Bytes& b) {
-  return a < b ? a : b;
-}
-
-Bytes least_of_halves(const TileRow& row) {
-  static_assert(sizeof(TileRow) == 2 * sizeof(Bytes));
-  std::array<Bytes, 2> halves;
+SixteenPixels least_of_halves(const TileRow& row) {
+  static_assert(sizeof(TileRow) == 2 * sizeof(SixteenPixels));
+  std::array<SixteenPixels, 2> halves;
   std::memcpy(halves.data(), &row, sizeof(row));
   return least_of(halves[0], halves[1]);
 }
 
 /// The least of each of four. Every step halves how many are left, of all at once.
-std::array<std::uint8_t, 4> least_of_four(const Bytes& a, const Bytes& b, const Bytes& c, const Bytes& d) {
-  const auto halved = [](const Bytes& x, const Bytes& y) {
+std::array<std::uint8_t, 4> least_of_four(const SixteenPixels& a, const SixteenPixels& b,
+                                          const SixteenPixels& c, const SixteenPixels& d) {
+  const auto halved = [](const SixteenPixels& x, const SixteenPixels& y) {
     return least_of(
         __builtin_shufflevector(x, y, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23),
         __builtin_shufflevector(x, y, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31));
   };
-  const Bytes ab = halved(a, b);
-  const Bytes cd = halved(c, d);
-  Bytes v =
+  const SixteenPixels ab = halved(a, b);
+  const SixteenPixels cd = halved(c, d);
+  SixteenPixels v =
       least_of(__builtin_shufflevector(ab, cd, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27),
                __builtin_shufflevector(ab, cd, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31));
   v = least_of(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
@@ -97,15 +94,14 @@ void find_extremes(const std::uint8_t* pixels, std::size_t stride, int rows, int
 
 /// Of a part of a tile; where it is half as wide or more, two halves that may overlap cover it.
 Extremes extremes_of_part(const cv::Mat& gray, const cv::Rect& part) {
-  constexpr int half = sizeof(Bytes);
+  constexpr int half = sizeof(SixteenPixels);
   if (part.width >= half && part.height > 0) {
-    Bytes low = ~Bytes{};
-    Bytes high_complement = low;
+    SixteenPixels low = ~SixteenPixels{};
+    SixteenPixels high_complement = low;
     for (int v = part.y; v < part.br().y; ++v) {
       const auto* const row = gray.ptr<std::uint8_t>(v);
       for (const int u : {part.x, part.br().x - half}) {
-        Bytes pixels;
-        std::memcpy(&pixels, row + u, half);
+        const SixteenPixels pixels = sixteen_at(row + u);
         low = least_of(low, pixels);
         high_complement = least_of(high_complement, ~pixels);
       }

@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <stdexcept>
 
 #include "localization/detection/confidence.hpp"
+#include "localization/sixteen_pixels.hpp"
 
 namespace lodestar {
 namespace {
@@ -147,32 +147,15 @@ bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& d
          4 * strangers <= dots && (marker.id.contradicting == 0 || dots >= options.least_dots_contradicted);
 }
 
-constexpr int pixels_at_once = 16;
-using Bytes [[gnu::vector_size(pixels_at_once)]] = std::uint8_t;
-
-Bytes darker(const Bytes& a, const std::uint8_t* pixels) {
-  Bytes b;
-  std::memcpy(&b, pixels, sizeof(b));
-  return a < b ? a : b;
-}
-
-/// Bit i tells of byte i, all of whose bits are alike: multiplied, each byte's one bit comes to stand in the
-/// uppermost byte, at its own place.
-unsigned bits_of(std::uint64_t bytes) {
-  return static_cast<unsigned>((bytes & 0x0101010101010101U) * 0x0102040810204080U >> 56U);
-}
+constexpr int pixels_at_once = sizeof(SixteenPixels);
 
 /// Of pixels in a row from here on, bit by bit: those that are at least `lowest_dot_gray` together with their
 /// four neighbours.
 unsigned inner_pixels(const std::uint8_t* pixels, std::size_t stride) {
-  Bytes least;
-  std::memcpy(&least, pixels, sizeof(least));
-  least = darker(darker(least, pixels - 1), pixels + 1);
-  least = darker(darker(least, pixels - stride), pixels + stride);
-  const auto inner = least >= static_cast<std::uint8_t>(lowest_dot_gray);
-  std::array<std::uint64_t, 2> halves;
-  std::memcpy(halves.data(), &inner, sizeof(inner));
-  return bits_of(halves[0]) | bits_of(halves[1]) << 8U;
+  const SixteenPixels beside = least_of(sixteen_at(pixels - 1), sixteen_at(pixels + 1));
+  const SixteenPixels above_and_below = least_of(sixteen_at(pixels - stride), sixteen_at(pixels + stride));
+  const SixteenPixels least = least_of(sixteen_at(pixels), least_of(beside, above_and_below));
+  return bits_of(least >= static_cast<std::uint8_t>(lowest_dot_gray));
 }
 
 /// Adds the pixels of a run that are in the paper's binary image after its erosion by a cross of three. A

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+// Sixteen pixels in a register. The vector extensions that GCC and clang share are the one dialect for such
+// code here: they become SSE2 or AVX2 on x86-64 and NEON on arm64, and give the same everywhere.
+namespace lodestar {
+
+using SixteenPixels [[gnu::vector_size(16)]] = std::uint8_t;
+/// What a comparison of them gives: all bits of a byte, or none.
+using SixteenAnswers [[gnu::vector_size(16)]] = signed char;
+
+[[gnu::always_inline]] inline SixteenPixels sixteen_at(const std::uint8_t* pixels) {
+  SixteenPixels loaded;
+  std::memcpy(&loaded, pixels, sizeof(loaded));
+  return loaded;
+}
+
+[[gnu::always_inline]] inline SixteenPixels least_of(const SixteenPixels& a, const SixteenPixels& b) {
+  return a < b ? a : b;
+}
+
+/// Bit i is set where answer i is yes. Multiplied, the eight bytes' one bits come to stand side by side in
+/// the uppermost byte.
+[[gnu::always_inline]] inline std::uint32_t bits_of(const SixteenAnswers& answers) {
+  std::array<std::uint64_t, 2> halves;
+  std::memcpy(halves.data(), &answers, sizeof(answers));
+  const auto packed = [](std::uint64_t bytes) {
+    return static_cast<std::uint32_t>((bytes & 0x0101010101010101U) * 0x0102040810204080U >> 56U);
+  };
+  return packed(halves[0]) | packed(halves[1]) << 8U;
+}
+
+}  // namespace lodestar
