@@ -74,6 +74,23 @@ void read_limits(StrictYaml yaml, Robot& robot) {
   yaml.finish();
 }
 
+/// A dead band wider than the limit would leave no speed to drive at.
+void read_motors(StrictYaml yaml, Robot& robot) {
+  if (yaml.has("response_s")) robot.response_s = yaml.number("response_s", 0.0, 2.0);
+  if (yaml.has("dead_band_mps"))
+    robot.dead_band_mps = yaml.number("dead_band_mps", 0.0, robot.max_forward_mps);
+  if (yaml.has("dead_band_radps"))
+    robot.dead_band_radps = yaml.number("dead_band_radps", 0.0, robot.max_turn_radps);
+  yaml.finish();
+}
+
+void read_wheels(StrictYaml yaml, Robot& robot) {
+  if (yaml.has("encoder_step_m")) robot.encoder_step_m = yaml.number("encoder_step_m", 0.0, 0.05);
+  if (yaml.has("noise_m_per_sqrt_m"))
+    robot.wheel_noise_m_per_sqrt_m = yaml.number("noise_m_per_sqrt_m", 1e-5, 0.1);
+  yaml.finish();
+}
+
 void read_arrival(StrictYaml yaml, Robot& robot) {
   robot.arrival_distance_m = yaml.number("distance_m", 0.001, 1.0);
   robot.arrival_heading_rad = radians(yaml.number("heading_deg", 0.1, 90.0));
@@ -126,6 +143,8 @@ Robot load_robot(const std::filesystem::path& file) {
     robot.shared_fix_sigma_rad = radians(yaml.number("shared_fix_sigma_deg", 0.0, 20.0));
   read_limits(yaml.mapping("limits"), robot);
   read_arrival(yaml.mapping("arrival"), robot);
+  if (yaml.has("motors")) read_motors(yaml.mapping("motors"), robot);
+  if (yaml.has("wheels")) read_wheels(yaml.mapping("wheels"), robot);
   robot.preferred_clearance_m = yaml.number("preferred_clearance_m", 0.0, 5.0);
   if (yaml.has("pass_corners_within_m"))
     robot.pass_corners_within_m = yaml.number("pass_corners_within_m", 0.0, 1.0);

@@ -1,7 +1,9 @@
 #include "app/site/site.hpp"
 
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 
 #include "app/navigation/navigation_setup.hpp"
 
@@ -34,6 +36,37 @@ TEST(Site, mount_becomes_the_prior_of_the_pose_estimate) {
       rotation_from({site.robot.camera_mount.roll_rad, site.robot.camera_mount.pitch_rad, 0.0}).transpose();
   EXPECT_TRUE(untilted.isIdentity(1e-12));
   EXPECT_NEAR(*prior.height_m, 1.1, 0.05);
+}
+
+/// The lab's robot file with other last lines, which describe the base.
+Robot robot_with(const std::string& base) {
+  const std::filesystem::path lab = std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab";
+  std::ifstream stream(lab / "robot.yaml");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "lodestar_robot.yaml";
+  std::ofstream(file) << text.substr(0, text.find("motors:")) << base;
+  return load_robot(file);
+}
+
+TEST(Site, robot_of_another_base_drives_and_rolls_by_its_file) {
+  const NavigationOptions options =
+      navigation_options(robot_with("motors: {response_s: 0.3, dead_band_mps: 0.05, dead_band_radps: 0.1}\n"
+                                    "wheels: {encoder_step_m: 0.0004, noise_m_per_sqrt_m: 0.006}\n"));
+  EXPECT_EQ(options.drive.response_s, 0.3);
+  EXPECT_EQ(options.drive.min_forward_mps, 0.05);
+  EXPECT_EQ(options.drive.min_turn_radps, 0.1);
+  EXPECT_EQ(options.filter.wheel_step_m, 0.0004);
+  EXPECT_EQ(options.filter.wheel_noise_m_per_sqrt_m, 0.006);
+}
+
+TEST(Site, robot_that_says_nothing_of_its_base_has_one_like_the_labs) {
+  const NavigationOptions silent = navigation_options(robot_with(""));
+  const NavigationOptions spoken = navigation_options(lab().robot);
+  EXPECT_EQ(silent.drive.response_s, spoken.drive.response_s);
+  EXPECT_EQ(silent.drive.min_forward_mps, spoken.drive.min_forward_mps);
+  EXPECT_EQ(silent.drive.min_turn_radps, spoken.drive.min_turn_radps);
+  EXPECT_EQ(silent.filter.wheel_step_m, spoken.filter.wheel_step_m);
+  EXPECT_EQ(silent.filter.wheel_noise_m_per_sqrt_m, spoken.filter.wheel_noise_m_per_sqrt_m);
 }
 
 TEST(Site, names_its_camera_and_its_base) {
