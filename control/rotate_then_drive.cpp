@@ -8,6 +8,22 @@
 namespace lodestar {
 namespace {
 
+// Chosen by hand in simulated drives; what follows from each is said beside it.
+constexpr double waypoint_distance_m = 0.02;    ///< epsilon at the waypoints between
+constexpr double turn_done_rad = radians(1.0);  ///< 1 degree is 2 cm after a metre, which steering takes back
+/// A leg's heading error from which the robot stops to turn anew: beyond, it would drive an arc.
+constexpr double turn_again_rad = radians(20.0);
+/// Heading correction while driving. With the base's response T = 0.12 s a loop of gain k is damped by
+/// 1 / (2 sqrt(k T)) = 0.9: no overshoot worth the name.
+constexpr double heading_gain_per_s = 2.5;
+/// Heading wanted towards the leg, per metre beside it. At v = 0.6 m/s the way back takes 1 / (v k) = 0.7 s,
+/// slower than the heading follows.
+constexpr double lateral_gain_per_m = 2.5;
+/// A goal passed nearer than so many of its epsilons is not worth turning back to.
+constexpr double passed_distances = 1.5;
+/// At the goal's epsilon; then coming as near as that counts as arrival.
+constexpr int most_approaches = 4;
+
 /// The speed from which a distance is just enough to brake; never below the slowest that moves the motors.
 double approach_speed(double distance, double deceleration, double slowest, double fastest) {
   return std::clamp(std::sqrt(2.0 * deceleration * std::max(distance, 0.0)), slowest, fastest);
@@ -62,7 +78,7 @@ BodyVelocity RotateThenDrive::update(const PoseEstimate& estimate, Duration elap
   next_phase(pose);
   BodyVelocity wanted;
   if (phase_ == DrivePhase::rotating) {
-    if (turn_heading_rad_) wanted = turn_to(*turn_heading_rad_, options_.turn_done_rad, pose, limit);
+    if (turn_heading_rad_) wanted = turn_to(*turn_heading_rad_, turn_done_rad, pose, limit);
   } else if (phase_ == DrivePhase::driving) {
     wanted = drive_leg(pose, limit);
   } else if (phase_ == DrivePhase::passing_corner) {
@@ -106,10 +122,10 @@ void RotateThenDrive::next_phase_rotating(const Pose2& pose) {
   if (!turn_heading_rad_) {
     turn_heading_rad_ = heading_between(pose.position_m, target_m());
     const double beside_rad = std::abs(wrap_angle(*turn_heading_rad_ - leg_heading_rad()));
-    if (beside_rad > 0.5 * options_.turn_again_rad) leg_start_m_ = pose.position_m;
+    if (beside_rad > 0.5 * turn_again_rad) leg_start_m_ = pose.position_m;
   }
   const double error = wrap_angle(*turn_heading_rad_ - pose.yaw_rad);
-  if (std::abs(error) > options_.turn_done_rad) return;
+  if (std::abs(error) > turn_done_rad) return;
   phase_ = DrivePhase::driving;
   corner_ = corner_ahead();
 }
@@ -125,7 +141,7 @@ void RotateThenDrive::next_phase_driving(const Pose2& pose) {
   }
   // Close to the target its direction means nothing any more; the leg's own counts.
   const double error = wrap_angle(leg_heading_rad() - pose.yaw_rad);
-  if (std::abs(error) > options_.turn_again_rad) begin_turn();
+  if (std::abs(error) > turn_again_rad) begin_turn();
 }
 
 /// The next leg begins when all that was commanded will have brought the robot to the arc's end.
@@ -163,7 +179,7 @@ void RotateThenDrive::end_leg(const Pose2& pose) {
   }
   ++approaches_;
   const double distance_m = (target_m() - pose.position_m).norm();
-  if (distance_m > options_.passed_distance_m && approaches_ < options_.max_approaches) {
+  if (distance_m > passed_distances * options_.arrival_distance_m && approaches_ < most_approaches) {
     leg_start_m_ = pose.position_m;
     return;
   }
@@ -184,7 +200,7 @@ BodyVelocity RotateThenDrive::turn_to(double heading_rad, double done_rad, const
   const double left = wrap_angle(error - pending_rad_);
   if (std::abs(left) <= 0.5 * done_rad) return {};
   const double speed = approach_speed(
-      std::abs(left), options_.braking_share * options_.max_turn_acceleration_radps2, options_.min_turn_radps,
+      std::abs(left), braking_share * options_.max_turn_acceleration_radps2, options_.min_turn_radps,
       std::clamp(limit.turn_radps, options_.min_turn_radps, options_.max_turn_radps));
   return {0.0, std::copysign(speed, left)};
 }
@@ -199,11 +215,11 @@ BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose, const SpeedLimit& lim
   const Vec2 ahead(std::cos(leg_heading), std::sin(leg_heading));
   const Vec2 from_target = pose.position_m - target_m();
   const double beside_m = cross(ahead, from_target);
-  const double wanted_heading = leg_heading - std::atan(options_.lateral_gain_per_m * beside_m);
+  const double wanted_heading = leg_heading - std::atan(lateral_gain_per_m * beside_m);
   const double turn = steered(wanted_heading, pose);
   if (limit.forward_mps < options_.min_forward_mps) return {0.0, turn};
   const double error = wrap_angle(wanted_heading - pose.yaw_rad - pending_rad_);
-  const double deceleration = options_.braking_share * options_.max_acceleration_mps2;
+  const double deceleration = braking_share * options_.max_acceleration_mps2;
   const double speed =
       approach_speed(left_m + 0.5 * end_mps * end_mps / deceleration, deceleration, options_.min_forward_mps,
                      std::min(options_.max_forward_mps, limit.forward_mps));
@@ -217,7 +233,7 @@ BodyVelocity RotateThenDrive::pass_corner(const Pose2& pose, const SpeedLimit& l
   const double turned_rad =
       std::clamp(on.turned_rad + pending_m_ / corner_->radius_m, 0.0, std::abs(corner_->turn_rad));
   const double wanted_heading =
-      corner_->heading_rad + side * turned_rad - std::atan(options_.lateral_gain_per_m * on.beside_m);
+      corner_->heading_rad + side * turned_rad - std::atan(lateral_gain_per_m * on.beside_m);
   const double speed =
       limit.forward_mps < options_.min_forward_mps ? 0.0 : std::min(corner_->speed_mps, limit.forward_mps);
   const double along_radps = side * speed / corner_->radius_m;
@@ -228,7 +244,7 @@ BodyVelocity RotateThenDrive::pass_corner(const Pose2& pose, const SpeedLimit& l
 /// The turning speed that corrects the heading while driving.
 double RotateThenDrive::steered(double wanted_heading_rad, const Pose2& pose) const {
   const double error = wrap_angle(wanted_heading_rad - pose.yaw_rad - pending_rad_);
-  return std::clamp(options_.heading_gain_per_s * error, -options_.max_turn_radps, options_.max_turn_radps);
+  return std::clamp(heading_gain_per_s * error, -options_.max_turn_radps, options_.max_turn_radps);
 }
 
 BodyVelocity RotateThenDrive::command(const BodyVelocity& wanted, Duration elapsed) {
@@ -246,7 +262,7 @@ BodyVelocity RotateThenDrive::command(const BodyVelocity& wanted, Duration elaps
 bool RotateThenDrive::at_rest() const {
   const bool commanded = last_.forward_mps != 0.0 || last_.turn_radps != 0.0;
   const double trace_m = 0.2 * options_.arrival_distance_m;
-  const double trace_rad = 0.4 * options_.turn_done_rad;
+  const double trace_rad = 0.4 * turn_done_rad;
   return !commanded && std::abs(pending_m_) <= trace_m && std::abs(pending_rad_) <= trace_rad;
 }
 
@@ -260,7 +276,7 @@ Path RotateThenDrive::path_ahead() const {
 }
 
 double RotateThenDrive::epsilon_m() const {
-  return on_last_leg() ? options_.arrival_distance_m : options_.waypoint_distance_m;
+  return on_last_leg() ? options_.arrival_distance_m : waypoint_distance_m;
 }
 
 /// Along the leg; negative once its end is passed.

@@ -17,10 +17,14 @@ double unusual_m(double sigma_m) {
   return std::sqrt(std::max(sigma_m * sigma_m - usual_sigma_m * usual_sigma_m, 0.0));
 }
 
+/// Of a normal error in one direction 99 of 100 are less than 2.33 deviations.
+constexpr double sigmas = 2.3;
+/// And 98 of 100 less than two: enough where the robot has just come along without touching anything.
+constexpr double sigmas_on_the_way_back = 2.0;
+
 }  // namespace
 
 SafetyMargin room_for_doubt(const Eigen::Matrix3d& covariance) {
-  constexpr double sigmas = 2.3;
   const double sigma_m = larger_sigma_m(covariance);
   if (sigma_m < usual_sigma_m) return {};
   const double taken_back = std::min(sigma_m / usual_sigma_m - 1.0, 1.0);
@@ -29,8 +33,7 @@ SafetyMargin room_for_doubt(const Eigen::Matrix3d& covariance) {
 }
 
 SafetyMargin room_on_the_way_back(const Eigen::Matrix3d& covariance) {
-  constexpr double share = 0.87;
-  return {.here_m = share * room_for_doubt(covariance).here_m, .per_m = 0.0};
+  return {.here_m = sigmas_on_the_way_back / sigmas * room_for_doubt(covariance).here_m, .per_m = 0.0};
 }
 
 }  // namespace lodestar

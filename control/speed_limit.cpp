@@ -28,7 +28,7 @@ double share_of_speed(const Eigen::Matrix3d& covariance, const SafetyStopOptions
 SpeedLimit safe_speed(const ForwardClearance& way, const PoseEstimate& estimate, const SafetyMargin& spare,
                       const SafeSpeedOptions& options) {
   const auto& [drive, caution, limits] = options;
-  const double deceleration = drive.braking_share * drive.max_acceleration_mps2;
+  const double deceleration = braking_share * drive.max_acceleration_mps2;
   const double reach_m =
       drive.max_forward_mps * (drive.response_s + 0.5 * drive.max_forward_mps / deceleration);
   const auto speed_with = [&](const SafetyMargin& kept) {

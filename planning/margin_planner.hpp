@@ -22,7 +22,8 @@ inline constexpr std::array default_margins_m{0.03, 0.02, 0.01};
 class MarginPlanner {
  public:
   static constexpr double goal_slack_m = 0.015;
-  /// A path with more margin may be longer by this share of the shortest, and by so much.
+  /// A path with more margin may be longer by this share of the shortest, and by so much. Chosen by hand: a
+  /// step to the side at a door post is worth its margin, another corridor is not.
   static constexpr double detour_share = 0.1;
   static constexpr double detour_m = 0.5;
 

@@ -5,7 +5,9 @@
 namespace lodestar {
 namespace {
 
-/// A robot that has no marker in view may drive on to the next. One whose camera is broken will see none.
+/// A robot that has no marker in view may drive on to the next. One whose camera is broken will see none. On
+/// half a metre wheels whose scales nobody has learned (2 % each) turn it by 2 degrees and lead it 9 mm
+/// aside, less than the least margin of a path.
 constexpr double farthest_with_broken_camera_m = 0.5;
 
 /// Of markers that contradict each other the estimate believes the one that it expected most, if any.

@@ -47,7 +47,7 @@ std::vector<Path> usual_routes(const Site& site) {
 /// So high may markers hang, for all that is known.
 double ceiling_m(const Site& site) {
   constexpr double usual_m = 3.0;
-  constexpr double more_m = 0.5;
+  constexpr double more_m = 0.5;  // assumed, for a part of the ceiling that is higher
   double highest_m = usual_m;
   for (const RegisteredMarker& marker : site.registry.markers)
     highest_m = std::max(highest_m, marker.position_m.z());

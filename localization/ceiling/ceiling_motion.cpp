@@ -15,6 +15,8 @@ constexpr double settled_rad = 2e-4;
 constexpr double least_noise_gray = 0.2;  // of the reduced picture: whole gray values leave some
 constexpr double least_lean_rad = 1e-5;
 constexpr double outlier_sigmas = 3.5;
+/// Of the variance, as neighbouring points do not err independently: the picture is smooth. GROWTH
+constexpr double error_growth = 3.0;
 
 /// Correlation of weighted pairs, made sum by sum.
 class Correlation {
@@ -185,7 +187,7 @@ std::optional<CeilingMotion::Fit> CeilingMotion::fit(std::span<const Sample> see
     correlation.add(point->gray, gray, 1.0 / variance);
     ++agreeing;
   }
-  const double growth = squares / weights * options_.error_growth;
+  const double growth = squares / weights * error_growth;
   information /= growth;
   right /= growth;
   const double lean_information = 0.5 / square(std::max(lean_sigma_rad_, least_lean_rad));

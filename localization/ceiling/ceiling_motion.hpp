@@ -30,8 +30,6 @@ struct CeilingMotionOptions {
   double least_shift_px = 3.0;
   double most_astray_m = 0.04;  ///< from what was expected; farther away something else looks alike
   double most_astray_rad = radians(6.0);
-  /// Between what neighbouring points say: their errors are not independent, for the picture is smooth.
-  double error_growth = 3.0;
   double sharpness_sigma_px = 0.1;  ///< a sharp edge between pixels is not known better than to this
   double own_sigma_m = 0.0004;      ///< of the method, besides noise
   double own_sigma_rad = radians(0.02);

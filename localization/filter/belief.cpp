@@ -36,6 +36,10 @@ Eigen::Matrix<double, 3, 2> pose_by_arc(double yaw_rad, const Arc& arc) {
   return jacobian;
 }
 
+/// What fixes about here err by in common is something else after rolling so far: about the way on which the
+/// same markers stay in view. Assumed.
+constexpr double fix_bias_reach_m = 1.0;
+
 /// Of the error that fixes about here have in common: what is known of the site, and what this one says of
 /// its markers.
 Mat3 shared_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
@@ -81,7 +85,7 @@ Belief sharing(const Belief& belief, const PlanarFix& fix, const PoseFilterOptio
   Belief result = belief;
   const double here_m = rolled_m(belief.travel);
   std::erase_if(result.markers, [&](const MarkerOnTheWay& marker) {
-    return std::abs(here_m - marker.rolled_m) > options.fix_bias_reach_m;
+    return std::abs(here_m - marker.rolled_m) > fix_bias_reach_m;
   });
   const double kept = share_kept(result.markers, fix);
   std::erase_if(result.markers, [&](const MarkerOnTheWay& marker) { return rests_on(fix, marker.id); });
@@ -200,7 +204,7 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   const Arc arc{0.5 * (left_scale * left_m + right_scale * right_m), turn_scale * turn_as_built};
   const Pose2 pose = along(from.map_from_base(), arc);
   const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
-  const double kept = std::exp(-way_m / options.fix_bias_reach_m);  // of the shared error
+  const double kept = std::exp(-way_m / fix_bias_reach_m);  // of the shared error
 
   Belief to = from;
   to.travel = travel;

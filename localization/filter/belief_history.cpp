@@ -9,7 +9,7 @@ namespace {
 
 /// By how much the variance of one of a series of fixes must grow so that the series says no more than its
 /// errors, a first-order Gauss-Markov process, let it: n of them are worth 1 + (n - 1) (1 - r) / (1 + r)
-/// independent ones, r the correlation of neighbours.
+/// independent ones, r the correlation of neighbours. FIXCORR
 double variance_growth(Duration between_fixes, const PoseFilterOptions& options) {
   if (options.fix_correlation <= Duration::zero()) return 1.0;
   constexpr double least_s = 1e-3;  // fixes of one time are one fix
@@ -22,7 +22,7 @@ double variance_growth(Duration between_fixes, const PoseFilterOptions& options)
 
 void BeliefHistory::add_travel(const WheelTravel& travel, const PoseFilterOptions& options) {
   beliefs_.push_back(moved(beliefs_.back(), travel, options));
-  const Stamp since = travel.stamp - options.history;
+  const Stamp since = travel.stamp - belief_history;
   while (beliefs_.size() > 1 && beliefs_[1].travel.stamp <= since) beliefs_.pop_front();
 }
 

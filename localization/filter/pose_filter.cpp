@@ -7,6 +7,18 @@
 namespace lodestar {
 namespace {
 
+// Chosen by hand; the campaigns of docs/safety.md were driven with them.
+constexpr int fixes_to_start = 2;     // consecutive consistent fixes that a start takes
+constexpr int fixes_to_relocate = 5;  // consecutive refused fixes that agree and move the estimate
+/// Nearer than this, the fixes that move the estimate must rest on two markers or more: one that hangs
+/// elsewhere than surveyed contradicts steadily too.
+constexpr double relocation_by_one_marker_m = 0.7;
+/// Where so many pictures of the ceiling in a row contradict the wheels, their agreement is worth nothing
+/// until a fix agrees: one of the two is wrong.
+constexpr int motions_refused_to_doubt = 2;
+/// Fixes newer than the wheels' last word by more are refused.
+constexpr Duration most_ahead = std::chrono::milliseconds(100);
+
 WheelTravel interpolated(const WheelTravel& before, const WheelTravel& after, Stamp stamp) {
   const double share = seconds(stamp - before.stamp) / seconds(after.stamp - before.stamp);
   return {stamp, std::lerp(before.left_m, after.left_m, share),
@@ -19,7 +31,7 @@ void PoseFilter::add_travel(const WheelTravel& reading) {
   if (!readings_.empty() && reading.stamp <= readings_.back().stamp) return;
   const WheelTravel travel = zero_velocity_.settled(reading);
   readings_.push_back(travel);
-  while (readings_.size() > 2 && readings_[1].stamp <= travel.stamp - options_.history) readings_.pop_front();
+  while (readings_.size() > 2 && readings_[1].stamp <= travel.stamp - belief_history) readings_.pop_front();
   if (believed_) believed_->add_travel(travel, options_);
   if (rival_) rival_->history.add_travel(travel, options_);
 }
@@ -54,13 +66,12 @@ void PoseFilter::add_to_rival(const PlacedFix& placed) {
 }
 
 bool PoseFilter::rival_prevails() const {
-  if (!believed_) return rival_->fixes >= options_.fixes_to_start;
+  if (!believed_) return rival_->fixes >= fixes_to_start;
   const double apart_m =
       (rival_->history.newest().map_from_base().position_m - believed_->newest().map_from_base().position_m)
           .norm();
   const bool by_one_marker = rival_->ids.size() == 1;
-  return rival_->fixes >= options_.fixes_to_relocate &&
-         (!by_one_marker || apart_m >= options_.relocation_by_one_marker_m);
+  return rival_->fixes >= fixes_to_relocate && (!by_one_marker || apart_m >= relocation_by_one_marker_m);
 }
 
 void PoseFilter::begin_with(Rival rival, Stamp last_fix) {
@@ -109,7 +120,7 @@ bool PoseFilter::add_motion(const VisualOdometryIncrement& motion, bool keeps) {
   const std::optional<WheelTravel> travel = travel_at(motion.to);
   if (!travel || !believed_) return false;
   const bool agrees = believed_->add_motion(motion, *travel, keeps, options_);
-  if (motions_refused_ < options_.motions_refused_to_doubt) {
+  if (motions_refused_ < motions_refused_to_doubt) {
     motions_refused_ = agrees ? 0 : motions_refused_ + 1;
     if (agrees) last_agreed_ = std::max(last_agreed_, motion.to);
   }
@@ -119,7 +130,7 @@ bool PoseFilter::add_motion(const VisualOdometryIncrement& motion, bool keeps) {
 /// Between readings; nothing beyond them and for what is older than the history.
 std::optional<WheelTravel> PoseFilter::travel_at(Stamp stamp) const {
   if (readings_.size() < 2 || stamp < readings_.front().stamp || stamp > readings_.back().stamp ||
-      stamp < readings_.back().stamp - options_.history) {
+      stamp < readings_.back().stamp - belief_history) {
     return std::nullopt;
   }
   const auto after = std::ranges::lower_bound(readings_, stamp, {}, &WheelTravel::stamp);
@@ -130,7 +141,7 @@ std::optional<WheelTravel> PoseFilter::travel_at(Stamp stamp) const {
 std::optional<PoseFilter::PlacedFix> PoseFilter::placed(const PlanarFix& fix) const {
   if (const std::optional<WheelTravel> travel = travel_at(fix.stamp)) return PlacedFix{fix, *travel};
   const bool is_ahead = readings_.size() >= 2 && fix.stamp > readings_.back().stamp &&
-                        fix.stamp <= readings_.back().stamp + options_.max_ahead;
+                        fix.stamp <= readings_.back().stamp + most_ahead;
   return is_ahead ? std::optional(brought_back(fix)) : std::nullopt;
 }
 

@@ -41,7 +41,7 @@ struct PictureExpectation {
 class PoseFilter {
  public:
   explicit PoseFilter(const PoseFilterOptions& options = {})
-      : options_(options), zero_velocity_(options.standing_after, options.wheel_step_m) {}
+      : options_(options), zero_velocity_(options.wheel_step_m) {}
 
   /// Moves the belief by the wheels' travel since the last call. Stamps ascend; a reading that is not newer
   /// than the last one is ignored.

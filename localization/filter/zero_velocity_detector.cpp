@@ -3,6 +3,13 @@
 #include <cmath>
 
 namespace lodestar {
+namespace {
+
+/// Without travel. Chosen by hand: a wheel that creeps at the slowest speed that moves a base (2 cm/s) passes
+/// a step of 1 mm six times within it.
+constexpr Duration standing_after = std::chrono::milliseconds(300);
+
+}  // namespace
 
 WheelTravel ZeroVelocityDetector::settled(const WheelTravel& reading) {
   if (!rest_ || !rests(reading)) {
@@ -11,7 +18,7 @@ WheelTravel ZeroVelocityDetector::settled(const WheelTravel& reading) {
     return reading;
   }
   const bool stood = standing_;
-  standing_ = reading.stamp - rest_->stamp >= standing_after_;
+  standing_ = reading.stamp - rest_->stamp >= standing_after;
   if (!standing_) return reading;
   if (!stood) {  // held where it is now, so that coming to rest is no jump
     rest_->left_m = reading.left_m;

@@ -12,8 +12,7 @@ namespace lodestar {
 /// Travel beyond one step is never held back. A value type.
 class ZeroVelocityDetector {
  public:
-  ZeroVelocityDetector(Duration standing_after, double wheel_step_m)
-      : standing_after_(standing_after), wheel_step_m_(wheel_step_m) {}
+  explicit ZeroVelocityDetector(double wheel_step_m) : wheel_step_m_(wheel_step_m) {}
 
   /// The reading, with the wheels held where they came to rest. Stamps ascend.
   WheelTravel settled(const WheelTravel& reading);
@@ -23,7 +22,6 @@ class ZeroVelocityDetector {
  private:
   [[nodiscard]] bool rests(const WheelTravel& reading) const;
 
-  Duration standing_after_;
   double wheel_step_m_;
   std::optional<WheelTravel> rest_;  ///< where the wheels last began to rest
   bool standing_ = false;
