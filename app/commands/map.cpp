@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "app/common/picture_file.hpp"
 #include "app/commands/commands.hpp"
+#include "app/common/picture_file.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/visibility_figure.hpp"

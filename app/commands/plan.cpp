@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/common/picture_file.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/common/picture_file.hpp"
 #include "app/common/stopwatch.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "app/placement/pose_keeping.hpp"

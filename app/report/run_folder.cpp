@@ -1,10 +1,10 @@
-#include "app/common/picture_file.hpp"
 #include "app/report/run_folder.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/common/picture_file.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_statistics.hpp"

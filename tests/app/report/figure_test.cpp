@@ -1,10 +1,10 @@
-#include "app/common/picture_file.hpp"
 #include "app/report/figure.hpp"
 
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "app/common/picture_file.hpp"
 #include "app/report/canvas.hpp"
 #include "maps/input_error.hpp"
 
