@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "localization/detection/disjoint_sets.hpp"
-#include "localization/sixteen_pixels.hpp"
+#include "localization/detection/sixteen_pixels.hpp"
 
 namespace lodestar {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "localization/detection/sixteen_pixels.hpp"
 #include "localization/detection/wide_registers.hpp"
-#include "localization/sixteen_pixels.hpp"
 
 namespace lodestar {
 namespace {

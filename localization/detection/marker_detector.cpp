@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "localization/detection/confidence.hpp"
-#include "localization/sixteen_pixels.hpp"
+#include "localization/detection/sixteen_pixels.hpp"
 
 namespace lodestar {
 namespace {
