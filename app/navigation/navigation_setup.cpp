@@ -29,8 +29,9 @@ NavigationOptions navigation_options(const Robot& robot) {
   // this one's and that of the frame's noise, some 0.01 px, together.
   options.fix.dot_place_sigma_m = 0.00007;
   options.filter.track_width_m = robot.track_width_m;
-  options.filter.wheel_step_m = robot.encoder_step_m;
-  options.filter.wheel_noise_m_per_sqrt_m = robot.wheel_noise_m_per_sqrt_m;
+  options.filter.wheel_step_m = robot.encoder_step_m.value_or(options.filter.wheel_step_m);
+  options.filter.wheel_noise_m_per_sqrt_m =
+      robot.wheel_noise_m_per_sqrt_m.value_or(options.filter.wheel_noise_m_per_sqrt_m);
   options.filter.fix_sigma_floor_m = robot.shared_fix_sigma_m.value_or(options.filter.fix_sigma_floor_m);
   options.filter.fix_sigma_floor_rad =
       robot.shared_fix_sigma_rad.value_or(options.filter.fix_sigma_floor_rad);
@@ -43,9 +44,9 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.drive.max_turn_acceleration_radps2 = robot.max_turn_acceleration_radps2;
   options.drive.max_wheel_mps = robot.max_wheel_mps;
   options.drive.track_width_m = robot.track_width_m;
-  options.drive.response_s = robot.response_s;
-  options.drive.min_forward_mps = robot.dead_band_mps;
-  options.drive.min_turn_radps = robot.dead_band_radps;
+  options.drive.response_s = robot.response_s.value_or(options.drive.response_s);
+  options.drive.min_forward_mps = robot.dead_band_mps.value_or(options.drive.min_forward_mps);
+  options.drive.min_turn_radps = robot.dead_band_radps.value_or(options.drive.min_turn_radps);
   options.drive.arrival_distance_m = robot.arrival_distance_m;
   options.drive.blend_corridor_m = robot.pass_corners_within_m;
   options.drive.arrival_heading_rad = robot.arrival_heading_rad;

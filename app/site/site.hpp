@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "app/site/goal.hpp"
-#include "control/drive_options.hpp"
-#include "localization/filter/pose_filter_options.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"
@@ -40,11 +38,11 @@ struct Robot {
   double arrival_distance_m = 0.0;
   double arrival_heading_rad = 0.0;
   // What differs from base to base; where the file says nothing, that of the lab's.
-  double response_s = DriveOptions{}.response_s;
-  double dead_band_mps = DriveOptions{}.min_forward_mps;
-  double dead_band_radps = DriveOptions{}.min_turn_radps;
-  double encoder_step_m = PoseFilterOptions{}.wheel_step_m;
-  double wheel_noise_m_per_sqrt_m = PoseFilterOptions{}.wheel_noise_m_per_sqrt_m;
+  std::optional<double> response_s;
+  std::optional<double> dead_band_mps;
+  std::optional<double> dead_band_radps;
+  std::optional<double> encoder_step_m;
+  std::optional<double> wheel_noise_m_per_sqrt_m;
 };
 
 /// Where the real base is.

@@ -12,11 +12,11 @@ Stamp at(int step) {
 }
 
 TEST(ZeroVelocityDetector, holds_wheels_whose_encoders_flicker) {
-  ZeroVelocityDetector standstill(from_seconds(0.3), step_m);
+  ZeroVelocityDetector detector(step_m);
   WheelTravel settled;
   for (int i = 0; i < 500; ++i) {
-    settled = standstill.settled({at(i), 1.0 + step_m * (i % 2), 2.0});
-    EXPECT_EQ(standstill.standing(), i >= 15) << i;
+    settled = detector.settled({at(i), 1.0 + step_m * (i % 2), 2.0});
+    EXPECT_EQ(detector.standing(), i >= 15) << i;
     if (i < 15) continue;
     EXPECT_EQ(settled.left_m, 1.001) << "where it was when it stood";
     EXPECT_EQ(settled.stamp, at(i)) << "time goes on";
@@ -25,21 +25,21 @@ TEST(ZeroVelocityDetector, holds_wheels_whose_encoders_flicker) {
 
 TEST(ZeroVelocityDetector, lets_slow_travel_through) {
   // A tenth of a millimetre every reading, 5 mm/s: shown in steps of a millimetre.
-  ZeroVelocityDetector standstill(from_seconds(0.3), step_m);
+  ZeroVelocityDetector detector(step_m);
   for (int i = 0; i < 1000; ++i) {
     const double reported_m = step_m * std::floor(0.1 * i);
-    const WheelTravel settled = standstill.settled({at(i), reported_m, reported_m});
+    const WheelTravel settled = detector.settled({at(i), reported_m, reported_m});
     EXPECT_NEAR(settled.left_m, reported_m, 1.01 * step_m);
   }
-  EXPECT_EQ(standstill.settled({at(1000), 0.200, 0.200}).left_m, 0.200);
+  EXPECT_EQ(detector.settled({at(1000), 0.200, 0.200}).left_m, 0.200);
 }
 
 TEST(ZeroVelocityDetector, ends_with_the_first_real_travel) {
-  ZeroVelocityDetector standstill(from_seconds(0.3), step_m);
-  for (int i = 0; i < 100; ++i) standstill.settled({at(i), 0.0, 0.0});
-  ASSERT_TRUE(standstill.standing());
-  const WheelTravel settled = standstill.settled({at(100), 0.002, -0.002});
-  EXPECT_FALSE(standstill.standing());
+  ZeroVelocityDetector detector(step_m);
+  for (int i = 0; i < 100; ++i) detector.settled({at(i), 0.0, 0.0});
+  ASSERT_TRUE(detector.standing());
+  const WheelTravel settled = detector.settled({at(100), 0.002, -0.002});
+  EXPECT_FALSE(detector.standing());
   EXPECT_EQ(settled.left_m, 0.002);
   EXPECT_EQ(settled.right_m, -0.002);
 }

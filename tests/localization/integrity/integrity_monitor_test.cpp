@@ -23,7 +23,7 @@ class Drive {
   [[nodiscard]] Pose2 ahead() const { return {{rolled_m_ + pace_m, 0.0}, 0.0}; }
   [[nodiscard]] Stamp now() const { return now_; }
 
-  IntegrityMonitor integrity;
+  IntegrityMonitor monitor;
   double pace_m = 0.03;
 
  private:
