@@ -37,7 +37,7 @@ struct Robot {
   double max_wheel_mps = 0.0;
   double arrival_distance_m = 0.0;
   double arrival_heading_rad = 0.0;
-  // What differs from base to base; where the file says nothing, that of the lab's.
+  // What differs from base to base; nothing: the defaults of DriveOptions and PoseFilterOptions.
   std::optional<double> response_s;
   std::optional<double> dead_band_mps;
   std::optional<double> dead_band_radps;
