@@ -50,7 +50,7 @@ bool write_all(int descriptor, std::string_view content) {
                    "a folder that can be written");
 }
 
-/// What stays of writers that were killed: ".NAME.PID" of processes that are no more.
+/// Removes what killed writers left behind: ".NAME.PID" files of processes that no longer exist.
 void remove_orphans(const std::filesystem::path& folder, const std::string& name) {
   const std::string prefix = "." + name + ".";
   std::error_code none;
@@ -79,7 +79,8 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
   }
   remove_orphans(folder, file.filename().string());
   if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(file, temporary);
-  // The rename itself must outlive a power cut; a file system that cannot sync folders has none to offer.
+  // The rename itself must survive a power cut; on a file system that cannot sync folders that is not
+  // possible.
   const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.is_open()) ::fsync(directory.get());
 }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr int max_side_px = 32768;
 
-/// What both kinds of file say, before it is judged.
+/// The values of either kind of file, before they are checked.
 struct Calibration {
   int width_px = 0;
   int height_px = 0;
@@ -88,7 +88,7 @@ std::vector<double> read_matrix(StrictYaml yaml, int wanted_rows, std::optional<
   return data;
 }
 
-/// Keys of camera_info that a pose from single images has no use for, but that belong in the file.
+/// Keys of camera_info that localization from single images does not use, but that are valid in the file.
 void read_unused(StrictYaml& yaml) {
   if (yaml.has("camera_name")) (void)yaml.node("camera_name");
   if (yaml.has("rectification_matrix")) (void)read_matrix(yaml.mapping("rectification_matrix"), 3, 3);
@@ -112,7 +112,7 @@ CameraModel load_camera_info(const fs::path& file) {
   return model_of(calibration, yaml);
 }
 
-/// An !!opencv-matrix of so many numbers, in a row or in a column.
+/// An !!opencv-matrix with the given number of entries, as a row or as a column.
 std::vector<double> read_opencv_matrix(StrictYaml yaml, int rows, std::optional<int> columns) {
   const int found_rows = yaml.integer("rows", 1, 1000);
   const int found_columns = yaml.integer("cols", 1, 1000);
@@ -124,9 +124,8 @@ std::vector<double> read_opencv_matrix(StrictYaml yaml, int rows, std::optional<
   return yaml.numbers("data", static_cast<std::size_t>(found_rows) * static_cast<std::size_t>(found_columns));
 }
 
-/// As OpenCV's calibration writes it: YAML but for its first line. Read without cv::FileStorage, which does
-/// not come back from some malformed files. What else stands in it, as flags and errors, is nobody's business
-/// here.
+/// The format that OpenCV's calibration writes: YAML but for its first line. Read without cv::FileStorage,
+/// which never returns from some malformed files. Other keys (flags, errors) are ignored.
 CameraModel load_file_storage(const fs::path& file, std::string text) {
   text.front() = '#';
   StrictYaml yaml = StrictYaml::parse(text, file);

@@ -93,7 +93,7 @@ std::optional<Vec2> CameraModel::normalized(const Vec2& pixel) const {
   if (distortion == Distortion::none) return wanted;
   Vec2 guess = wanted;
   if (distortion == Distortion::equidistant) {
-    // The image radius is about the angle itself, which starts Newton's method close by.
+    // The image radius is close to the angle itself: a good initial guess for Newton's method.
     const double theta = wanted.norm();
     if (theta >= 0.5 * std::numbers::pi) return std::nullopt;
     if (theta > tiny) guess = wanted * (std::tan(theta) / theta);

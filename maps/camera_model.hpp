@@ -24,17 +24,17 @@ struct CameraModel {
   Distortion distortion = Distortion::none;
   std::array<double, 8> coefficients{};
 
-  /// Image point of a point in the camera frame; nothing behind the camera (z <= 0).
+  /// Image point of a point in the camera frame; empty behind the camera (z <= 0).
   [[nodiscard]] std::optional<Vec2> project(const Vec3& point_in_camera) const;
 
   /// Image point of the ray (x, y, 1).
   [[nodiscard]] Vec2 distorted(const Vec2& normalized) const;
 
-  /// Derivative of distorted() by its argument, pixels per unit.
+  /// Jacobian of distorted(), in pixels per unit of the ray.
   [[nodiscard]] Eigen::Matrix2d distorted_jacobian(const Vec2& normalized) const;
 
-  /// The inverse of distorted(): x and y of the ray (x, y, 1) through a pixel (Newton's method). Nothing when
-  /// the distortion has no inverse there.
+  /// The inverse of distorted(): x and y of the ray (x, y, 1) through a pixel (Newton's method). Empty where
+  /// the distortion cannot be inverted.
   [[nodiscard]] std::optional<Vec2> normalized(const Vec2& pixel) const;
 
   [[nodiscard]] bool contains(const Vec2& pixel, double margin_px = 0.0) const;
@@ -43,8 +43,8 @@ struct CameraModel {
 /// Reads a ROS camera_info YAML file, or an OpenCV FileStorage one (`%YAML:1.0`). Throws InputError.
 CameraModel load_camera(const std::filesystem::path& file);
 
-/// Writes a ROS camera_info YAML file, atomically, from which load_camera reads the same model back, bit for
-/// bit. `name` becomes camera_name. Throws InputError when it cannot be written.
+/// Writes a ROS camera_info YAML file atomically; load_camera reads the same model back, bit for bit. `name`
+/// becomes camera_name. Throws InputError when it cannot be written.
 void save_camera(const CameraModel& camera, const std::string& name, const std::filesystem::path& file);
 
 }  // namespace lodestar

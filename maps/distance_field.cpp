@@ -7,10 +7,10 @@
 namespace lodestar {
 namespace {
 
-/// Distances down and up one column to the nearest cell that is not drivable, the outside of the map
-/// included.
+/// Distances along one column, in both directions, to the nearest cell that is not drivable; outside the map
+/// counts as such.
 void fill_column_distances(const OccupancyMap& map, int column, std::vector<int>& distances) {
-  int since = 0;  // cells since the last obstacle; the row below the map is one
+  int since = 0;  // cells since the last obstacle; the row below the map counts as one
   for (int row = 0; row < map.rows; ++row) {
     const std::size_t at = map.index({column, row});
     since = is_drivable(map.cells[at]) ? since + 1 : 0;
@@ -24,8 +24,8 @@ void fill_column_distances(const OccupancyMap& map, int column, std::vector<int>
   }
 }
 
-/// The lower envelope of the parabolas (x - i)^2 + height_i^2, i = -1 .. columns (the ends are the walls that
-/// the map's outside counts as), sampled at each column. Integer arithmetic throughout, so exact.
+/// The lower envelope of the parabolas (x - i)^2 + height_i^2, i = -1 .. columns (the first and the last
+/// stand for the outside of the map), sampled at each column. Integer arithmetic throughout, so exact.
 class RowEnvelope {
  public:
   explicit RowEnvelope(int columns)

@@ -6,9 +6,9 @@
 
 namespace lodestar {
 
-/// For each cell the exact Euclidean distance, centre to centre, to the nearest cell that is not drivable
-/// (Felzenszwalb and Huttenlocher 2012, two passes of parabola envelopes over squared integers). What lies
-/// outside the map counts as not drivable.
+/// Exact Euclidean distance transform: for each cell the distance, centre to centre, to the nearest cell that
+/// is not drivable (Felzenszwalb and Huttenlocher 2012, two passes of parabola envelopes over squared
+/// integers). Everything outside the map counts as not drivable.
 class DistanceField {
  public:
   explicit DistanceField(const OccupancyMap& map);

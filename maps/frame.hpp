@@ -6,8 +6,7 @@
 
 namespace lodestar {
 
-/// One picture of the ceiling: 8-bit gray (CV_8UC1), stamped with the middle of its exposure, not its
-/// arrival.
+/// One camera image: 8-bit gray (CV_8UC1), stamped with its mid-exposure time, not its arrival time.
 struct Frame {
   Stamp stamp;
   cv::Mat gray;

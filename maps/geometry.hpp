@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-// The words for place and direction. A transform's name says where it goes and where it comes from, so that
-// in a product the inner words meet: point_in_map = map_from_base * base_from_camera * point_in_camera.
+// Points, angles and transforms. A transform's name gives its target and its source frame, so that in a
+// product the inner names match: point_in_map = map_from_base * base_from_camera * point_in_camera.
 namespace lodestar {
 
 using Vec2 = Eigen::Vector2d;
@@ -27,7 +27,7 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The same direction in (-pi, pi].
+/// The equivalent angle in (-pi, pi].
 double wrap_angle(double angle_rad);
 
 /// The heading of a vector in the plane, in (-pi, pi]: 0 along x, counter-clockwise.
@@ -36,7 +36,7 @@ double heading_of(const Vec2& way);
 /// The heading of the way from one point to another, Eq. (18) with atan2.
 double heading_between(const Vec2& from, const Vec2& to);
 
-/// A rigid motion of the plane, or the place of one frame in another: x and y in metres, yaw
+/// A rigid transform in the plane, or the pose of one frame in another: x and y in metres, yaw
 /// counter-clockwise.
 struct Pose2 {
   Vec2 position_m = Vec2::Zero();
@@ -48,10 +48,11 @@ Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c);
 Vec2 operator*(const Pose2& a_from_b, const Vec2& point_in_b);
 Pose2 inverse(const Pose2& a_from_b);
 
-/// The same motion in space, at height z_m.
+/// The same transform in 3D, at height z_m.
 Eigen::Isometry3d lifted(const Pose2& pose, double z_m = 0.0);
 
-/// The pose seen from above: drops height, roll and pitch. Yaw is the direction of the x axis in the plane.
+/// Projection of a 3D pose into the plane: drops height, roll and pitch. Yaw is the direction of the
+/// projected x axis.
 Pose2 flattened(const Eigen::Isometry3d& pose);
 
 /// Rotation Rz(yaw) Ry(pitch) Rx(roll), and its inverse. Angles in radians.

@@ -8,9 +8,9 @@
 namespace lodestar {
 namespace {
 
-/// The bits of all bands that the heights from `from_m` to `to_m` touch.
+/// The bits of all bands that overlap the heights from `from_m` to `to_m`.
 std::uint32_t bits_between(const HeightBands& bands, double from_m, double to_m) {
-  constexpr double dust_m = 1e-6;  // a voxel's face on a band's edge belongs to one of them
+  constexpr double dust_m = 1e-6;  // a voxel's face on the boundary of two bands belongs to one of them
   const auto first = static_cast<int>(std::floor((from_m - bands.low_m + dust_m) / bands.step_m));
   const auto last = static_cast<int>(std::floor((to_m - bands.low_m - dust_m) / bands.step_m));
   std::uint32_t bits = 0;
@@ -19,8 +19,8 @@ std::uint32_t bits_between(const HeightBands& bands, double from_m, double to_m)
   return bits;
 }
 
-/// Sets the bits in every cell that a voxel's square covers, looking twice in each cell's width: the grid may
-/// lie turned.
+/// Sets the bits in every cell that a voxel's square covers, sampled at half the cell size: the grid may be
+/// rotated.
 void add_voxel(HeightBands& bands, const OccupancyMap& map, const Vec3& middle, double side_m) {
   const std::uint32_t bits = bits_between(bands, middle.z() - 0.5 * side_m, middle.z() + 0.5 * side_m);
   if (bits == 0) return;
@@ -38,7 +38,7 @@ void add_voxel(HeightBands& bands, const OccupancyMap& map, const Vec3& middle, 
 
 HeightBands height_bands(const std::filesystem::path& octomap_file, const OccupancyMap& map, double low_m,
                          double high_m) {
-  constexpr double touch_voxels = 1.8;  // as SightLines has it
+  constexpr double touch_voxels = 1.8;  // the same as in SightLines
   const std::unique_ptr<octomap::OcTree> tree = read_octree(octomap_file);
   HeightBands bands{.low_m = low_m,
                     .step_m = std::max(tree->getResolution(), (high_m - low_m) / HeightBands::count),

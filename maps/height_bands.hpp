@@ -8,19 +8,19 @@
 
 namespace lodestar {
 
-/// What an OctoMap shows to be occupied above each cell of a floor map, in so few bytes that a page can
-/// follow sight lines through it while a marker is dragged.
+/// The occupied height bands of an OctoMap above each cell of a floor map, compact enough for a web page to
+/// trace sight lines through it while a marker is dragged.
 struct HeightBands {
   static constexpr int count = 32;
 
   double low_m = 0.0;    ///< of the lowest band, in the map frame
   double step_m = 0.0;   ///< of one band; not less than a voxel
-  double touch_m = 0.0;  ///< what is nearer than this to an end of a sight line touches it and hides nothing
+  double touch_m = 0.0;  ///< voxels nearer than this to an end of a sight line do not block it
   std::vector<std::uint32_t>
-      cells;  ///< as the map's; bit k: something from low_m + k step_m on, in that band
+      cells;  ///< in the map's order; bit k: occupied in the band that begins at low_m + k step_m
 };
 
-/// Of the heights from low_m to high_m. Throws InputError.
+/// The bands from low_m to high_m. Throws InputError.
 HeightBands height_bands(const std::filesystem::path& octomap_file, const OccupancyMap& map, double low_m,
                          double high_m);
 

@@ -6,8 +6,8 @@
 
 namespace lodestar {
 
-/// Input that cannot be used. what() reads `file:line: found ..., wanted ...`; line 0 (not a matter of one
-/// line: a missing or binary file) is left out. The command line turns it into exit code 2.
+/// Input that cannot be used. what() reads `file:line: found ..., wanted ...`; line 0 (the error has no line:
+/// a missing or binary file) is left out. The command line turns it into exit code 2.
 class InputError : public std::runtime_error {
  public:
   InputError(const std::filesystem::path& file, int line, const std::string& found,

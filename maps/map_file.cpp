@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What map_saver writes, and thresholds that read it back. 205 is darker than 0.196 tells free by a hair:
-// (255 - 205) / 255 = 0.19608.
+// The gray values that map_saver writes, and thresholds that read them back: (255 - 205) / 255 = 0.19608 is
+// just above the free threshold of 0.196, so 205 is read as unknown.
 constexpr std::uint8_t saved_free = 254;
 constexpr std::uint8_t saved_occupied = 0;
 constexpr std::uint8_t saved_unknown = 205;
@@ -58,7 +58,7 @@ std::int8_t raw_value(std::uint8_t gray) {
   return gray <= OccupancyMap::occupied ? static_cast<std::int8_t>(gray) : OccupancyMap::unknown;
 }
 
-/// Nav2's rules: darker is fuller (lighter, when negated); `p` is the share of black.
+/// Nav2's rules: darker means more occupied (lighter, when negated); `p` is the occupancy, 1 for black.
 std::int8_t value_of(std::uint8_t gray, const MapFileInfo& info) {
   if (info.mode == MapMode::raw) return raw_value(gray);
   const double p = (info.negate ? gray : 255 - gray) / 255.0;
@@ -69,7 +69,7 @@ std::int8_t value_of(std::uint8_t gray, const MapFileInfo& info) {
   return static_cast<std::int8_t>(std::lround(share * OccupancyMap::occupied));
 }
 
-/// In raw mode the pixel is the value itself, and alpha says nothing.
+/// In raw mode the pixel is the occupancy value itself, and alpha is ignored.
 bool hides_value(const MapImage& image, std::size_t pixel, MapMode mode) {
   return mode != MapMode::raw && !image.transparent.empty() && image.transparent[pixel];
 }
@@ -156,7 +156,8 @@ LoadedMap load_map(const fs::path& yaml_file) {
 }
 
 void save_map(const OccupancyMap& map, const fs::path& yaml_file) {
-  // Not over the image that the file names now: until the YAML file is replaced, the old map is the map.
+  // Do not overwrite the image that the file names at present: until the YAML file is replaced, the old map
+  // is valid.
   const std::string stem = yaml_file.stem().string();
   const std::string before = present_image(yaml_file);
   const std::string name = before == stem + ".pgm" ? stem + "_b.pgm" : stem + ".pgm";

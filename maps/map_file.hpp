@@ -31,10 +31,10 @@ struct LoadedMap {
 /// thresholds out of order, an image that is missing or broken.
 LoadedMap load_map(const std::filesystem::path& yaml_file);
 
-/// Writes `yaml_file` and the image beside it (STEM.pgm, or STEM_b.pgm when the file names the first now): at
-/// every moment, that of a power cut too, the file names a whole map, the old or the new one. In a mode that
-/// loses nothing: trinary when all values are 0, 100 or -1, raw otherwise. Numbers are written so that
-/// reading gives the same doubles back.
+/// Writes `yaml_file` and the image beside it (STEM.pgm, or STEM_b.pgm when the YAML file names STEM.pgm
+/// already): at every moment, also after a power cut, the YAML file names a complete image, the old or the
+/// new one. The mode is lossless: trinary when all values are 0, 100 or -1, raw otherwise. Numbers are
+/// written such that reading returns the same doubles.
 void save_map(const OccupancyMap& map, const std::filesystem::path& yaml_file);
 
 }  // namespace lodestar

@@ -93,7 +93,7 @@ MapImage read_pgm(const std::string& bytes) {
   image.height_px = reader.number("height", 1, max_side_px);
   const int maximum = reader.number("maximum", 1, 65535);
   const auto pixels = static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
-  if (bytes.size() < pixels) refuse("PGM cut short");  // before any memory is asked for
+  if (bytes.size() < pixels) refuse("PGM cut short");  // before any memory is allocated
   image.gray.resize(pixels);
   if (bytes[1] == '5') {
     read_binary_pixels(bytes, reader.start_of_binary(), maximum, image);
@@ -103,7 +103,7 @@ MapImage read_pgm(const std::string& bytes) {
   return image;
 }
 
-/// The gray value of map_server: the mean of the colour channels, alpha apart.
+/// The gray value as map_server computes it: the mean of the colour channels, without alpha.
 std::uint8_t mean_of(const std::uint8_t* pixel, int channels) {
   if (channels < 3) return pixel[0];
   return static_cast<std::uint8_t>((pixel[0] + pixel[1] + pixel[2]) / 3);

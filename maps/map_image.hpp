@@ -7,7 +7,7 @@
 
 namespace lodestar {
 
-/// The picture of a map: gray values as map_server means them, top row first.
+/// The image of a map: gray values as map_server defines them, top row first.
 struct MapImage {
   int width_px = 0;
   int height_px = 0;

@@ -22,7 +22,7 @@ inline constexpr double marker_dot_radius_m = 0.01;
 inline constexpr int marker_grid_size = 4;
 inline constexpr int marker_id_count = 4096;
 
-/// A place of the grid; row 0 is the top one (Y's), column 0 the left one (O's and Y's).
+/// A cell of the grid; row 0 is the top one (Y's), column 0 the left one (O's and Y's).
 struct GridCell {
   int row = 0;
   int column = 0;
@@ -34,7 +34,7 @@ inline constexpr GridCell cell_of_x{3, 3};
 inline constexpr GridCell cell_of_y{0, 0};
 inline constexpr GridCell cell_always_empty{0, 3};
 
-/// The bit of the ID that a coded dot stands for, Q of Eq. (9); 0 for the four corners.
+/// The weight of a coded dot in the ID, Q of Eq. (9); 0 for the four corners.
 constexpr int id_bit(GridCell cell) {
   constexpr std::array<std::array<int, 4>, 4> q{{{0x000, 0x020, 0x200, 0x000},
                                                  {0x002, 0x010, 0x100, 0x800},

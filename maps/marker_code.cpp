@@ -30,7 +30,8 @@ int cells_apart(MarkerPattern a, MarkerPattern b) {
   return std::popcount(static_cast<unsigned>(a ^ b));
 }
 
-/// For each ID, those that must not be chosen with it; itself, when it must not be chosen at all.
+/// For each ID the IDs that must not be chosen together with it; contains the ID itself when it must not be
+/// chosen at all.
 class Rivals {
  public:
   explicit Rivals(const MarkerCodeOptions& options) : options_(options), of_(marker_id_count) {
@@ -41,7 +42,7 @@ class Rivals {
   const IdSet& operator[](int id) const { return of_[static_cast<std::size_t>(id)]; }
 
  private:
-  /// Being rivals is mutual, for with each view its inverse counts.
+  /// The relation is symmetric, since for each view its inverse counts too.
   void add_rivals_from(int a) {
     const auto place_of_a = static_cast<std::size_t>(a);
     for (int b = 0; b <= a; ++b) {
@@ -69,7 +70,7 @@ class Rivals {
   std::vector<IdSet> of_;
 };
 
-/// IDs that may be chosen at all.
+/// The IDs that are candidates at all.
 IdSet candidates(const std::vector<int>& taken, const Rivals& rivals, const MarkerCodeOptions& options) {
   IdSet free;
   for (int id = 0; id < marker_id_count; ++id) {
@@ -84,13 +85,14 @@ IdSet candidates(const std::vector<int>& taken, const Rivals& rivals, const Mark
   return free;
 }
 
-/// An order of all IDs: sums of the basis' words, the last word's coming last, all with the constant added.
+/// An order of all IDs: the sums (XOR) of basis words, those with the last word at the end, each with the
+/// constant added.
 struct Order {
   std::array<int, id_bits> basis{};
   int constant = 0;
 };
 
-/// Gauss' elimination over bits.
+/// Gaussian elimination over GF(2).
 bool is_basis(std::array<int, id_bits> words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == 0) return false;
@@ -116,7 +118,7 @@ Order random_order(Random& random) {
   return order;
 }
 
-/// One step away: another constant, or a word of the basis changed or moved.
+/// A neighbour in the search: another constant, or one basis word changed or moved.
 Order varied(const Order& order, Random& random) {
   for (;;) {
     Order result = order;
@@ -190,7 +192,7 @@ std::vector<int> choose_marker_ids(int count, const std::vector<int>& taken,
   const Rivals rivals(options);
   const IdSet free = candidates(taken, rivals, options);
   Random random(options.seed);
-  constexpr int patience = 300;  // so long without a larger code, and the climb begins elsewhere
+  constexpr int patience = 300;  // steps without a larger code before a restart
   std::vector<int> best;
   Order order;
   std::size_t size = 0;

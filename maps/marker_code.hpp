@@ -5,15 +5,15 @@
 
 #include "maps/marker.hpp"
 
-// How far apart markers are: the number of the grid's 16 cells that must be misread, a dot lost or a glint
-// won, to take one marker for another.
+// Distance between marker codes: the number of the grid's 16 cells that must be misread (a missed dot or a
+// glint read as a dot) to confuse one marker with another.
 namespace lodestar {
 
 /// The cells that hold a dot, bit 4 row + column.
 using MarkerPattern = std::uint16_t;
 
-/// One of the eight ways to lay a square on a square: mirrored about the diagonal through O first, then
-/// turned by quarters, counter-clockwise as the camera sees it.
+/// One of the eight symmetries of a square: first mirrored about the diagonal through O, then rotated by
+/// quarter turns, counter-clockwise as the camera sees it.
 struct MarkerView {
   int quarter_turns = 0;  ///< 0..3
   bool mirrored = false;
@@ -21,38 +21,38 @@ struct MarkerView {
 
 MarkerPattern pattern_of(int id, MarkerView view = {});
 
-/// Of two markers that are read upright: the Hamming distance of their IDs.
+/// Hamming distance of the IDs, for two markers that are both read upright.
 int id_distance(int a, int b);
 
-/// Of marker a, upright, and marker b in any of the seven other views: how many cells must be misread at
-/// least to take the one for the other, wrongly turned. `a` may be `b`. A turn changes two corners at least
-/// (the one opposite O is empty), a mirror image about O's diagonal none: with it, an ID whose pattern is
-/// symmetrical about that diagonal is at distance 0 of itself.
+/// Smallest number of cells that must be misread to confuse marker `a`, upright, with marker `b` in one of
+/// the seven other views (rotated or mirrored). `a` may equal `b`. A rotation changes at least two corners
+/// (the one opposite O is empty); mirroring about O's diagonal changes none, so an ID whose pattern is
+/// symmetrical about that diagonal has distance 0 to itself.
 int turned_distance(int a, int b);
 
 struct MarkerCodeOptions {
-  int min_distance = 3;  ///< between all that are chosen
-  int min_dots = 5;      ///< O, X and Y among them; three or four say little of whether they are a marker
-  /// Do turned and mirrored views count too? Then an ID is also kept apart from the views of all others and
-  /// of itself. That leaves out the 128 symmetrical IDs: when a camera's driver mirrors its image, or a
-  /// marker is printed mirrored, they alone would be read as themselves with X and Y exchanged, and give a
-  /// wrong pose instead of none.
+  int min_distance = 3;  ///< between any two chosen IDs
+  int min_dots = 5;      ///< including O, X and Y; three or four dots are weak evidence of a marker
+  /// Whether rotated and mirrored views count too. Then an ID also keeps its distance from those views of all
+  /// other IDs and of itself. This excludes the 128 symmetrical IDs: when a camera driver mirrors its image,
+  /// or a marker is printed mirrored, they would be read with the correct ID but with X and Y exchanged, and
+  /// give a wrong pose instead of none.
   bool all_views = true;
   std::uint64_t seed = 1;
   int lexicodes = 10'000;  ///< tried at most; a second or two
 };
 
-/// IDs in ascending order, `count` of them or as many as were found, each at the wanted distance from each
-/// other and from those in `taken`. The same seed gives the same IDs.
+/// IDs in ascending order, `count` of them or as many as were found, all at least the wanted distance from
+/// each other and from those in `taken`. The same seed gives the same IDs.
 ///
-/// Lexicodes: take the words of 12 bits in order, keep each that is far enough from all kept (Conway and
-/// Sloane, "Lexicographic codes", 1986). In the order that any basis gives, the result is linear (Brualdi and
-/// Pless, "Greedy codes", 1993), and a constant added to all words moves it away from words with few dots:
-/// 256 IDs at distance 3, 128 at distance 4 where views do not count. Where they do, bases and constants
-/// differ in how many words they lead to, and those that lead to more are found by climbing: change one of
-/// them a little, keep what is no worse, begin elsewhere when that has long brought nothing. It finds about
-/// 110 IDs at distance 3 and 64 at distance 4. More than 128 and 72 cannot be: together with their mirror
-/// images they make a plain code twice as large.
+/// Lexicodes: go through the 12-bit words in order and keep each that is far enough from all kept so far
+/// (Conway and Sloane, "Lexicographic codes", 1986). With the order induced by any basis the result is a
+/// linear code (Brualdi and Pless, "Greedy codes", 1993), and a constant added to all words avoids words with
+/// few dots: 256 IDs at distance 3, 128 at distance 4 when views do not count. When they do, the size of the
+/// code depends on the basis and the constant, and larger codes are found by hill climbing with restarts:
+/// change basis or constant a little, keep the change if the code is no smaller, restart after a long time
+/// without progress. It finds about 110 IDs at distance 3 and 64 at distance 4. The upper limits are 128 and
+/// 72: together with their mirror images the IDs form a plain code twice as large.
 std::vector<int> choose_marker_ids(int count, const std::vector<int>& taken,
                                    const MarkerCodeOptions& options);
 

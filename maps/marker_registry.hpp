@@ -13,15 +13,15 @@ struct RegisteredMarker {
   int id = 0;
   Vec3 position_m = Vec3::Zero();
   double yaw_rad = 0.0;
-  int line = 0;  ///< where it stands in its file, for messages; 0 when it has none
+  int line = 0;  ///< line number in its file, for messages; 0 when it has none
 };
 
-/// All surveyed markers, and how the registry as a whole lies on the occupancy map.
+/// All surveyed markers, and the registry's transform to the occupancy map.
 struct MarkerRegistry {
   Pose2 map_from_registry;
   std::vector<RegisteredMarker> markers;
 
-  /// Nothing when no marker, or more than one, has this ID: a robot must not guess which.
+  /// Empty when no marker, or more than one, has this ID: a robot must not guess which.
   [[nodiscard]] const RegisteredMarker* find(int id) const;
 };
 
@@ -35,10 +35,11 @@ Eigen::Isometry3d map_from_marker(const MarkerRegistry& registry, const Register
 /// ill-typed key, a number that is not finite, an ID outside 0..4095 or listed twice.
 MarkerRegistry load_registry(const std::filesystem::path& file);
 
-/// The same for those who look for mistakes: an ID may be listed twice.
+/// The same for `markers check` and the like, which report mistakes: an ID may be listed twice.
 MarkerRegistry load_registry_draft(const std::filesystem::path& file);
 
-/// Writes one marker a line, atomically: a reader sees the old file or the new one, whole.
+/// Writes one marker per line, atomically: a reader sees either the complete old file or the complete new
+/// one.
 void save_registry(const MarkerRegistry& registry, const std::filesystem::path& file);
 
 }  // namespace lodestar

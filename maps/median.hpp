@@ -6,7 +6,7 @@
 
 namespace lodestar {
 
-/// The middle value, of an even number the upper of the two; 0 of none.
+/// Median; of an even number of values the upper of the two middle ones; 0 when there are none.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -6,7 +6,7 @@
 #include "maps/geometry.hpp"
 #include "maps/stamp.hpp"
 
-// How the robot moves, in the words that localization, planning, control and drivers share.
+// Motion types shared by localization, planning, control and drivers.
 namespace lodestar {
 
 /// Velocity of the base frame: forward along its x axis, turning counter-clockwise.
@@ -22,13 +22,13 @@ struct WheelTravel {
   double right_m = 0.0;
 };
 
-/// Where the robot believes it is. The covariance is of (x_m, y_m, yaw_rad) in the map frame.
+/// The estimated pose of the robot. The covariance is of (x_m, y_m, yaw_rad) in the map frame.
 struct PoseEstimate {
   Stamp stamp;
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Stamp last_fix;     ///< capture time of the newest camera fix that the estimate contains
-  Stamp last_agreed;  ///< of the newest frame that confirms it: a fix, or the ceiling that moves as it must
+  Stamp last_agreed;  ///< capture time of the newest frame that confirms it: a fix or visual odometry
 };
 
 /// Straight legs in the map frame; the first waypoint is the start, the last the goal.

@@ -54,7 +54,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// The whole word as a number, nothing when it is none.
+/// The whole word as a number; empty when it is not one.
 template <typename Number>
 std::optional<Number> number_in(const std::string& word) {
   Number number{};

@@ -9,8 +9,8 @@
 // lists of queries with the length of the shortest 8-connected path that cuts no corners.
 namespace lodestar {
 
-/// A `.map` file. Row 0 is the file's first line: y counts downwards there as rows count upwards here, which
-/// mirrors the picture and changes no distance. Cells of `.`, `G` and `S` are free, those of `@`, `O`, `T`
+/// A `.map` file. Row 0 is the file's first line: y points down in the file and rows count upwards here, so
+/// the map is mirrored, which changes no distance. Cells of `.`, `G` and `S` are free, those of `@`, `O`, `T`
 /// and `W` occupied; the resolution is 1 m. Throws InputError with file and line.
 OccupancyMap load_movingai_map(const std::filesystem::path& file);
 

@@ -7,8 +7,8 @@
 namespace lodestar {
 namespace {
 
-/// Floor as an int; far-away or non-finite coordinates end at the edges of int rather than in undefined
-/// behaviour.
+/// Floor as an int; far-away or non-finite coordinates saturate at the limits of int instead of causing
+/// undefined behaviour.
 int floor_to_int(double value) {
   constexpr double limit = std::numeric_limits<int>::max();
   if (std::isnan(value)) return std::numeric_limits<int>::min();

@@ -26,8 +26,8 @@ inline Cell cell_at(const Vec2& point_in_grid) {
   return {static_cast<int>(std::floor(point_in_grid.x())), static_cast<int>(std::floor(point_in_grid.y()))};
 }
 
-/// The floor as known: ROS occupancy values (0 free .. 100 occupied, -1 unknown) on a grid that may lie
-/// rotated in the map frame.
+/// Occupancy grid: ROS values (0 free .. 100 occupied, -1 unknown) on a grid that may be rotated in the map
+/// frame.
 struct OccupancyMap {
   static constexpr std::int8_t free = 0;
   static constexpr std::int8_t occupied = 100;
@@ -36,7 +36,7 @@ struct OccupancyMap {
   int columns = 0;
   int rows = 0;
   double resolution_m = 0.0;
-  Pose2 map_from_grid;             ///< place of the lower-left corner of cell (0, 0): the file's `origin`
+  Pose2 map_from_grid;             ///< pose of the lower-left corner of cell (0, 0): the file's `origin`
   std::vector<std::int8_t> cells;  ///< row by row from the bottom
 
   [[nodiscard]] bool contains(Cell cell) const {
@@ -48,14 +48,13 @@ struct OccupancyMap {
   }
   [[nodiscard]] std::int8_t at(Cell cell) const { return cells[index(cell)]; }
 
-  /// The cell that holds a point of the map frame; it may lie outside the grid, which contains() tells.
+  /// The cell that contains a point of the map frame; it may lie outside the grid (see contains()).
   [[nodiscard]] Cell cell_at(const Vec2& point_in_map) const;
   /// The centre of a cell in the map frame.
   [[nodiscard]] Vec2 center_of(Cell cell) const;
 };
 
-/// May the robot's body stand over a cell of this value? Unknown is not free: the robot never acts on a
-/// guess.
+/// Whether the robot may be over a cell of this value. Unknown counts as not drivable.
 constexpr bool is_drivable(std::int8_t value) {
   return value >= 0 && value < 50;
 }

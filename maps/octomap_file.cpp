@@ -68,7 +68,7 @@ bool is_free_above(const octomap::OcTree& tree, double x_m, double y_m, double t
   return above != nullptr && !tree.isNodeOccupied(*above);
 }
 
-/// How many voxels of each layer are occupied with free air upon them, by the layer's top in voxels.
+/// Number of occupied voxels with free space above them in each layer, by the layer's top in voxels.
 std::map<int, int> surfaces_of(const octomap::OcTree& tree) {
   std::map<int, int> surfaces;
   const double voxel_m = tree.getResolution();
@@ -122,7 +122,8 @@ OccupancyMap Octomap::slice(double z_min_m, double z_max_m) const {
   }
   OccupancyMap map;
   Slicer slicer(*tree_, map);
-  const double touch_m = 1e-6 * tree_->getResolution();  // faces at the slab's very limits do not count
+  const double touch_m =
+      1e-6 * tree_->getResolution();  // voxels that only touch the slab's limits do not count
   bool any = false;
   for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
     const double half_m = 0.5 * leaf.getSize();

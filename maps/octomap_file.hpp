@@ -21,7 +21,7 @@ struct OctomapInfo {
   Vec3 high_m = Vec3::Zero();  ///< opposite corner
 };
 
-/// What an OctoMap .bt or .ot file holds, read once.
+/// The content of an OctoMap .bt or .ot file, read once.
 class Octomap {
  public:
   /// Throws InputError.
@@ -29,9 +29,10 @@ class Octomap {
 
   [[nodiscard]] OctomapInfo info() const;
 
-  /// Height of the floor: the top of the layer that has more voxels with free air upon them than any other,
-  /// or, where measured noise has spread it over several, of the highest adjacent one with a fifth of them.
-  /// Nothing where no voxel has free air upon it. A slice that begins below takes the floor for an obstacle.
+  /// Height of the floor: the top of the layer with the most voxels that have free space above them, or,
+  /// where sensor noise spreads the floor over several layers, of the highest adjacent layer with at least a
+  /// fifth of that number. Empty when no voxel has free space above it. A slice that begins below this height
+  /// reads the floor as an obstacle.
   [[nodiscard]] std::optional<double> floor_m() const;
 
   /// The slab z_min_m <= z < z_max_m as a floor map: a cell is occupied when any voxel of its column that

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
-/// The library prints to the standard streams and returns nothing on most errors; a few it throws.
+/// The library prints most errors to the standard streams and returns null; a few it throws.
 std::unique_ptr<octomap::OcTree> read_octree(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || is_folder(file)) refuse(file, "no file that can be read");

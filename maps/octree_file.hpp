@@ -4,7 +4,7 @@
 #include <memory>
 #include <octomap/OcTree.h>
 
-// For the units that take OctoMaps apart; all others ask them.
+// For the sources that read octrees directly; all others use OctoMapFile, SightLines or HeightBands.
 namespace lodestar {
 
 /// Reads an OctoMap .bt or .ot file. Throws InputError.

@@ -4,8 +4,8 @@
 
 namespace lodestar {
 
-// What a path of unknown origin leads to. std::filesystem's own questions throw where it cannot even be
-// asked, as when a name is too long; then there is nothing here.
+// Queries on a path from user input. Those of std::filesystem throw when the path cannot be looked up at all,
+// for example when a name is too long; these then answer that nothing is there.
 
 inline bool is_folder(const std::filesystem::path& path) {
   std::error_code cannot;

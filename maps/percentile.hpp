@@ -5,8 +5,8 @@
 
 namespace lodestar {
 
-/// The smallest of the values that at least this fraction (0..1) of them does not exceed: the nearest rank.
-/// Nothing of no values.
+/// Nearest-rank percentile: the smallest value such that at least this fraction (0..1) of the values does not
+/// exceed it. Empty when there are no values.
 std::optional<double> percentile(std::vector<double> values, double fraction);
 
 }  // namespace lodestar

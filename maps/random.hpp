@@ -7,7 +7,7 @@
 namespace lodestar {
 
 /// Random numbers that are the same on every machine and library: splitmix64 (Steele, Lea and Flood 2014),
-/// with the distributions written out. The seed is always printed by whoever chooses it.
+/// with the distributions written out. The caller that chooses a seed prints it.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -33,7 +33,7 @@ class Random {
     return radius * std::cos(2.0 * std::numbers::pi * uniform());
   }
 
-  /// A generator of its own for one purpose, so that more draws here do not shift the values there.
+  /// A separate stream for one purpose, so that additional draws here do not change the values there.
   [[nodiscard]] Random stream(std::uint64_t purpose) const {
     return Random(Random(state_ ^ (purpose * 0xd1342543de82ef95ULL)).bits());
   }

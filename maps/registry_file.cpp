@@ -32,7 +32,7 @@ RegisteredMarker read_marker(StrictYaml& yaml) {
   return marker;
 }
 
-/// Degrees without the dust of conversion: 90, not 90.00000000000001.
+/// Degrees without the rounding error of the conversion: 90, not 90.00000000000001.
 double tidy_degrees(double angle_rad) {
   constexpr double per_degree = 1e9;
   return std::round(degrees(angle_rad) * per_degree) / per_degree;
@@ -56,7 +56,7 @@ MarkerRegistry with_each_id_once(MarkerRegistry registry, const std::filesystem:
     const auto [first, is_new] = line_of_id.emplace(marker.id, marker.line);
     if (is_new) continue;
     throw InputError(file, marker.line, fmt::format("marker {} again", marker.id),
-                     fmt::format("each ID once (it stands in line {})", first->second));
+                     fmt::format("each ID once (first in line {})", first->second));
   }
   return registry;
 }

@@ -7,10 +7,10 @@
 
 namespace lodestar {
 
-/// What load_registry does, for a text; `file` is only named in complaints.
+/// load_registry for a text; `file` is only named in error messages.
 MarkerRegistry parse_registry(const std::string& text, const std::filesystem::path& file);
 
-/// What save_registry writes: one marker a line.
+/// The text that save_registry writes: one marker per line.
 std::string registry_text(const MarkerRegistry& registry);
 
 }  // namespace lodestar

@@ -11,7 +11,7 @@ class OcTree;
 
 namespace lodestar {
 
-/// What stands between two points of the map frame, by an OctoMap.
+/// Line-of-sight checks between two points of the map frame, in an OctoMap.
 class SightLines {
  public:
   /// Throws InputError.
@@ -20,8 +20,8 @@ class SightLines {
   SightLines(SightLines&&) noexcept;
   SightLines& operator=(SightLines&&) noexcept;
 
-  /// Is no voxel between the points known to be occupied? What touches either of them, as the ceiling does a
-  /// marker, is not in between; what is unknown hides nothing.
+  /// True when no voxel between the points is known to be occupied. Voxels that touch either end, as the
+  /// ceiling touches a marker, do not count; unknown space does not block.
   [[nodiscard]] bool is_clear(const Vec3& from_m, const Vec3& to_m) const;
 
  private:

@@ -4,7 +4,8 @@
 
 namespace lodestar {
 
-/// The robot's time. It has no now(): only drivers read clocks, everywhere else time arrives with the data.
+/// Clock type of robot time. It has no now(): only drivers read clocks, everywhere else time arrives with the
+/// data.
 struct RobotClock {
   using rep = std::int64_t;
   using period = std::nano;

@@ -10,13 +10,13 @@
 
 namespace lodestar {
 
-/// A YAML mapping of which every key must be known, present and well typed. Ask for the keys, then call
-/// finish(): a key that nobody asked for is an error. All errors are InputErrors with file and line.
+/// A YAML mapping whose keys must all be known, present and of the right type. Read the keys, then call
+/// finish(): a key that was not read is an error. All errors are InputErrors with file and line.
 class StrictYaml {
  public:
-  /// The top mapping of a file.
+  /// The top-level mapping of a file.
   static StrictYaml load(const std::filesystem::path& file);
-  /// The top mapping of a text; `file` is only named in complaints.
+  /// The top-level mapping of a text; `file` is only named in error messages.
   static StrictYaml parse(const std::string& text, const std::filesystem::path& file);
 
   [[nodiscard]] bool has(const std::string& key) const;
@@ -32,10 +32,10 @@ class StrictYaml {
   [[nodiscard]] std::vector<StrictYaml> list_of_mappings(const std::string& key);
   [[nodiscard]] YAML::Node node(const std::string& key);
 
-  /// Throws for the first key that nobody asked for.
+  /// Throws for the first key that was not read.
   void finish() const;
 
-  /// Throws InputError at the line of a key of this mapping.
+  /// Throws InputError with the line of the given key of this mapping.
   [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& wanted) const;
 
   [[nodiscard]] int line() const;

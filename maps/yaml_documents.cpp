@@ -7,7 +7,7 @@
 namespace lodestar {
 namespace {
 
-/// Hears where documents start, and nothing of what is in them.
+/// Records where documents start and ignores their content.
 class DocumentStart : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
