@@ -4,7 +4,7 @@
 #include <memory>
 #include <octomap/OcTree.h>
 
-// For the sources that read octrees directly; all others use OctoMapFile, SightLines or HeightBands.
+// For the sources that read octrees directly; all others use Octomap, SightLines or HeightBands.
 namespace lodestar {
 
 /// Reads an OctoMap .bt or .ot file. Throws InputError.

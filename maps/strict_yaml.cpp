@@ -167,7 +167,7 @@ std::vector<Vec2> StrictYaml::points(const std::string& key, double most) {
     const std::optional<double> x = as_number(item[0]);
     const std::optional<double> y = as_number(item[1]);
     if (!x || !y || std::abs(*x) > most || std::abs(*y) > most)
-      throw InputError(file_, line_of(item), "a point that is none in '" + key + "'", wanted);
+      throw InputError(file_, line_of(item), "a malformed point in '" + key + "'", wanted);
     points.emplace_back(*x, *y);
   }
   return points;

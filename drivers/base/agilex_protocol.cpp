@@ -14,7 +14,7 @@ struct NamedBit {
   const char* name = "";
 };
 
-// Bytes 4 and 5 of the system state as one big-endian number, from each model's user manual.
+// Fault bits: bytes 4 and 5 of the system state as one big-endian number, from each model's user manual.
 constexpr std::array tracer_bits{NamedBit{0x0100, "battery under-voltage"},
                                  NamedBit{0x0200, "battery under-voltage warning"},
                                  NamedBit{0x0400, "remote control lost"}};

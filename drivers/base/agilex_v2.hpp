@@ -7,8 +7,8 @@
 #include "drivers/can/can_bus.hpp"
 #include "maps/motion.hpp"
 
-// AgileX protocol V2: CAN 2.0B at 500 kbit/s, 11-bit identifiers, big-endian, two's complement. The table
-// that it follows is in agilex_v2_table.hpp.
+// AgileX protocol V2: CAN 2.0B at 500 kbit/s, 11-bit identifiers, big-endian, two's complement. The message
+// table is in agilex_v2_table.hpp.
 namespace lodestar::agilex {
 
 inline constexpr std::uint32_t motion_command_id = 0x111;
@@ -36,8 +36,8 @@ CanFrame encode_system_state(const SystemState& state);
 CanFrame encode_motion_state(const BodyVelocity& velocity);
 CanFrame encode_odometer(const Odometer& odometer);
 
-// Nothing for another identifier or a frame shorter than the protocol says (8 bytes; the two control frames
-// 1).
+// Empty for another identifier or a frame shorter than the protocol requires (8 bytes; 1 for the two control
+// frames).
 std::optional<BodyVelocity> decode_motion_command(const CanFrame& frame);
 std::optional<ControlMode> decode_control_mode(const CanFrame& frame);
 bool is_clear_fault(const CanFrame& frame);

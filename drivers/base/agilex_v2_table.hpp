@@ -59,7 +59,7 @@ inline constexpr std::array battery{
 inline constexpr std::array battery_more{
     Signal{.name = "Alarms1", .byte = 0}, Signal{.name = "Alarms2", .byte = 1},
     Signal{.name = "Warnings1", .byte = 2}, Signal{.name = "Warnings2", .byte = 3}};
-inline constexpr std::array light{Signal{.name = "ByCommand", .byte = 0},  // or as the base likes
+inline constexpr std::array light{Signal{.name = "ByCommand", .byte = 0},  // or by the base's own logic
                                   Signal{.name = "FrontMode", .byte = 1},  // off, on, breathing, custom
                                   Signal{.name = "FrontBrightness", .byte = 2, .unit = "%"},
                                   Signal{.name = "RearMode", .byte = 3},
@@ -70,7 +70,7 @@ inline constexpr std::array version_numbers{Signal{.name = "ControllerHardware",
                                             Signal{.name = "DriverHardware", .byte = 2, .bits = 16},
                                             Signal{.name = "ControllerSoftware", .byte = 4, .bits = 16},
                                             Signal{.name = "DriverSoftware", .byte = 6, .bits = 16}};
-/// Eight letters; ten such frames are the whole text.
+/// Eight characters; ten such frames are the whole text.
 inline constexpr std::array version_letters{
     Signal{.name = "Letter1", .byte = 0}, Signal{.name = "Letter2", .byte = 1},
     Signal{.name = "Letter3", .byte = 2}, Signal{.name = "Letter4", .byte = 3},
@@ -107,7 +107,7 @@ inline constexpr MessageSpec version_request{.name = "VersionRequest",
                                              .signals = version_question};
 inline constexpr MessageSpec version_answer{
     .name = "Version", .id = 0x41A, .sender = Sender::base, .signals = version_numbers};
-/// Asked for by a frame of one byte, 1, with the same identifier.
+/// Requested by a frame of one byte, 1, with the same identifier.
 inline constexpr MessageSpec version_text{
     .name = "VersionText", .id = 0x4A1, .sender = Sender::base, .signals = version_letters};
 inline constexpr MessageSpec system_state{.name = "SystemState",

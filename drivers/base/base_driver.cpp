@@ -67,7 +67,7 @@ BaseDriver::BaseDriver(CanBus& bus, std::unique_ptr<BaseProtocol> protocol, cons
     : bus_(bus), protocol_(std::move(protocol)), options_(options), following_(options.following) {}
 
 BaseFeedback BaseDriver::poll(Stamp now) {
-  // After a pause of our own, what the base said in the meantime may still be on its way.
+  // After a pause of this process, frames that the base sent meanwhile may not have been read yet.
   const bool was_asleep = now - now_ > options_.max_feedback_age;
   now_ = now;
   std::vector<WheelTravel> travel;
@@ -109,7 +109,7 @@ void BaseDriver::take_in_system_state(Stamp stamp, const SystemState& state) {
   if (const auto fault = complaint(state)) latch(*fault);
 }
 
-/// What only time can tell of a ready base; what its frames tell is latched as they come.
+/// Faults of a ready base that show by elapsed time; those that its frames report are latched on arrival.
 void BaseDriver::watch(Stamp now) {
   if (!hears_everything(now)) return latch(BaseFault::feedback_lost);
   const bool base_obeys_us = !is_older(commanded_at_, now, options_.base_command_timeout);
@@ -137,7 +137,7 @@ void BaseDriver::shake_hands(Stamp now) {
 void BaseDriver::latch(BaseFault fault) {
   state_ = BaseState::fault;
   fault_ = fault;
-  // One last word: stop. Not to a base that somebody else drives now.
+  // Send a final stop, but not to a base that another controller has taken over.
   if (fault == BaseFault::left_can_mode) return bus_.release();
   send(protocol_->stop());
 }

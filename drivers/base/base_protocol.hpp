@@ -11,18 +11,18 @@
 
 namespace lodestar {
 
-/// What one frame says, in words that all bases share.
+/// The content of one frame, independent of the protocol.
 struct HeardFrame {
-  bool from_base = false;  ///< one of the base's messages, whole and believable
-  bool odd = false;        ///< one of the base's identifiers, but short, not finite, or a leap
-  bool command = false;    ///< a motion command: of ourselves no copy is heard, so another master's
+  bool from_base = false;  ///< a complete and plausible message of the base
+  bool odd = false;        ///< one of the base's identifiers, but too short, not finite, or an odometer jump
+  bool command = false;    ///< a motion command of another master (our own frames are not received)
   std::optional<SystemState> system;
   std::optional<BodyVelocity> measured;
   std::optional<WheelTravel> travel;  ///< since the first reading
 };
 
-/// How to talk to one kind of base: what to send, and what its frames mean. It keeps what must be put
-/// together from several frames, and decides nothing.
+/// Protocol of one kind of base: what to send, and what its frames mean. It keeps state only to assemble
+/// values from several frames, and makes no decisions.
 class BaseProtocol {
  public:
   BaseProtocol() = default;
@@ -32,13 +32,13 @@ class BaseProtocol {
 
   virtual HeardFrame take_in(const StampedCanFrame& received) = 0;
 
-  /// Asks the base to take commands from the bus.
+  /// Requests that the base accepts commands from the bus.
   [[nodiscard]] virtual std::vector<CanFrame> enable() const = 0;
   [[nodiscard]] virtual std::vector<CanFrame> command(const BodyVelocity& velocity) const = 0;
   [[nodiscard]] virtual std::vector<CanFrame> clear_faults() const = 0;
-  /// All that is sent or listened to.
+  /// All identifiers that are sent or received.
   [[nodiscard]] virtual std::vector<std::uint32_t> identifiers() const = 0;
-  /// The names of the bits that are set, in words for people.
+  /// Descriptions of the bits that are set, for messages.
   [[nodiscard]] virtual std::vector<std::string> fault_names(std::uint32_t bits) const = 0;
 
   [[nodiscard]] std::vector<CanFrame> stop() const { return command({}); }
@@ -46,7 +46,7 @@ class BaseProtocol {
 
 enum class BaseModel { tracer, scout, hunter };
 
-/// AgileX V2; the fault bits mean something else on each model.
+/// AgileX V2; the meaning of the fault bits depends on the model.
 std::unique_ptr<BaseProtocol> make_agilex_protocol(BaseModel model = BaseModel::tracer,
                                                    double max_plausible_wheel_mps = 5.0);
 
@@ -54,7 +54,7 @@ std::unique_ptr<BaseProtocol> make_agilex_protocol(BaseModel model = BaseModel::
 struct OdriveOptions {
   std::uint32_t left_node = 0;
   std::uint32_t right_node = 1;
-  bool right_is_mirrored = true;  ///< turns backwards to drive ahead
+  bool right_is_mirrored = true;  ///< turns backwards when the robot drives forward
   double track_width_m = 0.40;
   double wheel_diameter_m = 0.17;
   double max_plausible_wheel_mps = 5.0;

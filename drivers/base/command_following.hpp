@@ -15,15 +15,15 @@ struct FollowingTolerance {
 
 struct CommandFollowingOptions {
   FollowingTolerance gross{.forward_mps = 0.3, .turn_radps = 0.8, .patience = std::chrono::milliseconds(200)};
-  /// A wheel that stands while the robot creeps is no more than that.
+  /// One stuck wheel of a creeping robot deviates by no more than this.
   FollowingTolerance fine{.forward_mps = 0.15, .turn_radps = 0.35, .patience = std::chrono::seconds(1)};
-  double least_acceleration_mps2 = 1.0;  ///< what any healthy base reaches, towards the command
+  double least_acceleration_mps2 = 1.0;  ///< reached by any healthy base, towards the command
   double least_turn_acceleration_radps2 = 3.0;
-  Duration longest_look = std::chrono::milliseconds(50);  ///< of the time between two looks, what counts
+  Duration longest_look = std::chrono::milliseconds(50);  ///< most that counts of the time between two calls
 };
 
-/// Does the base do as it is told? Beside the command runs the speed that the slowest healthy base would
-/// have; the measured speed must lie between the two, within the tolerances.
+/// Monitors whether the base follows its commands. A reference speed models the slowest healthy base; the
+/// measured speed must lie between it and the command, within the tolerances.
 ///
 ///     command    ____________________
 ///               /  measured: fine    .
@@ -33,12 +33,12 @@ class CommandFollowing {
  public:
   explicit CommandFollowing(const CommandFollowingOptions& options = {}) : options_(options) {}
 
-  /// Starts anew from what the base does now.
+  /// Restarts from the present measured velocity.
   void restart(Stamp now, const BodyVelocity& measured);
 
   /// True when the measured velocity has been outside the band for longer than a tolerance allows. To be
-  /// called at a steady rate: of a pause of the caller's own, in which nobody commanded or looked, little
-  /// counts.
+  /// called at a steady rate: a pause of the caller, without commands and measurements, counts for at most
+  /// `longest_look`.
   [[nodiscard]] bool strays(Stamp now, const BodyVelocity& commanded, const BodyVelocity& measured);
 
  private:

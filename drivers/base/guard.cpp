@@ -17,14 +17,15 @@
 namespace lodestar {
 namespace {
 
-/// What the process may not have, it does without: then it is as fast as the machine allows.
+/// Requests real-time priority and locked memory; without the permissions the guard runs as an ordinary
+/// process.
 void ask_for_real_time() {
   const sched_param priority{.sched_priority = 20};
   (void)sched_setscheduler(0, SCHED_FIFO, &priority);
   (void)mlockall(MCL_CURRENT | MCL_FUTURE);
 }
 
-/// The guard outlives whatever ends the navigator, Ctrl-C in their terminal among it.
+/// The guard must survive whatever ends the navigator, including Ctrl-C in their terminal.
 void ignore_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP}) std::signal(signal, SIG_IGN);
 }

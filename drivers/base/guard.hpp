@@ -12,24 +12,23 @@ namespace lodestar {
 
 struct GuardOptions {
   SocketCanOptions bus;
-  std::vector<CanFrame>
-      stop;  ///< what brings the base to rest; frames with these identifiers are its commands
-  Duration max_silence = std::chrono::milliseconds(100);   ///< of a navigator that has told the base to move
-  Duration repeat_period = std::chrono::milliseconds(20);  ///< of the stop, after the navigator has failed
+  /// The frames that stop the base; every frame with one of these identifiers is a motion command.
+  std::vector<CanFrame> stop;
+  Duration max_silence = std::chrono::milliseconds(100);   ///< of the navigator after a command to move
+  Duration repeat_period = std::chrono::milliseconds(20);  ///< of the stop frames once the navigator failed
   int repeats = 10;
 };
 
-/// A CAN interface behind a guard: a small process of its own that owns the socket, and through which all
-/// frames pass. It stops the base at once when the navigator dies, and when it hangs; then it holds commands
-/// back until resume(). A base that was released it leaves alone. It runs with real-time priority and locked
-/// memory where that is permitted. If the guard itself dies, nothing is sent any more and the base stops by
-/// its own timeout.
+/// A CAN interface behind a guard: a small separate process that owns the socket and passes all frames. It
+/// stops the base when the navigator dies or hangs, and then blocks commands until resume(). It does not
+/// touch a base that was released. It runs with real-time priority and locked memory where permitted. If the
+/// guard itself dies, nothing is sent any more and the base stops by its own timeout.
 class GuardedBus final : public CanBus {
  public:
-  /// Starts the guard; to be called early, while the process is small and has one thread. Throws InputError
-  /// as SocketCanBus does.
+  /// Starts the guard; call it early, while the process is small and has one thread. Throws InputError as
+  /// SocketCanBus does.
   GuardedBus(const std::string& interface, const GuardOptions& options);
-  /// The guard sees that nobody commands any more, stops the base and ends; that is waited for.
+  /// Closes the connection, upon which the guard stops the base and exits; waits for that.
   ~GuardedBus() override;
 
   bool send(const CanFrame& frame) override;

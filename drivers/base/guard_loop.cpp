@@ -23,7 +23,7 @@ GuardLoop::GuardLoop(SocketCanBus& bus, int navigator_socket, const GuardOptions
 void GuardLoop::run() {
   while (navigator_is_there_ || repeats_left_ > 0) {
     wait_for_something();
-    // A machine that stood still altogether is no navigator that hung: only a pass of usual length counts.
+    // If the whole machine stalled, the navigator did not hang: each pass counts at most `longest_pass`.
     const Stamp now = monotonic_now();
     silence_ += std::min(now - now_, longest_pass);
     now_ = now;
@@ -49,7 +49,7 @@ void GuardLoop::take_requests() {
       continue;
     }
     if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
-    // The navigator is dead: whatever it wanted, the base stops.
+    // The navigator has ended: stop the base, whatever was commanded last.
     navigator_is_there_ = false;
     stop_base();
   }
@@ -73,7 +73,7 @@ void GuardLoop::take(const GuardRequest& request) {
   (void)bus_.send(request.frame);
 }
 
-/// A navigator whose last word was to stand may think as long as it likes.
+/// A navigator whose last command was zero may be silent for any time.
 void GuardLoop::watch_navigator() {
   const bool told_to_move = std::ranges::find(moves_, true) != moves_.end();
   if (!navigator_is_there_ || holds_ || !told_to_move) return;
@@ -99,7 +99,7 @@ void GuardLoop::pass_on_frames() {
   if (now_ - last_report_ >= report_period) report(std::nullopt);
 }
 
-/// A navigator that does not listen misses reports; it is not waited for.
+/// Does not wait for a navigator that does not read: it misses reports.
 void GuardLoop::report(const std::optional<StampedCanFrame>& frame) {
   if (!navigator_is_there_) return;
   last_report_ = now_;

@@ -2,7 +2,7 @@
 
 #include "drivers/base/guard.hpp"
 
-// The inside of the guard process.
+// The main loop of the guard process.
 namespace lodestar {
 
 /// From the navigator to its guard.
@@ -12,14 +12,14 @@ struct GuardRequest {
   CanFrame frame;  ///< to send
 };
 
-/// From the guard to its navigator: how the bus stands, and what was heard, if anything.
+/// From the guard to its navigator: the state of the bus, and a received frame, if any.
 struct GuardReport {
   BusHealth health;
   bool has_frame = false;
   StampedCanFrame frame;
 };
 
-/// Passes frames on between the navigator and the bus until the navigator is gone and the base was stopped.
+/// Forwards frames between navigator and bus until the navigator has ended and the base has been stopped.
 class GuardLoop {
  public:
   GuardLoop(SocketCanBus& bus, int navigator_socket, const GuardOptions& options);
@@ -40,11 +40,12 @@ class GuardLoop {
   GuardOptions options_;
   Stamp now_;
   bool navigator_is_there_ = true;
-  std::vector<bool> moves_;  ///< for each frame of `stop`: the newest command of its identifier is another
+  std::vector<bool>
+      moves_;  ///< for each frame of `stop`: the newest command with its identifier differs from it
   bool holds_ = false;
-  bool released_ = true;  ///< the base is not ours: nothing has been commanded yet, or it was given away
+  bool released_ = true;  ///< not under our control: nothing commanded yet, or released
   int repeats_left_ = 0;
-  Duration silence_{};  ///< of the navigator, as far as the guard itself was awake
+  Duration silence_{};  ///< of the navigator, counted only while the guard itself was running
   Stamp last_stop_;
   Stamp last_report_;
 };

@@ -12,12 +12,12 @@ namespace {
 
 namespace tables = odrive::tables;
 
-/// Of all that an ODrive says and takes, what the driver says or needs to hear.
+/// The subset of CANSimple that the driver sends or needs to receive.
 constexpr std::array spoken{tables::heartbeat,           tables::encoder_estimates,  tables::set_axis_state,
                             tables::set_controller_mode, tables::set_input_velocity, tables::clear_errors};
 
 constexpr double mm_per_m = 1000.0;
-/// What both axes say belongs together only when it is about as old.
+/// Readings of the two axes are combined only when they are about equally old.
 constexpr Duration most_apart = std::chrono::milliseconds(300);
 constexpr Duration most_apart_moving = std::chrono::milliseconds(40);
 
@@ -44,7 +44,7 @@ constexpr std::array<std::pair<std::uint32_t, const char*>, 20> error_names{{
     {0x40000000, "calibration"},
 }};
 
-/// The newest word of one axis.
+/// The newest values of one axis.
 struct Axis {
   std::optional<Stamp> heartbeat;
   std::uint32_t errors = 0;
@@ -135,7 +135,7 @@ class OdriveProtocol final : public BaseProtocol {
   [[nodiscard]] double m_per_rev() const { return std::numbers::pi * options_.wheel_diameter_m; }
   [[nodiscard]] double right_sign() const { return options_.right_is_mirrored ? -1.0 : 1.0; }
 
-  /// Nothing until both axes have a pulse: half a base cannot drive.
+  /// Empty until both axes have sent a heartbeat: a base needs both wheels.
   std::optional<SystemState> system_state(Stamp now) {
     for (const Axis* axis : {&left_, &right_}) {
       if (!axis->heartbeat || now - *axis->heartbeat > most_apart) return std::nullopt;
@@ -150,7 +150,7 @@ class OdriveProtocol final : public BaseProtocol {
     return state;
   }
 
-  /// The right axis speaks after the left one.
+  /// Completes the pair: the right axis sends after the left one.
   void take_in_wheels(Stamp now, HeardFrame& heard) {
     if (!left_.estimate || now - *left_.estimate > most_apart_moving) return;
     const double left_mps = left_.velocity_rps * m_per_rev();

@@ -14,7 +14,7 @@ inline constexpr std::uint8_t closed_loop_control = 8;
 inline constexpr std::uint8_t velocity_control = 2;
 inline constexpr std::uint8_t passthrough = 1;
 
-// Of the axis errors, those that are more than a fault of the axis.
+// Axis errors with a meaning beyond a fault of the axis.
 inline constexpr std::uint32_t estop_requested = 0x02000000;
 inline constexpr std::uint32_t watchdog_expired = 0x01000000;
 
@@ -202,7 +202,7 @@ inline constexpr std::array messages{version,
 
 }  // namespace tables
 
-/// Two axes.
+/// A drive with two axes.
 inline constexpr ProtocolTable table{
     .name = "ODrive_CANSimple", .messages = tables::messages, .nodes = 2, .node_step = node_step};
 

@@ -17,7 +17,7 @@ int bytes_of(const Signal& signal) {
   return (signal.bit + signal.bits + 7) / 8;
 }
 
-/// The place of the signal's byte number i, counted from its least significant one.
+/// Position in the frame of the signal's byte i, counted from the least significant one.
 std::size_t place_of(const Signal& signal, ByteOrder order, int i) {
   const int offset = order == ByteOrder::little_endian ? i : bytes_of(signal) - 1 - i;
   return static_cast<std::size_t>(signal.byte + offset);
@@ -36,13 +36,13 @@ void write_bits(const Signal& signal, ByteOrder order, std::uint64_t bits, CanFr
   }
 }
 
-/// Whole numbers that the bits can hold.
+/// The range of raw integers.
 SignalRange raw_range_of(const Signal& signal) {
   if (signal.kind == SignalKind::unsigned_integer) return {0.0, std::ldexp(1.0, signal.bits) - 1.0};
   return {-std::ldexp(1.0, signal.bits - 1), std::ldexp(1.0, signal.bits - 1) - 1.0};
 }
 
-/// Whole numbers are multiplied by their scale only here: where it is 1/n, division gives the nearest double.
+/// The only place where raw integers are scaled: for a scale of 1/n, division gives the nearest double.
 double scaled(double whole, double scale) {
   const double steps_per_unit = 1.0 / scale;
   return steps_per_unit == std::round(steps_per_unit) ? whole / steps_per_unit : whole * scale;

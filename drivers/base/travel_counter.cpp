@@ -5,7 +5,7 @@
 namespace lodestar {
 namespace {
 
-/// The shorter way round from one reading to the other, as two's complement gives it.
+/// Difference of two readings, wrapped (two's complement).
 double difference(double newer, double older) {
   const auto steps =
       static_cast<std::uint32_t>(static_cast<std::int64_t>(newer) - static_cast<std::int64_t>(older));
@@ -13,7 +13,7 @@ double difference(double newer, double older) {
 }
 
 constexpr double mm_per_m = 1000.0;
-/// Frames are stamped on arrival, which may come late: a reading may hold this much more than its interval.
+/// Frames are stamped on arrival, which may be late: a reading may cover this much more than its interval.
 constexpr double stamp_slack_s = 0.05;
 
 }  // namespace
@@ -34,7 +34,7 @@ std::optional<WheelTravel> TravelCounter::go_on(const Reading& reading, Differen
     return reading.stamp >= older.stamp && std::abs(difference(reading.left_mm, older.left_mm)) <= most_mm &&
            std::abs(difference(reading.right_mm, older.right_mm)) <= most_mm;
   };
-  // One leap is a broken frame; where the next reading follows from it, the base has been restarted.
+  // A single jump is a corrupted frame; if the next reading fits the jump, the base was restarted.
   if (!follows(*last_) && leapt_ && follows(*leapt_)) last_ = leapt_;
   if (!follows(*last_)) {
     leapt_ = reading;

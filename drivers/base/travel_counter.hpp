@@ -7,20 +7,20 @@
 
 namespace lodestar {
 
-/// Turns readings of both wheels' positions into travel since the first reading.
+/// Converts position readings of both wheels into travel since the first reading.
 class TravelCounter {
  public:
-  /// `max_wheel_mps` is more than the base can do: a reading that would need that comes from a restarted base
-  /// or a broken frame.
+  /// `max_wheel_mps` is above the base's top speed: a reading that would require more comes from a restarted
+  /// base or a corrupted frame.
   explicit TravelCounter(double max_wheel_mps) : max_wheel_mps_(max_wheel_mps) {}
 
-  // Nothing when the wheels cannot have rolled that far since the last reading, or when it is older than
-  // that. Travel goes on from the last reading when the next one follows from it, else takes no leap and goes
-  // on from where the readings are now.
+  // Empty when the wheels cannot have rolled that far since the last reading, or when the reading is older
+  // than that one. The jump is not added: travel continues from the last plausible reading when the next one
+  // fits it, otherwise from the new readings.
 
-  /// An odometer that wraps around at 32 bits of millimetres.
+  /// For an odometer of 32-bit millimetres that wraps around.
   std::optional<WheelTravel> take(Stamp stamp, const agilex::Odometer& odometer);
-  /// Positions that do not wrap around.
+  /// For positions that do not wrap around.
   std::optional<WheelTravel> take(Stamp stamp, double left_mm, double right_mm);
 
  private:
@@ -35,8 +35,8 @@ class TravelCounter {
   std::optional<WheelTravel> go_on(const Reading& reading, Difference difference);
 
   double max_wheel_mps_ = 0.0;
-  std::optional<Reading> last_;   ///< that made sense
-  std::optional<Reading> leapt_;  ///< since then, the last that did not
+  std::optional<Reading> last_;   ///< last plausible reading
+  std::optional<Reading> leapt_;  ///< last implausible reading since then
   double left_mm_ = 0.0;
   double right_mm_ = 0.0;
 };

@@ -6,7 +6,7 @@
 
 namespace lodestar {
 
-/// Where frames come from: a device, image files or the simulated world.
+/// Source of frames: a device, image files or the simulated world.
 class Camera {
  public:
   Camera() = default;
@@ -14,7 +14,7 @@ class Camera {
   Camera& operator=(const Camera&) = delete;
   virtual ~Camera() = default;
 
-  /// The next frame that has arrived, oldest first; nothing when none has. Never blocks.
+  /// The oldest frame not yet polled; empty when none has arrived. Never blocks.
   virtual std::optional<Frame> poll() = 0;
 };
 

@@ -18,7 +18,7 @@ std::optional<Frame> PluggableCamera::poll() {
   return frame;
 }
 
-/// The old one goes first: a node that is still open keeps its name from the camera that comes back.
+/// Closes the old device first: while its node is open, the camera that comes back gets another name.
 void PluggableCamera::open_again() {
   heard_ = options_.now();
   opening_ =

@@ -11,19 +11,19 @@
 namespace lodestar {
 
 struct PluggableCameraOptions {
-  Duration retry_period = std::chrono::seconds(1);  ///< between two attempts to open it again
-  Duration max_silence = std::chrono::seconds(2);   ///< after which a camera that is there is opened anew
+  Duration retry_period = std::chrono::seconds(1);  ///< between two attempts to reopen it
+  Duration max_silence = std::chrono::seconds(2);   ///< after which a connected camera is reopened
   std::function<Stamp()> now = monotonic_now;
 };
 
-/// A camera that may be unplugged, hang, and come back: it is opened again by itself. That is done on the
-/// side, as to open a USB camera takes longer than a robot that drives may go without commands.
+/// A camera that may be unplugged, hang, and come back: it is reopened automatically, in another thread,
+/// since opening a USB camera takes longer than a moving robot may go without commands.
 class PluggableCamera final : public Camera {
  public:
   using Open = std::function<std::unique_ptr<V4l2Camera>()>;
 
-  /// Opens it for the first time. Throws InputError when that fails: a camera that is not there at the start
-  /// is a mistake, one that vanishes later is a fault.
+  /// Opens it for the first time. Throws InputError when that fails: a camera that is missing at the start is
+  /// a configuration error, one that disappears later is a fault.
   explicit PluggableCamera(Open open, PluggableCameraOptions options = {});
 
   std::optional<Frame> poll() override;
@@ -35,11 +35,11 @@ class PluggableCamera final : public Camera {
   Open open_;
   PluggableCameraOptions options_;
   std::unique_ptr<V4l2Camera> camera_;
-  Stamp heard_;  ///< the newest frame, or the last attempt to open
+  Stamp heard_;  ///< arrival of the newest frame, or time of the last attempt to open
   std::future<std::unique_ptr<V4l2Camera>> opening_;
 };
 
-/// The camera at `/dev/video0`, which must have frames of that size.
+/// The camera at the given device node (`/dev/video0`), which must deliver frames of that size.
 std::unique_ptr<Camera> open_v4l2_camera(const std::string& device, int width_px, int height_px);
 
 }  // namespace lodestar

@@ -29,15 +29,15 @@ std::vector<std::uint32_t> formats_of(VideoDevice& device) {
   return formats;
 }
 
-/// What V4L2 takes a YUV format's range to be when the driver leaves it open: limited, except in JPEG's
-/// colours.
+/// V4L2's default quantization of a YUV format when the driver does not state it: limited range, except for
+/// JPEG's colour space.
 bool has_limited_luma(const v4l2_pix_format& pixels) {
   if (pixels.quantization != V4L2_QUANTIZATION_DEFAULT)
     return pixels.quantization == V4L2_QUANTIZATION_LIM_RANGE;
   return pixels.colorspace != V4L2_COLORSPACE_JPEG;
 }
 
-/// How long the camera exposes, when it tells; zero else.
+/// The exposure time if the camera reports it, otherwise zero.
 Duration exposure_of(VideoDevice& device) {
   v4l2_control exposure{.id = V4L2_CID_EXPOSURE_ABSOLUTE, .value = 0};
   if (device.control(VIDIOC_G_CTRL, &exposure) != 0) return {};

@@ -15,29 +15,29 @@ namespace lodestar {
 struct V4l2CameraOptions {
   int width_px = 0;   ///< 0: whatever the camera is set to
   int height_px = 0;  ///< the same
-  int buffers =
-      4;  ///< in which the device keeps frames until they are polled; when all are full it drops new ones
-  Duration
-      readout{};  ///< from the end of the exposure to the end of the transfer, where the driver stamps that
+  /// Buffers in which the device keeps frames until they are polled; when all are full it drops new frames.
+  int buffers = 4;
+  /// From the end of exposure to the end of transfer, for drivers that stamp the latter.
+  Duration readout{};
 };
 
-/// A camera of Linux's V4L2 (USB, CSI), streaming from its own memory. Stamps are the driver's, of
-/// CLOCK_MONOTONIC, taken to the middle of the exposure as far as the camera tells how long that is; a driver
-/// without such stamps gets the time of arrival.
+/// A Linux V4L2 camera (USB, CSI) that streams into memory-mapped buffers. Stamps are the driver's
+/// (CLOCK_MONOTONIC), moved to mid-exposure where the camera reports its exposure time; with a driver that
+/// has no such stamps, the time of arrival.
 class V4l2Camera final : public Camera {
  public:
-  /// Starts streaming. Throws InputError, naming `name`, when the device is no camera that streams, has none
-  /// of the readable pixel formats, or not the size that is wanted.
+  /// Starts streaming. Throws InputError, naming `name`, when the device is not a streaming camera, has no
+  /// supported pixel format, or does not deliver the requested size.
   V4l2Camera(std::unique_ptr<VideoDevice> device, const std::string& name, const V4l2CameraOptions& options);
   ~V4l2Camera() override;
 
-  /// Frames that the driver marks as damaged are left out.
+  /// Frames that the driver marks as damaged are skipped.
   std::optional<Frame> poll() override;
 
-  /// Waits for a frame, until a signal arrives, or for so long.
+  /// Waits for a frame, a signal, or at most this long.
   void wait(Duration at_most) { device_->wait(at_most); }
 
-  /// Is the device gone? poll() then gives nothing for ever.
+  /// True when the device has disappeared; poll() then never returns a frame again.
   [[nodiscard]] bool lost() const { return lost_; }
 
   [[nodiscard]] const V4l2Layout& layout() const { return layout_; }

@@ -17,7 +17,8 @@ constexpr std::array<std::uint32_t, 11> formats{V4L2_PIX_FMT_GREY,  V4L2_PIX_FMT
 
 using Levels = std::array<std::uint8_t, 256>;
 
-/// Gray of a luma value: 16..235 becomes 0..255 (ITU-R BT.601), or nothing changes.
+/// Gray value of a luma value: limited range 16..235 becomes 0..255 (ITU-R BT.601); full range stays as it
+/// is.
 Levels levels_of(bool limited_luma) {
   Levels levels{};
   for (int i = 0; i < 256; ++i) {
@@ -28,7 +29,7 @@ Levels levels_of(bool limited_luma) {
   return levels;
 }
 
-/// How many bytes a pixel takes in the plane that holds the light.
+/// Bytes per pixel in the plane that holds the luma.
 int bytes_per_pixel(std::uint32_t fourcc) {
   switch (fourcc) {
     case V4L2_PIX_FMT_Y16:
@@ -53,8 +54,7 @@ cv::Mat decoded_jpeg(const V4l2Layout& layout, std::span<const std::uint8_t> byt
   return {};
 }
 
-/// One row of gray from one of the device. Samples of 10 and 12 bits lie in the low bits of 16, low byte
-/// first.
+/// Converts one row to gray. Samples of 10 and 12 bits are stored in the low bits of 16, low byte first.
 void convert_row(std::uint32_t fourcc, const Levels& levels, const std::uint8_t* from,
                  std::span<std::uint8_t> to) {
   const auto sixteen_bits = [&](unsigned shift) {

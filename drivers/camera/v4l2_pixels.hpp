@@ -7,23 +7,23 @@
 
 namespace lodestar {
 
-/// How a V4L2 camera lays out its pixels.
+/// Pixel layout of a V4L2 camera.
 struct V4l2Layout {
   std::uint32_t fourcc = 0;  ///< V4L2_PIX_FMT_...
   int width_px = 0;
   int height_px = 0;
-  int bytes_per_line = 0;    ///< of the gray or luma plane, or the interleaved one
+  int bytes_per_line = 0;    ///< of the gray, luma or interleaved plane
   bool limited_luma = true;  ///< black is 16 and white 235, for YUV formats
 };
 
-/// The formats that can be read, the best first: gray without loss, then luma beside colour, then JPEG.
+/// The supported formats, best first: lossless gray, then formats with a luma channel, then JPEG.
 std::span<const std::uint32_t> readable_v4l2_formats();
 
-/// "YUYV".
+/// The four characters of a format, for example "YUYV".
 std::string fourcc_name(std::uint32_t fourcc);
 
-/// The frame as 8-bit gray, in memory of its own: one pass over the device's memory, which may be slow to
-/// read twice. Empty when the bytes are too few for the layout, or no JPEG of its size.
+/// A copy of the frame as 8-bit gray, made in one pass over the device's memory, which may be slow to read.
+/// Empty when there are too few bytes for the layout, or when they are not a JPEG of that size.
 cv::Mat gray_of(const V4l2Layout& layout, std::span<const std::uint8_t> bytes);
 
 }  // namespace lodestar

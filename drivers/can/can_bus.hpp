@@ -18,34 +18,35 @@ struct CanFrame {
 };
 
 struct StampedCanFrame {
-  Stamp stamp;  ///< of reception
+  Stamp stamp;  ///< time of reception
   CanFrame frame;
 };
 
-/// How a bus stands, as far as this end can tell; the worse, the later. `up` is no proof that anyone listens.
+/// State of a bus, as far as this node can tell, ordered by severity. `up` does not prove that another node
+/// listens.
 enum class BusState {
   up,
-  error_passive,  ///< carries frames, but many of them are damaged on the wire
-  stalled,        ///< takes our frames no more, or does not bring them onto the wire
+  error_passive,  ///< carries frames, but many are damaged on the wire
+  stalled,        ///< no longer accepts our frames, or does not get them onto the wire
   bus_off,        ///< the controller has left the bus after too many errors
   down,           ///< the interface is switched off
-  missing,        ///< there is no such interface
-  held,           ///< the guard keeps commands back until resume()
-  guard_lost      ///< the guard process is gone: nothing can be sent any more
+  missing,        ///< the interface does not exist
+  held,           ///< the guard blocks commands until resume()
+  guard_lost      ///< the guard process has ended: nothing can be sent
 };
 
-// In words for people.
+// A description for messages.
 std::string_view to_string(BusState state);
 
-/// Since the start.
+/// Frame counts since the start.
 struct BusCounts {
-  std::uint64_t sent = 0;          ///< handed over to the kernel
-  std::uint64_t confirmed = 0;     ///< that came back as sent
-  std::uint64_t refused = 0;       ///< not handed over: no room, or an older one is still waiting
-  std::uint64_t received = 0;      ///< of others
-  std::uint64_t lost = 0;          ///< received, but dropped before they were read
-  std::uint64_t error_frames = 0;  ///< about the bus, from its controller
-  std::uint64_t binds = 0;         ///< to the interface; more than one when it was gone in between
+  std::uint64_t sent = 0;          ///< accepted by the kernel
+  std::uint64_t confirmed = 0;     ///< looped back by the kernel after transmission
+  std::uint64_t refused = 0;       ///< not accepted: no room, or an older frame is still waiting
+  std::uint64_t received = 0;      ///< from other nodes
+  std::uint64_t lost = 0;          ///< received, but dropped before being read
+  std::uint64_t error_frames = 0;  ///< reported by the controller
+  std::uint64_t binds = 0;         ///< to the interface; more than one when it had disappeared in between
 };
 
 struct BusHealth {
@@ -53,7 +54,7 @@ struct BusHealth {
   BusCounts counts;
 };
 
-/// One end of a CAN bus: a socket, a place on the in-process bus, or a log.
+/// A node's connection to a CAN bus: a socket, an end of the in-process bus, or a log.
 class CanBus {
  public:
   CanBus() = default;
@@ -61,19 +62,20 @@ class CanBus {
   CanBus& operator=(const CanBus&) = delete;
   virtual ~CanBus() = default;
 
-  /// False when the frame could not be handed over. True is no proof that anyone got it: only feedback is.
+  /// False when the frame was not accepted. True does not prove that any node received it; only feedback
+  /// does.
   [[nodiscard]] virtual bool send(const CanFrame& frame) = 0;
 
-  /// The next received frame, oldest first; nothing when none has arrived. Never blocks.
+  /// The oldest received frame not yet polled; empty when there is none. Never blocks.
   virtual std::optional<StampedCanFrame> poll() = 0;
 
   /// As of the last send or poll.
   [[nodiscard]] virtual BusHealth health() const { return {}; }
 
-  /// Somebody wants to go on: commands that a guard keeps back are let through again.
+  /// The operator resumes: a guard passes commands on again.
   virtual void resume() {}
 
-  /// Somebody else drives the base now: a guard must not stop it in our name.
+  /// The base is now controlled by someone else: a guard must not stop it on our behalf.
   virtual void release() {}
 };
 

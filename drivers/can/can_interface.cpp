@@ -14,7 +14,7 @@
 namespace lodestar {
 namespace {
 
-/// Any socket will do to ask about interfaces.
+/// Any socket serves for interface queries.
 FileDescriptor socket_to_ask() {
   return FileDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
 }

@@ -6,12 +6,12 @@
 
 namespace lodestar {
 
-/// What the system says of a CAN interface, without opening it.
+/// What the system reports about a CAN interface, without opening it.
 struct CanInterface {
   bool exists = false;
   bool is_up = false;
-  bool is_virtual = false;                       ///< no controller: no bit rate, no errors
-  std::optional<std::uint32_t> bit_rate_bps;     ///< nothing when it may not be asked for
+  bool is_virtual = false;                       ///< has no controller, hence no bit rate and no errors
+  std::optional<std::uint32_t> bit_rate_bps;     ///< empty when the query is not permitted
   std::optional<std::string> controller;         ///< its state: "error-active", "bus-off", ...
   std::optional<std::uint32_t> transmit_errors;  ///< the controller's error counters
   std::optional<std::uint32_t> receive_errors;
@@ -19,7 +19,7 @@ struct CanInterface {
 
 CanInterface look_at_can_interface(const std::string& name);
 
-/// That alone.
+/// Only the controller state.
 bool is_switched_on(const std::string& name);
 
 }  // namespace lodestar

@@ -5,7 +5,7 @@
 namespace lodestar {
 namespace {
 
-/// Counts the bits of the stuffed part of a frame and keeps its check sum.
+/// Counts the bits of the stuffed part of a frame and computes its CRC.
 class StuffedPart {
  public:
   void push(unsigned value, int bits) {
@@ -22,7 +22,7 @@ class StuffedPart {
     run_ = bit == last_ ? run_ + 1 : 1;
     last_ = bit;
     if (run_ < 5) return;
-    // After five equal bits the sender inserts one of the other kind, which begins the next run.
+    // After five equal bits the sender inserts one of opposite value, which begins the next run.
     ++bits_;
     run_ = 1;
     last_ = 1U - bit;
@@ -41,7 +41,7 @@ class StuffedPart {
 };
 
 constexpr int check_sum_bits = 15;
-/// Check sum delimiter 1, acknowledge 2, end of frame 7, interframe space 3: never stuffed.
+/// CRC delimiter 1, acknowledge 2, end of frame 7, interframe space 3: never stuffed.
 constexpr int unstuffed_bits = 13;
 
 }  // namespace

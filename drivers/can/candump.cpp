@@ -16,7 +16,7 @@
 namespace lodestar {
 namespace {
 
-/// A line taken apart from the left; each step says whether it found what it wanted.
+/// Parses a line from the left; each step returns whether it found what it expected.
 class LineReader {
  public:
   explicit LineReader(std::string_view line) : rest_(line) {}
@@ -41,7 +41,7 @@ class LineReader {
   std::string_view rest_;
 };
 
-/// Digits of the base only, all of them used.
+/// The whole text as a number, digits of that base only.
 template <typename Number>
 std::optional<Number> number(std::string_view digits, int base) {
   Number value{};
@@ -53,7 +53,7 @@ std::optional<Number> number(std::string_view digits, int base) {
 }
 
 std::optional<Stamp> parse_stamp(std::string_view seconds_text, std::string_view decimals_text) {
-  constexpr std::int64_t most_seconds = 9'000'000'000;  // below the range of nanoseconds in 64 bits
+  constexpr std::int64_t most_seconds = 9'000'000'000;  // fits 64 bits of nanoseconds
   if (decimals_text.size() != 6 && decimals_text.size() != 9) return std::nullopt;
   const auto whole = number<std::int64_t>(seconds_text, 10);
   const auto decimals = number<std::int64_t>(decimals_text, 10);
@@ -96,7 +96,7 @@ std::optional<LoggedCanFrame> parse_line(std::string_view text) {
   return LoggedCanFrame{{*stamp, *frame}, std::string(interface)};
 }
 
-/// What a message can show of a line that may be anything.
+/// A printable excerpt of an arbitrary line, for messages.
 std::string shown(std::string_view text) {
   constexpr std::size_t most = 60;
   std::string result = "'";

@@ -15,10 +15,10 @@ struct LoggedCanFrame {
   std::string interface;
 };
 
-/// One line, without its end. The stamp is cut to microseconds; it must not be negative.
+/// One line, without the line end. The stamp is truncated to microseconds; it must not be negative.
 std::string candump_line(const StampedCanFrame& frame, const std::string& interface = "can0");
 
-/// Writes a log as it grows.
+/// Writes a log line by line.
 class CandumpWriter {
  public:
   explicit CandumpWriter(std::ostream& out, std::string interface = "can0");
@@ -29,10 +29,10 @@ class CandumpWriter {
   std::string interface_;
 };
 
-/// Reads a log of data frames with 11-bit identifiers, 6 or 9 decimals, with or without a direction (` R`,
-/// ` T`) at the end. Throws InputError with file and line for anything else, extended, remote, error and FD
-/// frames and DROPCOUNT lines (a log with gaps) among them: what cannot be replayed must not be skipped in
-/// silence.
+/// Reads a log of data frames with 11-bit identifiers, 6 or 9 decimals, with or without a direction (` R`, `
+/// T`) at the end. Throws InputError with file and line for anything else, including extended, remote, error
+/// and FD frames and DROPCOUNT lines (a log with gaps): what cannot be played back must not be skipped
+/// silently.
 std::vector<LoggedCanFrame> read_candump(std::istream& in, const std::filesystem::path& file);
 std::vector<LoggedCanFrame> load_candump(const std::filesystem::path& file);
 

@@ -8,16 +8,16 @@
 
 namespace lodestar {
 
-/// A recorded bus, heard again. Its owner moves time on; the log's first frame is heard at `start`.
+/// Plays back a recorded bus. Its owner advances the time; the log's first frame arrives at `start`.
 class CandumpBus final : public CanBus {
  public:
-  /// `own`: identifiers that the listener itself sent at the time, and so did not hear.
+  /// `own`: identifiers that this node itself sent in the recording, and therefore did not receive.
   CandumpBus(std::vector<LoggedCanFrame> log, std::set<std::uint32_t> own, Stamp start = {});
 
   void advance(Stamp now) { now_ = now; }
   [[nodiscard]] bool at_end() const { return next_ >= log_.size(); }
 
-  /// Takes every frame, and nobody hears it.
+  /// Accepts every frame and discards it.
   bool send(const CanFrame& frame) override;
   std::optional<StampedCanFrame> poll() override;
   [[nodiscard]] BusHealth health() const override { return {BusState::up, counts_}; }
@@ -25,7 +25,7 @@ class CandumpBus final : public CanBus {
  private:
   std::vector<LoggedCanFrame> log_;
   std::set<std::uint32_t> own_;
-  Duration shift_{};  ///< from the log's time to the listener's
+  Duration shift_{};  ///< from the log's time to the present one
   Stamp now_;
   std::size_t next_ = 0;
   BusCounts counts_;

@@ -64,8 +64,8 @@ void InProcessBus::advance(Stamp now) {
   }
 }
 
-/// Arbitration: of all frames that wait, the lowest identifier wins. All of them were sent before time moved
-/// on, hence before the bus takes up its work, so that none competes too early.
+/// Arbitration: of all waiting frames the lowest identifier wins. All of them were sent before the time was
+/// advanced, so none competes too early.
 std::optional<InProcessBus::Sending> InProcessBus::begin_next() {
   End* winner = nullptr;
   for (const auto& end : ends_) {

@@ -8,7 +8,7 @@
 
 namespace lodestar {
 
-/// Shows every frame that passes, either way, to a listener.
+/// Passes every frame, sent or received, to a listener as well.
 class RecordedBus final : public CanBus {
  public:
   using Listener = std::function<void(const StampedCanFrame&)>;

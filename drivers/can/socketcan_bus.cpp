@@ -39,7 +39,7 @@ void set_option(int socket, int level, int name, const Value& value) {
   throw InputError(fmt::format("socketcan: option {} was refused ({})", name, std::strerror(errno)));
 }
 
-/// Exactly these identifiers, in the short format, as data frames, and as requests for them where wanted.
+/// Filters for exactly these 11-bit identifiers: data frames, and remote requests where wanted.
 void set_filters(int socket, const SocketCanOptions& options) {
   const canid_t format_mask = options.takes_remote_requests ? CAN_EFF_FLAG : format_bits;
   std::vector<can_filter> filters;
@@ -54,8 +54,8 @@ Stamp stamp_of(const timespec& time) {
   return Stamp(std::chrono::seconds(time.tv_sec) + Duration(time.tv_nsec));
 }
 
-/// What the monotonic clock shows over the one that people set, on which the kernel stamps. Both are read
-/// again when something came in between.
+/// Offset of the monotonic clock from the wall clock, on which the kernel stamps. Both are read again when
+/// the thread was interrupted between the two readings.
 Duration monotonic_over_wall() {
   constexpr Duration at_once = std::chrono::microseconds(100);
   timespec wall_now{};
@@ -69,7 +69,7 @@ Duration monotonic_over_wall() {
   return now - stamp_of(wall_now);
 }
 
-/// One message of the socket, with what the kernel says about it.
+/// One message of the socket with its kernel metadata.
 struct Message {
   can_frame frame{};
   bool is_own = false;
@@ -77,7 +77,7 @@ struct Message {
   std::optional<std::uint32_t> lost;  ///< in total, since the socket was opened
 };
 
-/// Nothing when there is none; errno tells why.
+/// Empty when there is none; errno holds the reason.
 std::optional<Message> receive(int socket) {
   Message message;
   iovec part{.iov_base = &message.frame, .iov_len = sizeof(message.frame)};
@@ -109,7 +109,8 @@ std::optional<Message> receive(int socket) {
   return message;
 }
 
-/// On the monotonic clock. A stamp that cannot be, after somebody set the clock, is taken for fresh.
+/// The stamp on the monotonic clock. An impossible stamp, after the wall clock was set, is replaced by the
+/// present time.
 Stamp stamp_from(const std::optional<Stamp>& wall_stamp, std::optional<Duration>& over_wall) {
   const Stamp now = monotonic_now();
   if (!wall_stamp) return now;
@@ -119,7 +120,7 @@ Stamp stamp_from(const std::optional<Stamp>& wall_stamp, std::optional<Duration>
   return is_possible ? stamp : now;
 }
 
-/// A remote request carries no data, whatever its length says.
+/// A remote request carries no data, whatever its length field.
 CanFrame frame_from(const can_frame& raw) {
   const bool is_request = (raw.can_id & CAN_RTR_FLAG) != 0;
   const std::uint8_t length = is_request ? 0 : std::min<std::uint8_t>(raw.can_dlc, 8);
@@ -181,7 +182,7 @@ std::optional<StampedCanFrame> SocketCanBus::poll() {
   return oldest;
 }
 
-/// Takes in all that the kernel has for us; frames of others wait in `arrived_`.
+/// Reads everything that the kernel has for us; frames of other nodes are queued in `arrived_`.
 void SocketCanBus::read_all() {
   std::optional<Duration> over_wall;
   const canid_t unwanted = options_.takes_remote_requests ? CAN_EFF_FLAG : format_bits;
@@ -203,12 +204,12 @@ void SocketCanBus::read_all() {
       confirm(frame.can_id & CAN_SFF_MASK);
     } else if ((frame.can_id & unwanted) == 0) {
       ++counts_.received;
-      // A controller that is off hears nothing: where frames go on arriving, the word of it was spoilt.
+      // A bus-off controller receives nothing: if frames keep arriving, the report was wrong.
       const bool is_long_ago =
           disturbed_ && monotonic_now() - *disturbed_ > options_.disbelieve_bus_off_after;
       if (state_ == BusState::bus_off && is_long_ago) state_ = BusState::up;
       const Stamp stamp = stamp_from(message->wall_stamp, over_wall);
-      newest_ = std::max(newest_, stamp);  // in the order of the bus, whatever the clocks do
+      newest_ = std::max(newest_, stamp);  // never backwards, whatever the clocks do
       arrived_.push_back({newest_, frame_from(frame)});
     }
   }
@@ -220,7 +221,7 @@ BusHealth SocketCanBus::health() const {
   return {carries && is_stalled ? BusState::stalled : state_, counts_};
 }
 
-/// What no frame tells: an interface that is switched on again, or came back under the same name.
+/// Detects what no frame reports: an interface that was switched on again, or came back under the same name.
 void SocketCanBus::check_interface() {
   const Stamp now = monotonic_now();
   while (!waiting_.empty() && now - waiting_.front().sent > options_.forget_after) waiting_.pop_front();
@@ -248,7 +249,7 @@ void SocketCanBus::check_interface() {
   }
 }
 
-/// An interface that is removed takes the filters with it.
+/// Removing an interface also removes the socket's filters.
 void SocketCanBus::bind_to(unsigned index) {
   set_filters(socket_.get(), options_);
   sockaddr_can address{};
@@ -300,7 +301,7 @@ void SocketCanBus::refuse() {
   refused_ = monotonic_now();
 }
 
-/// Controllers that restart by themselves do not all say so.
+/// Not all controllers report an automatic restart.
 void SocketCanBus::recover_from_bus_off() {
   const CanInterface seen = look_at_can_interface(interface_);
   if (seen.controller == "error-active" || seen.controller == "error-warning") state_ = BusState::up;

@@ -12,32 +12,34 @@ struct can_frame;
 namespace lodestar {
 
 struct SocketCanOptions {
-  std::vector<std::uint32_t>
-      identifiers;  ///< to hear, and those to be sent (else none is confirmed); all when empty
-  bool takes_remote_requests = false;                      ///< as frames without data; else they are left out
-  Duration check_period = std::chrono::milliseconds(200);  ///< of the interface: there, up, still the same?
-  Duration stalled_after = std::chrono::milliseconds(100);  ///< without the confirmation of a frame
-  int stalled_after_refusals = 3;                           ///< in a row
-  /// A bus-off is not believed any more when frames still arrive so long after it was told.
+  /// Receive filter; must include the identifiers that are sent, or their frames are never confirmed. Empty:
+  /// all identifiers.
+  std::vector<std::uint32_t> identifiers;
+  bool takes_remote_requests = false;  ///< received as frames without data; otherwise ignored
+  /// How often to check that the interface exists, is up, and is still the same one.
+  Duration check_period = std::chrono::milliseconds(200);
+  Duration stalled_after = std::chrono::milliseconds(100);  ///< time without the confirmation of a frame
+  int stalled_after_refusals = 3;                           ///< consecutive frames refused by the kernel
+  /// A reported bus-off is dropped when frames still arrive this long after the report.
   Duration disbelieve_bus_off_after = std::chrono::seconds(5);
-  Duration forget_after =
-      std::chrono::seconds(1);  ///< a frame never confirmed no longer holds its successors up
+  /// A frame that is never confirmed blocks its successors no longer than this.
+  Duration forget_after = std::chrono::seconds(1);
 };
 
-/// A CAN interface of Linux. Frames are stamped by the kernel on reception, on the monotonic clock. Of each
-/// identifier at most one frame waits to be sent: a newer command must not queue up behind an older one. The
-/// interface may be switched off, vanish and come back; it is found again by its name.
+/// A Linux CAN interface. Frames are stamped by the kernel on reception, converted to the monotonic clock. At
+/// most one frame per identifier waits to be sent: a newer command must not queue behind an older one. The
+/// interface may be switched off, disappear and come back; it is found again by its name.
 class SocketCanBus final : public CanBus {
  public:
-  /// Throws InputError for a name that cannot be one, and when this kernel has no CAN. An interface that is
-  /// not there yet is waited for.
+  /// Throws InputError for an invalid interface name, and when this kernel has no CAN. An interface that does
+  /// not exist yet is waited for.
   explicit SocketCanBus(std::string interface, const SocketCanOptions& options = {});
 
   bool send(const CanFrame& frame) override;
   std::optional<StampedCanFrame> poll() override;
   [[nodiscard]] BusHealth health() const override;
 
-  /// To wait on with poll(2).
+  /// For poll(2).
   [[nodiscard]] int descriptor() const { return socket_.get(); }
 
  private:
@@ -62,13 +64,13 @@ class SocketCanBus final : public CanBus {
   BusState state_ = BusState::missing;
   BusCounts counts_;
   std::optional<Stamp> checked_;
-  Stamp newest_;                         ///< of the frames received
+  Stamp newest_;                         ///< of the received frames
   std::deque<StampedCanFrame> arrived_;  ///< not yet polled
-  std::optional<Stamp> disturbed_;       ///< last word of the controller about being passive or off
+  std::optional<Stamp> disturbed_;       ///< last report of the controller being error-passive or bus-off
   int refused_in_a_row_ = 0;
-  Stamp refused_;                ///< the newest of them
-  std::deque<Waiting> waiting_;  ///< handed over, not yet confirmed
-  bool waits_long_ = false;      ///< for the oldest of them, when all that had arrived was read
+  Stamp refused_;                ///< time of the newest refusal
+  std::deque<Waiting> waiting_;  ///< accepted by the kernel, not yet confirmed
+  bool waits_long_ = false;      ///< the oldest waited too long when everything received had been read
 };
 
 }  // namespace lodestar

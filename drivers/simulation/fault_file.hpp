@@ -11,8 +11,8 @@ namespace lodestar {
 ///
 ///     faults:
 ///       - {fault: camera_frozen, at_s: 6, for_s: 2}
-///       - {fault: marker_moved, between_s: [4, 9], marker: 447, shift_m: 0.2, direction_deg: 30, turn_deg:
-///       0}
+///       - {fault: marker_moved, between_s: [4, 9], marker: 447, shift_m: 0.2,
+///          direction_deg: 30, turn_deg: 0}
 ///
 /// `between_s` leaves the begin to the seed; without `for_s` a fault lasts to the end; without `marker` it
 /// befalls the one nearest to the robot when it begins (markers_occluded: all). Throws InputError with file

@@ -17,8 +17,8 @@ struct SimulatedBaseOptions {
   double true_track_width_m = 0.404;
   double left_wheel_scale = 1.006;  ///< true travel over reported travel: unequal wheels
   double right_wheel_scale = 0.994;
-  double slip_sigma_per_sqrt_m =
-      0.002;                  ///< random loss or gain of ground per square root of metre rolled, each wheel
+  /// Random error of each wheel's travel over ground, per square root of metre rolled.
+  double slip_sigma_per_sqrt_m = 0.002;
   double motor_lag_s = 0.08;  ///< first-order lag of the wheel speed loop
   double max_wheel_acceleration_mps2 = 2.0;
   double max_wheel_mps = 1.6;          ///< of the motors; a command beyond keeps its curve

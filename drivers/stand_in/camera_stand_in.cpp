@@ -6,7 +6,7 @@
 namespace lodestar {
 namespace {
 
-constexpr std::size_t buffers = 4;  ///< of a usual camera
+constexpr std::size_t buffers = 4;  ///< as many as a typical camera has
 
 class CameraStandIn final : public Camera {
  public:

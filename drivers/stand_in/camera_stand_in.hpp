@@ -10,8 +10,8 @@
 namespace lodestar {
 
 /// The simulated camera for a base that is simulated in another process (`lodestar base`), in real time. It
-/// hears from that process where the robot truly is, and hands out nothing but images. `interface` is the CAN
-/// interface on which that base lives; until there is one, no image comes.
+/// receives the robot's true pose from that process and delivers nothing but images. `interface` is the CAN
+/// interface of that base; while there is no such base, no frames arrive.
 std::unique_ptr<Camera> open_camera_stand_in(const std::string& interface, const MarkerRegistry& registry,
                                              const CameraModel& camera,
                                              const Eigen::Isometry3d& base_from_camera,

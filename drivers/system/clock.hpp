@@ -4,10 +4,10 @@
 
 namespace lodestar {
 
-/// The robot's time in the real world: CLOCK_MONOTONIC, which no one can set and all processes share.
+/// Robot time on real hardware: CLOCK_MONOTONIC, which cannot be set and is shared by all processes.
 Stamp monotonic_now();
 
-/// Sleeps until that time on the same clock; not at all when it is past. A signal ends it early.
+/// Sleeps until that time on the same clock; returns at once when it is past. A signal ends the sleep early.
 void sleep_until(Stamp stamp);
 
 }  // namespace lodestar

@@ -5,7 +5,7 @@
 
 namespace lodestar {
 
-/// Owns an open file, socket or pipe; closes it at the end.
+/// Owns an open file, socket or pipe and closes it in the destructor.
 class FileDescriptor {
  public:
   FileDescriptor() = default;
