@@ -16,8 +16,8 @@ struct HeightBands {
   double low_m = 0.0;    ///< of the lowest band, in the map frame
   double step_m = 0.0;   ///< of one band; not less than a voxel
   double touch_m = 0.0;  ///< voxels nearer than this to an end of a sight line do not block it
-  std::vector<std::uint32_t>
-      cells;  ///< in the map's order; bit k: occupied in the band that begins at low_m + k step_m
+  /// In the map's order; bit k: occupied in the band that begins at low_m + k step_m.
+  std::vector<std::uint32_t> cells;
 };
 
 /// The bands from low_m to high_m. Throws InputError.

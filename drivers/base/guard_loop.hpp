@@ -40,8 +40,8 @@ class GuardLoop {
   GuardOptions options_;
   Stamp now_;
   bool navigator_is_there_ = true;
-  std::vector<bool>
-      moves_;  ///< for each frame of `stop`: the newest command with its identifier differs from it
+  /// For each frame of `stop`: the newest command with its identifier differs from it.
+  std::vector<bool> moves_;
   bool holds_ = false;
   bool released_ = true;  ///< not under our control: nothing commanded yet, or released
   int repeats_left_ = 0;

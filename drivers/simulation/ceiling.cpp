@@ -21,7 +21,7 @@ enum Purpose : std::uint64_t {
   place_of_tiles
 };
 
-constexpr double margin_m = 3.0;  ///< of ceiling beyond the outermost markers
+constexpr double margin_m = 3.0;  ///< ceiling beyond the outermost markers
 constexpr double default_height_m = 2.5;
 
 constexpr double tube_half_length_m = 0.59;  ///< a T8 tube of 36 W
@@ -30,12 +30,12 @@ constexpr double tube_gray = 330.0;
 const Vec2 tube_spacing_m(5 * ceiling_tile_m, 4 * ceiling_tile_m);
 
 const Vec2 lamp_spacing_m(4 * ceiling_tile_m, 4 * ceiling_tile_m);
-constexpr double light_clearance_m = 0.3;  ///< between a light and the middle of a marker
+constexpr double light_clearance_m = 0.3;  ///< between a light and the centre of a marker
 
 constexpr double glints_per_m2 = 0.4;
 constexpr double glint_clearance_m = 0.03;  ///< from a marker's film
 
-/// An upright rectangle of the ceiling.
+/// An axis-aligned rectangle of the ceiling.
 struct Extent {
   Vec2 low_m = Vec2::Zero();
   Vec2 high_m = Vec2::Zero();
@@ -77,7 +77,7 @@ Extent extent_of(const std::vector<CeilingMarker>& markers) {
   return {extent.low_m.array() - margin_m, extent.high_m.array() + margin_m};
 }
 
-/// Distance of a point from the straight piece between two others, in the plane.
+/// Distance of a point from a line segment, in the plane.
 double distance_to_piece_m(const Vec2& point, const Vec2& from, const Vec2& to) {
   const Vec2 piece = to - from;
   const double fraction = std::clamp((point - from).dot(piece) / piece.squaredNorm(), 0.0, 1.0);
@@ -109,7 +109,7 @@ bool is_off_film(const CeilingDisc& glint, const CeilingMarker& marker) {
          marker_film_half_side_m + glint.radius_m + glint_clearance_m;
 }
 
-/// Along one axis, every so many metres: the middle of a tile.
+/// Coordinates of tile centres along one axis, at the given spacing in metres.
 std::vector<double> tile_middles_m(double low, double high, double spacing, double tile_corner) {
   std::vector<double> middles;
   const double first = tile_corner + spacing * std::ceil((low - tile_corner) / spacing);
@@ -135,7 +135,7 @@ Vec2 lay_tiles(Random random) {
 std::vector<CeilingTube> fit_tubes(const Ceiling& ceiling, const Extent& extent) {
   std::vector<CeilingTube> tubes;
   for (const Vec2& middle : tile_middles_m(extent, tube_spacing_m, ceiling.tile_corner_m)) {
-    // Where a marker is in the way the fitting moves on by a tile.
+    // If a marker is in the way, the light is moved by one tile.
     for (const double shift : {0.0, ceiling_tile_m, -ceiling_tile_m}) {
       const Vec3 at(middle.x(), middle.y() + shift, ceiling.height_m);
       const Vec3 half_length(tube_half_length_m, 0.0, 0.0);
@@ -161,7 +161,7 @@ std::vector<CeilingDisc> fit_lamps(const Ceiling& ceiling, const Extent& extent,
   return lamps;
 }
 
-/// Screws, sprinkler heads, foil: most are mere points, one in four is as large and bright as a dot.
+/// Screws, sprinkler heads, foil: most are points, one in four is as large and bright as a dot.
 CeilingDisc draw_glint(const Extent& extent, double height_m, Random& random) {
   const double x = random.uniform(extent.low_m.x(), extent.high_m.x());
   const double y = random.uniform(extent.low_m.y(), extent.high_m.y());

@@ -6,18 +6,18 @@
 #include "drivers/simulation/simulated_camera_options.hpp"
 #include "maps/marker_registry.hpp"
 
-// What hangs on the simulated ceiling, in the map frame. Gray values are what the camera's middle would show
-// before noise; above 255 the sensor saturates.
+// The objects on the simulated ceiling, in the map frame. Gray values are those at the image centre before
+// noise; above 255 the sensor saturates.
 namespace lodestar {
 
-/// A round, horizontal face: a marker's dot, a lamp, a glint.
+/// A horizontal disc: a marker's dot, a lamp, a glint.
 struct CeilingDisc {
   Vec3 center_m = Vec3::Zero();
   double radius_m = 0.0;
   double gray = 0.0;
 };
 
-/// A fluorescent tube, lying horizontally.
+/// A horizontal fluorescent tube.
 struct CeilingTube {
   Vec3 from_m = Vec3::Zero();
   Vec3 to_m = Vec3::Zero();
@@ -26,30 +26,31 @@ struct CeilingTube {
 };
 
 struct CeilingMarker {
-  Vec3 middle_m = Vec3::Zero();  ///< of the 4 x 4 grid
+  Vec3 middle_m = Vec3::Zero();  ///< centre of the 4 x 4 grid
   Eigen::Isometry3d map_from_marker = Eigen::Isometry3d::Identity();
   std::vector<CeilingDisc> dots;
 };
 
 struct Ceiling {
-  double height_m = 0.0;              ///< of the plain ceiling: the median of the markers
-  Vec2 tile_corner_m = Vec2::Zero();  ///< of some tile: where the first one was laid
+  double height_m = 0.0;              ///< height of the ceiling plane: the median of the markers
+  Vec2 tile_corner_m = Vec2::Zero();  ///< corner of the first tile
   std::vector<CeilingMarker> markers;
   std::vector<CeilingTube> tubes;
   std::vector<CeilingDisc> lamps;
   std::vector<CeilingDisc> glints;  ///< small specular spots, some as large as a dot
 };
 
-/// Half the side of a marker's film; no glint shines through it.
+/// Half the side of a marker's film; no glint lies on it.
 inline constexpr double marker_film_half_side_m = 0.085;
 
-/// Hangs up the registry's markers alone. Deterministic in the seed.
+/// A ceiling with the registry's markers only. Deterministic in the seed.
 std::vector<CeilingMarker> hang_markers(const MarkerRegistry& registry, const SimulatedCameraOptions& options,
                                         std::uint64_t seed);
 
-/// Fits the ceiling around the registry's markers, some metres beyond them to all sides. Tubes and lamps keep
-/// clear of the markers, as an electrician and a surveyor would; glints keep off their film only. Markers
-/// that share an ID all hang there. Where the tiles lie is by the seed too: a survey knows nothing of them.
+/// A full ceiling around the registry's markers, extending some metres beyond them on all sides. Tubes and
+/// lamps keep clear of the markers, as in a real installation; glints keep off their film only. Markers that
+/// share an ID are all present. The tiles' position also depends on the seed, since a survey does not record
+/// it.
 Ceiling fit_ceiling(const MarkerRegistry& registry, const SimulatedCameraOptions& options,
                     std::uint64_t seed);
 

@@ -12,22 +12,23 @@ constexpr int cell = 1 << cell_bits;  // side of a coarse cell, in samples of th
 constexpr int light_bits = 8;  // nodes hold light in 1/256 of LightImage's unit, to be stepped along rows
 constexpr double light_scale = LightImage::units_per_gray << light_bits;
 
-constexpr double strongest_texture_gray = 30.0;  // so that texture on white still fits 16 bits
+constexpr double strongest_texture_gray = 30.0;  // such that texture on white still fits 16 bits
 
-constexpr double glow_gray = 28.0;     // of the ceiling right beside a light
-constexpr double glow_reach_m = 0.13;  // at which it has fallen to a quarter
+constexpr double glow_gray = 28.0;     // of the ceiling directly beside a light
+constexpr double glow_reach_m = 0.13;  // distance at which it has fallen to a quarter
 
 std::size_t index(int value) {
   return static_cast<std::size_t>(value);
 }
 
-/// The ray through a pixel. Beyond the lens' domain (corners of a round image) the pinhole's will do.
+/// The ray through a pixel. Outside the domain of the lens model (corners of a circular image) the pinhole
+/// ray is used.
 Vec3 ray_through(const Vec2& pixel, const CameraModel& camera) {
   const Vec2 pinhole((pixel.x() - camera.cx_px) / camera.fx_px, (pixel.y() - camera.cy_px) / camera.fy_px);
   return camera.normalized(pixel).value_or(pinhole).homogeneous();
 }
 
-/// Where a ray meets the ceiling; a ray that hardly rises is taken to end some way off.
+/// Intersection of a ray with the ceiling; a nearly horizontal ray is cut off at a distance.
 Vec2 meet_ceiling(const Vec3& from, const Vec3& ray, double height_m) {
   constexpr double least_rise = 0.05;
   const double distance = std::max(height_m - from.z(), 0.0) / std::max(ray.z(), least_rise);
@@ -57,7 +58,7 @@ double glow_of_lights(const Ceiling& ceiling, const Vec2& point) {
   return gray;
 }
 
-/// The lights whose glow the picture may show.
+/// The lights whose glow may be in view.
 Ceiling lights_near(const Ceiling& ceiling, const Vec2& middle, double radius_m) {
   constexpr double farthest_glow_m = 0.8;
   const double near = (radius_m + farthest_glow_m) * (radius_m + farthest_glow_m);
@@ -68,7 +69,7 @@ Ceiling lights_near(const Ceiling& ceiling, const Vec2& middle, double radius_m)
   return result;
 }
 
-/// Steps of 1/8 from one end to the other; coordinates wrap, so their difference is taken as signed.
+/// One eighth of the way from one end to the other; coordinates wrap, so their difference is taken as signed.
 std::int32_t eighth(std::uint32_t from, std::uint32_t to) {
   return static_cast<std::int32_t>(to - from) >> cell_bits;
 }
@@ -76,8 +77,8 @@ std::int32_t eighth(std::int32_t from, std::int32_t to) {
   return (to - from) >> cell_bits;
 }
 
-/// A quarter of the way from a to b. The background stays below 400 gray, so that the difference fits 16
-/// bits too; saying so keeps eight pixels in one register.
+/// A quarter of the way from a to b. The background stays below 400 gray, so the difference fits 16 bits;
+/// with that type, eight pixels fit one register.
 std::int16_t quarter_towards(std::int16_t a, std::int16_t b) {
   const auto difference = static_cast<std::int16_t>(b - a);
   return static_cast<std::int16_t>(a + static_cast<std::int16_t>(difference >> 2));
@@ -97,7 +98,7 @@ CeilingBackground::CeilingBackground(const CameraModel& camera, const Vignetting
   const int node_rows = (half_height_ + cell - 1) / cell + 1;
   for (int row = 0; row < node_rows; ++row) {
     for (int column = 0; column < node_columns_; ++column) {
-      // A sample of the half-size image is the middle of 2 x 2 pixels.
+      // A sample of the half-size image lies at the centre of 2 x 2 pixels.
       const Vec2 pixel(2.0 * cell * column + 0.5, 2.0 * cell * row + 0.5);
       rays_.push_back(ray_through(pixel, camera));
       falloff_.push_back(vignetting.at(pixel));
@@ -140,7 +141,7 @@ void CeilingBackground::sample_half_row(int row) {
   const int down = row % cell;
   const Node* above = nodes_.data() + index(row / cell) * index(node_columns_);
   const Node* below = above + node_columns_;
-  // Along the left and right edge of each cell at this row.
+  // Values on the left and right edge of each cell in this row.
   const auto node_at = [&](int column) {
     const Node& a = above[column];
     const Node& b = below[column];
@@ -167,8 +168,8 @@ void CeilingBackground::sample_half_row(int row) {
 }
 
 void CeilingBackground::enlarge(LightImage& image) const {
-  // A pixel lies a quarter of a sample's step from the nearest sample: three parts of that one, one part of
-  // the next, down and across.
+  // A pixel lies a quarter of the sample spacing from the nearest sample: bilinear weights 3/4 and 1/4 in
+  // both directions.
   std::vector<std::int16_t> mixed(index(half_width_) + 2);  // one row, with a repeated sample at either end
   std::int16_t* mix = mixed.data() + 1;
   for (int v = 0; v < image.height_px(); ++v) {

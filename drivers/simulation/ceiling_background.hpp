@@ -11,9 +11,9 @@
 
 namespace lodestar {
 
-/// The plain ceiling as the camera sees it: its texture, the glow around the lights, the falloff to the
-/// corners. It has little contrast and is sampled at every other pixel only; the lens is followed exactly at
-/// the nodes of a coarse grid and linearly between them. Smear by motion is too faint here to be drawn.
+/// The image of the bare ceiling: texture, glow around the lights, vignetting. It has little contrast and is
+/// sampled at every other pixel only; the lens model is evaluated at the nodes of a coarse grid and
+/// interpolated linearly between them. Motion blur is negligible here and not rendered.
 class CeilingBackground {
  public:
   CeilingBackground(const CameraModel& camera, const Vignetting& vignetting, double background_gray,
@@ -23,11 +23,11 @@ class CeilingBackground {
   void paint(const Ceiling& ceiling, const Eigen::Isometry3d& map_from_camera, LightImage& image);
 
  private:
-  /// A corner of a coarse cell: where on the texture it looks, and its light.
+  /// A node of the coarse grid: its texture coordinates and its light.
   struct Node {
     std::uint32_t x = 0;
     std::uint32_t y = 0;
-    std::int32_t light = 0;  ///< finer than the units of LightImage, see .cpp
+    std::int32_t light = 0;  ///< in a fraction of LightImage's unit, see light_bits
     std::int32_t texture = 0;
   };
 
@@ -39,10 +39,10 @@ class CeilingBackground {
   double background_gray_;
   double texture_gray_;
   CeilingTexture texture_;
-  int half_width_;  ///< of the image at every other pixel
+  int half_width_;  ///< width of the half-size image
   int half_height_;
   int node_columns_;
-  int half_stride_;              ///< whole cells
+  int half_stride_;              ///< rounded up to whole cells
   std::vector<Vec3> rays_;       ///< of the nodes, in the camera frame
   std::vector<double> falloff_;  ///< of the nodes
   std::vector<Node> nodes_;

@@ -21,7 +21,7 @@ cv::Mat1f white_noise(int size, Random random) {
   return noise;
 }
 
-/// Gaussian blur on the torus, scaled to deviation 1.
+/// Gaussian blur with periodic boundaries, scaled to standard deviation 1.
 cv::Mat1f smooth_noise(int size, double sigma, Random random) {
   const int border = static_cast<int>(std::ceil(4.0 * sigma));
   cv::Mat1f wide;
@@ -35,7 +35,7 @@ cv::Mat1f smooth_noise(int size, double sigma, Random random) {
   return smooth;
 }
 
-/// Large soft blotches, blown up from a coarse torus.
+/// Large soft blotches, enlarged from a coarse periodic grid.
 cv::Mat1f draw_stains(Random random) {
   constexpr int coarse = 128;
   constexpr int scale = side / coarse;

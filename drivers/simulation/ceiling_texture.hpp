@@ -8,12 +8,12 @@ namespace lodestar {
 
 inline constexpr double ceiling_tile_m = 0.6;  ///< side of a mineral-fibre tile
 
-/// The look of a tiled ceiling, without lights: joints, tiles of unlike tone, stains, specks. It repeats
-/// after eight tiles, more than a camera sees at once, and a 32-bit fraction of that period is a coordinate
-/// that wraps by itself.
+/// Texture of a tiled ceiling, without lights: joints, tiles of different tone, stains, specks. It repeats
+/// after eight tiles, more than a camera sees at once; coordinates are 32-bit fractions of that period, which
+/// wrap without extra code.
 class CeilingTexture {
  public:
-  static constexpr int side = 1024;  ///< texels; small enough to stay in the processor's cache
+  static constexpr int side = 1024;  ///< texels; small enough for the processor's cache
   static constexpr double period_m = 8 * ceiling_tile_m;
   static constexpr int units_per_amplitude = 32;
 

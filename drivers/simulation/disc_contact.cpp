@@ -6,10 +6,10 @@
 namespace lodestar {
 namespace {
 
-/// What is closer than this only touches: it takes up the rounding of coordinates, no more.
+/// Overlaps below this count as touching; allows only for the rounding of coordinates.
 constexpr double touch_m = 1e-9;
 
-/// How far a coordinate is outside of the interval [cell, cell + 1].
+/// Distance of a coordinate from the interval [cell, cell + 1].
 double distance_to_cell(double coordinate, int cell) {
   return std::max({cell - coordinate, coordinate - (cell + 1.0), 0.0});
 }
@@ -22,7 +22,7 @@ bool is_inside_grid(const OccupancyMap& map, const Vec2& centre, double radius) 
 }  // namespace
 
 bool disc_overlaps_obstacle(const OccupancyMap& map, const Vec2& centre_in_map, double radius_m) {
-  // From here on in the grid's frame and in cells.
+  // From here on in the grid frame, in units of cells.
   const Vec2 centre = inverse(map.map_from_grid) * centre_in_map / map.resolution_m;
   const double radius = std::max(0.0, radius_m - touch_m) / map.resolution_m;
   if (!is_inside_grid(map, centre, radius)) return true;  // NaN is never inside

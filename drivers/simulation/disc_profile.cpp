@@ -16,8 +16,8 @@ double normal_cdf(double x) {
   return 0.5 * std::erfc(-x / std::numbers::sqrt2);
 }
 
-/// The disc as a stack of thin chords at height y = radius sin(t), each blurred along (a difference of two
-/// normal distributions) and across (a normal density).
+/// Integrates the disc over thin chords at height y = radius sin(t), each blurred along its length (a
+/// difference of two normal distribution functions) and across (a normal density).
 double blurred_disc(double radius, double distance_from_middle) {
   constexpr int slices = 16;
   constexpr double negligible = 4.5;

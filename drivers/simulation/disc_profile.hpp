@@ -4,19 +4,19 @@
 
 namespace lodestar {
 
-/// How much of a disc's light falls on a point after a Gaussian blur: 1 deep inside, 0 far outside, about
-/// one half on the rim. Lengths are in sigmas of the blur, so one table serves every blur.
+/// Share of a disc's light at a point after a Gaussian blur: 1 well inside, 0 far outside, about one half on
+/// the rim. Lengths are in sigmas of the blur, so one table serves every blur.
 class DiscProfile {
  public:
   DiscProfile();
 
-  /// Beyond this distance from the rim the profile is constant, to a few parts in ten thousand.
+  /// Beyond this distance from the rim the profile is constant to a few parts in ten thousand.
   static constexpr double reach = 3.5;
 
   /// The profile of one radius.
   class Row {
    public:
-    /// At a point `inside` of the rim (negative: outside).
+    /// At a point at distance `inside` within the rim (negative: outside).
     [[nodiscard]] double at(double inside) const {
       const double place = (inside + reach) * steps_per_sigma;
       if (!(place > 0.0)) return 0.0;

@@ -8,10 +8,10 @@
 
 namespace lodestar {
 
-/// The markers as they hang while these faults are on.
+/// The markers on the ceiling while these faults are active.
 MarkerRegistry disturbed(const MarkerRegistry& registry, const std::vector<Fault>& active);
 
-/// The lamps that these faults put around markers. Deterministic in the seed.
+/// The decoy lamps that these faults place around markers. Deterministic in the seed.
 std::vector<CeilingDisc> decoy_lamps(const MarkerRegistry& registry, const std::vector<Fault>& active,
                                      std::uint64_t seed);
 

@@ -14,7 +14,7 @@ double gray_of(std::int16_t units) {
   return std::min(static_cast<double>(units) / LightImage::units_per_gray, 255.0);
 }
 
-/// A small picture of the disc alone.
+/// Renders a small image of the disc alone.
 LightImage painted(ProjectedDisc disc, const Vec2& center_px, const DiscImaging& imaging,
                    const DiscProfile& profile, int side) {
   LightImage image(side, side);

@@ -7,61 +7,62 @@
 
 #include "maps/stamp.hpp"
 
-// What can go wrong in the simulated world. Nothing of it reaches the navigator but by its sensors.
+// Faults of the simulated world. They reach the navigator only through its sensors.
 namespace lodestar {
 
 enum class FaultKind {
-  markers_occluded,   ///< a marker, or all of them
-  marker_wrong_id,    ///< somebody has hung another marker's print there
+  markers_occluded,   ///< one marker, or all
+  marker_wrong_id,    ///< another marker's print is mounted in its place
   marker_moved,       ///< after the survey
   marker_duplicated,  ///< a second print of the same marker, beside it
-  markers_swapped,    ///< a marker and its nearest neighbour
+  markers_swapped,    ///< a marker and its nearest neighbour are exchanged
   decoy_lamps,        ///< as large and bright as dots, around a marker
-  camera_frozen,      ///< the same picture with new stamps
+  camera_frozen,      ///< the same image with new stamps
   camera_dropped,     ///< no frames
   camera_black,
   camera_saturated,
   camera_blurred,
   camera_late,
-  clock_jump,  ///< of the clock that stamps the frames
+  clock_jump,  ///< a jump of the clock that stamps the frames
   can_loss,
-  can_delay,  ///< each frame by another time up to this: frames overtake each other
+  can_delay,  ///< each frame by a random time up to this: frames overtake each other
   can_duplication,
-  can_corruption,  ///< frames cut short, and frames with foreign identifiers
-  wheel_slip,      ///< the wheels turn farther than the floor goes by
-  encoder_stuck,   ///< the left one
-  kidnapping,      ///< somebody puts the robot elsewhere
-  disk_full,       ///< of what the drive leaves, nothing more is taken
-  disk_slow,       ///< each write takes so long
+  can_corruption,  ///< truncated frames, and frames with unknown identifiers
+  wheel_slip,      ///< the wheels roll farther than the robot moves
+  encoder_stuck,   ///< the left wheel's encoder
+  kidnapping,      ///< the robot is carried to another place
+  disk_full,       ///< recordings of the drive can no longer be written
+  disk_slow,       ///< each write takes `delay_s`
 };
 
-/// One thing that goes wrong for a while. Which of the values count depends on its kind.
+/// One fault with its time span. Which of the values apply depends on its kind.
 struct Fault {
   FaultKind kind = FaultKind::markers_occluded;
-  Duration begin{};                      ///< since the start
-  std::optional<Duration> latest_begin;  ///< when begin is only the earliest: then the seed decides
-  std::optional<Duration> lasts;         ///< nothing: to the end
-  std::optional<int> marker;  ///< its ID; nothing: the one nearest to the robot at the begin, or all
+  Duration begin{};  ///< since the start
+  /// If set, the begin is drawn from the seed between `begin` and this.
+  std::optional<Duration> latest_begin;
+  std::optional<Duration> lasts;  ///< empty: to the end of the run
+  std::optional<int> marker;      ///< its ID; empty: the one nearest to the robot at the begin, or all
   double shift_m = 0.0;
-  double direction_rad = 0.0;  ///< of the shift, in the map frame
+  double direction_rad = 0.0;  ///< direction of the shift, in the map frame
   double turn_rad = 0.0;
-  double count = 0.0;  ///< of lamps
+  double count = 0.0;  ///< number of lamps
   double blur_sigma_px = 0.0;
   double delay_s = 0.0;
-  double share = 0.0;       ///< of the frames
-  double left_share = 0.0;  ///< of the left wheel's travel that is lost to the floor
+  double share = 0.0;       ///< share of the frames affected
+  double left_share = 0.0;  ///< share of the left wheel's travel lost to slip
   double right_share = 0.0;
 };
 
-/// What came of a fault in one run.
+/// A fault as it occurred in one run.
 struct FaultEvent {
   FaultKind kind = FaultKind::markers_occluded;
   Stamp begin;
-  std::optional<Stamp> end;   ///< nothing: it lasted to the end of the run
-  std::optional<int> marker;  ///< that it befell, where it befell one
+  std::optional<Stamp> end;   ///< empty: it lasted to the end of the run
+  std::optional<int> marker;  ///< the affected marker, if any
 };
 
-/// As in fault files: "wheel_slip".
+/// The name used in fault files, such as "wheel_slip".
 std::string_view to_string(FaultKind kind);
 
 /// All of them, in the order of the enumeration.

@@ -14,9 +14,9 @@ namespace lodestar {
 ///       - {fault: marker_moved, between_s: [4, 9], marker: 447, shift_m: 0.2,
 ///          direction_deg: 30, turn_deg: 0}
 ///
-/// `between_s` leaves the begin to the seed; without `for_s` a fault lasts to the end; without `marker` it
-/// befalls the one nearest to the robot when it begins (markers_occluded: all). Throws InputError with file
-/// and line.
+/// With `between_s` the begin is drawn from the seed; without `for_s` a fault lasts to the end; without
+/// `marker` it affects the marker nearest to the robot when it begins (markers_occluded: all). Throws
+/// InputError with file and line.
 std::vector<Fault> load_faults(const std::filesystem::path& file);
 
 }  // namespace lodestar

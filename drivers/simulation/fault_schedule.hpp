@@ -9,22 +9,22 @@
 
 namespace lodestar {
 
-/// Which faults are on at a time, and which markers they befall.
+/// The faults active at a time, and the markers that they affect.
 class FaultSchedule {
  public:
-  /// Draws the begins that are left open from the seed.
+  /// Draws begins that are given as intervals from the seed.
   FaultSchedule(std::vector<Fault> faults, std::uint64_t seed);
 
   /// True when a fault has begun or ended since the last call. `position_m` decides which marker is nearest.
   bool advance(Stamp now, const Vec2& position_m, const MarkerRegistry& registry);
 
-  /// Those that are on now, with their markers filled in.
+  /// The active faults, with their markers filled in.
   [[nodiscard]] std::vector<Fault> active() const;
 
-  /// Those that began with the last change.
+  /// The faults that began with the last change.
   [[nodiscard]] const std::vector<Fault>& begun() const { return begun_; }
 
-  /// All that have begun so far.
+  /// All faults that have begun so far.
   [[nodiscard]] std::vector<FaultEvent> events() const;
 
  private:

@@ -8,13 +8,13 @@
 
 namespace lodestar {
 
-/// One value of a fault as it stands in a file: its key with the unit, its limits, and where it goes.
+/// One parameter of a fault in a file: its key with the unit, its limits, and the member that it sets.
 struct FaultParameter {
   std::string_view key;
   double low = 0.0;
   double high = 0.0;
   double Fault::* value = nullptr;
-  double in_our_units = 1.0;  ///< a factor
+  double in_our_units = 1.0;  ///< conversion factor to the member's unit
 };
 
 struct FaultRow {
@@ -22,10 +22,10 @@ struct FaultRow {
   std::string_view name;
   std::span<const FaultParameter> parameters;
   bool concerns_a_marker = false;
-  bool happens_at_once = false;  ///< and does not last
+  bool happens_at_once = false;  ///< has no duration
 };
 
-/// One row for each kind, in the order of the enumeration.
+/// One row per kind, in the order of the enumeration.
 std::span<const FaultRow> fault_table();
 
 }  // namespace lodestar

@@ -5,8 +5,8 @@
 namespace lodestar {
 namespace {
 
-/// What a controller may hand over when a neighbour misbehaves: a frame cut short, or one of an identifier
-/// that nobody here uses, full of anything. A bit that flips on the wire never gets through the CRC.
+/// What a controller may receive when another node misbehaves: a truncated frame, or random data with an
+/// unused identifier. A bit flipped on the wire would not pass the CRC.
 CanFrame corrupted(CanFrame frame, Random& random) {
   if (random.uniform() < 0.5) {
     frame.length = static_cast<std::uint8_t>(random.below(std::max<std::uint64_t>(1, frame.length)));

@@ -10,15 +10,15 @@
 
 namespace lodestar {
 
-/// An end of a CAN bus behind a bad cable: frames of both directions are lost, late, doubled, or replaced by
-/// others. Without a fault it changes nothing.
+/// An end of a CAN bus behind a bad cable: frames in both directions are lost, delayed, duplicated, or
+/// replaced by others. Without a fault it changes nothing.
 class FaultyBus final : public CanBus {
  public:
   FaultyBus(CanBus& bus, std::uint64_t seed) : bus_(bus), random_(seed) {}
 
-  /// These faults are on from now on; those of other parts are ignored.
+  /// Sets the active faults; those that do not concern the bus are ignored.
   void suffer(const std::vector<Fault>& active);
-  /// Passes on what is due.
+  /// Delivers the frames that are due.
   void advance(Stamp now);
 
   bool send(const CanFrame& frame) override;
@@ -26,7 +26,8 @@ class FaultyBus final : public CanBus {
   [[nodiscard]] BusHealth health() const override { return bus_.health(); }
 
  private:
-  /// Puts what becomes of a frame into a queue, each stamped with the time at which it is due.
+  /// Queues what a frame turns into (none, one or several frames), each stamped with the time at which it is
+  /// due.
   void enqueue(const StampedCanFrame& frame, std::deque<StampedCanFrame>& queue);
 
   CanBus& bus_;

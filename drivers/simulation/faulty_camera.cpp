@@ -10,7 +10,7 @@
 namespace lodestar {
 namespace {
 
-/// A sensor that gets no light still has its noise.
+/// A sensor without light still has noise.
 cv::Mat dark(const cv::Mat& like, Random random) {
   cv::Mat gray(like.size(), CV_8UC1);
   for (int v = 0; v < gray.rows; ++v) {

@@ -9,12 +9,12 @@
 
 namespace lodestar {
 
-/// A camera with the faults of its driver, its lens and its sensor. Without any it changes nothing.
+/// A camera with faults of its driver, lens and sensor. Without a fault it changes nothing.
 class FaultyCamera final : public Camera {
  public:
   FaultyCamera(Camera& camera, std::uint64_t seed) : camera_(camera), seed_(seed) {}
 
-  /// These faults are on from now on; those of other parts are ignored.
+  /// Sets the active faults; those that do not concern the camera are ignored.
   void suffer(const std::vector<Fault>& active) { active_ = active; }
   void advance(Stamp now) { now_ = now; }
 
@@ -26,15 +26,15 @@ class FaultyCamera final : public Camera {
     Frame frame;
   };
 
-  /// Nothing when the frame is dropped.
+  /// Empty when the frame is dropped.
   [[nodiscard]] std::optional<Waiting> spoiled(Frame frame) const;
 
   Camera& camera_;
   std::uint64_t seed_;
   std::vector<Fault> active_;
   Stamp now_;
-  cv::Mat last_;                 ///< the picture delivered last
-  std::deque<Waiting> waiting_;  ///< in the order of capture
+  cv::Mat last_;                 ///< the image delivered last
+  std::deque<Waiting> waiting_;  ///< in order of capture
 };
 
 }  // namespace lodestar

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Duration pass_period = std::chrono::milliseconds(2);
 constexpr Duration truth_period = std::chrono::milliseconds(10);
-/// After a longer pause of this process, the world goes on from there: no leap.
+/// After a longer pause of this process, simulated time continues without a jump.
 constexpr Duration longest_pass = std::chrono::milliseconds(100);
 
 constexpr std::array<std::pair<const char*, ScriptedFault>, 10> fault_names{{

@@ -9,10 +9,10 @@
 namespace lodestar {
 namespace {
 
-/// A pixel collects light over its area, which blurs like a box.
+/// A pixel integrates light over its area: a box blur.
 constexpr double pixel_area_variance_px2 = 1.0 / 12.0;
 
-/// Bound on the rays of a lens that sees sideways.
+/// Bound on the rays of a lens with a field of view near 180 degrees.
 constexpr double widest_useful_ray = 20.0;
 
 double widest_ray_of(const CameraModel& camera) {
@@ -40,8 +40,8 @@ Eigen::Isometry3d halfway(const Eigen::Isometry3d& from, const Eigen::Isometry3d
   return result;
 }
 
-/// The sensor's answer to light of up to its full scale: linear in the dark, flat near the top, which is why
-/// dots look alike from near and far.
+/// Sensor response up to full scale: linear in the dark, flat near saturation, which is why dots look alike
+/// from near and far.
 double shoulder(double light) {
   constexpr double steepness = 7.0;
   static const double at_full_scale = 1.0 - std::exp(-steepness);
@@ -58,14 +58,14 @@ struct ImageFormer::Shutter {
         camera_from_map_at_opening(map_from_camera_at_opening.inverse()),
         camera_from_map_at_closing(map_from_camera_at_closing.inverse()) {}
 
-  /// How far the image of a point moves while the shutter is open.
+  /// Image motion of a point while the shutter is open.
   [[nodiscard]] Vec2 motion_px(const Vec3& point_in_map, const CameraModel& camera) const {
     const std::optional<Vec2> first = camera.project(camera_from_map_at_opening * point_in_map);
     const std::optional<Vec2> last = camera.project(camera_from_map_at_closing * point_in_map);
     return first && last ? Vec2(*last - *first) : Vec2(Vec2::Zero());
   }
 
-  Eigen::Isometry3d map_from_camera;  ///< in the middle of the exposure
+  Eigen::Isometry3d map_from_camera;  ///< at mid-exposure
   Eigen::Isometry3d camera_from_map;
   Eigen::Isometry3d camera_from_map_at_opening;
   Eigen::Isometry3d camera_from_map_at_closing;
@@ -98,7 +98,7 @@ cv::Mat ImageFormer::expose(const Eigen::Isometry3d& map_from_camera_at_opening,
 }
 
 void ImageFormer::paint_tube(const CeilingTube& tube, const Shutter& shutter) {
-  // Straight pieces follow the curve that the lens makes of a straight tube.
+  // Straight segments approximate the curve to which the lens distorts a straight tube.
   constexpr std::size_t pieces = 12;
   const Vec3 step = (tube.to_m - tube.from_m) / static_cast<double>(pieces);
   std::array<std::optional<Vec2>, pieces + 1> joints;
@@ -119,7 +119,7 @@ void ImageFormer::paint_tube(const CeilingTube& tube, const Shutter& shutter) {
     const std::optional<Vec2> left = camera_.project(shutter.camera_from_map * (middle + aside));
     const std::optional<Vec2> right = camera_.project(shutter.camera_from_map * (middle - aside));
     if (!left || !right) continue;
-    // A saturated tube shows motion at its edges only; there the smear adds to the blur's variance.
+    // A saturated tube shows motion at its edges only, where motion blur adds to the variance of the blur.
     const double smear_variance_px2 = shutter.motion_px(middle, camera_).squaredNorm() / 12.0;
     const double sigma_px = std::sqrt(blur_sigma_px_ * blur_sigma_px_ + smear_variance_px2);
     const double half_width_px = 0.5 * (*left - *right).norm();
@@ -177,7 +177,7 @@ double ImageFormer::dot_gray(const CeilingDisc& dot, const Shutter& shutter) con
   const Vec3 in_camera = shutter.camera_from_map * dot.center_m;
   const std::optional<Vec2> pixel = camera_.project(in_camera);
   if (!pixel) return 0.0;
-  // Exposure is set for the ceiling's usual height; a dot that hangs nearer gets more of the ring's light.
+  // The exposure suits the ceiling's height; a dot nearer to the camera receives more of the ring's light.
   const double usual_depth_m = ceiling_.height_m - shutter.map_from_camera.translation().z();
   const double nearness = usual_depth_m / in_camera.z();
   return dot.gray * shoulder(vignetting_.at(*pixel) * nearness * nearness);

@@ -18,44 +18,44 @@
 
 namespace lodestar {
 
-/// A marker's dot that is in view.
+/// A marker's dot in view.
 struct SeenDot {
-  std::size_t marker = 0;  ///< which of the registry's
+  std::size_t marker = 0;  ///< index in the registry
   Vec3 center_in_map_m = Vec3::Zero();
-  Vec2 center_px = Vec2::Zero();  ///< of its light
-  /// What one frame's pixels tell of the centre at most (Fisher), 1/px^2.
+  Vec2 center_px = Vec2::Zero();  ///< centroid of its light
+  /// Fisher information of one frame's pixels on the centre, 1/px^2.
   Eigen::Matrix2d information_per_px2 = Eigen::Matrix2d::Zero();
 };
 
-/// Forms the image of the ceiling that a camera would take: background with texture and lights, marker dots
-/// as blurred ellipses with motion smear, then noise and 8-bit quantization. Seed, poses and frame number
-/// decide every byte, whatever was formed before. Not for two threads at once.
+/// Renders the camera image of the ceiling: background with texture and lights, marker dots as blurred
+/// ellipses with motion blur, then noise and 8-bit quantization. Seed, poses and frame number determine every
+/// byte, independent of frames rendered before. Not thread-safe.
 class ImageFormer {
  public:
   ImageFormer(const MarkerRegistry& registry, const CameraModel& camera,
               const SimulatedCameraOptions& options, std::uint64_t seed);
 
-  /// One frame (CV_8UC1) of a shutter that opens at the first pose and closes at the second; equal poses
-  /// give a still picture. The frame number decides the noise.
+  /// One frame (CV_8UC1) of a shutter that opens at the first pose and closes at the second; with equal poses
+  /// there is no motion blur. The frame number determines the noise.
   cv::Mat expose(const Eigen::Isometry3d& map_from_camera_at_opening,
                  const Eigen::Isometry3d& map_from_camera_at_closing, std::uint64_t frame_number);
 
-  /// Hangs a printed square on the ceiling, below lamps, glints and markers. It shows no motion smear.
+  /// Adds a printed square to the ceiling, drawn below lamps, glints and markers. It shows no motion blur.
   void hang(const PrintedSquare& square) { squares_.push_back(square); }
 
-  /// What hides the markers from now on, instead of what did so before.
+  /// Replaces the covers that hide markers.
   void cover(std::vector<PrintedSquare> covers) { covers_ = std::move(covers); }
 
-  /// Hangs these markers instead of those before, and such lamps beside what the ceiling has.
+  /// Replaces the markers, and the lamps in addition to the ceiling's own.
   void rehang(std::vector<CeilingMarker> markers, std::vector<CeilingDisc> more_lamps) {
     ceiling_.markers = std::move(markers);
     more_lamps_ = std::move(more_lamps);
   }
 
-  /// Leaves the ceiling as it is, but without the markers.
+  /// Removes the markers and leaves the rest of the ceiling as it is.
   void take_markers_down() { ceiling_.markers.clear(); }
 
-  /// The dots wholly in view of a camera that stands still, hidden or not.
+  /// The dots entirely in view of a stationary camera, covered or not.
   [[nodiscard]] std::vector<SeenDot> dots_in_view(const Eigen::Isometry3d& map_from_camera) const;
 
  private:
@@ -66,9 +66,10 @@ class ImageFormer {
   void paint_markers(const Shutter& shutter);
   void paint_squares(const std::vector<PrintedSquare>& squares, const Shutter& shutter);
 
-  /// Is the point in the camera frame within the cone of rays that the image shows?
+  /// True when the point in the camera frame lies within the cone of rays that the image shows.
   [[nodiscard]] bool may_show(const Vec3& point_in_camera, double reach_m) const;
-  /// Gray of a dot's middle: light of the ring that comes back from there, through the sensor's shoulder.
+  /// Gray value at a dot's centre: retroreflected light of the ring, passed through the sensor's saturation
+  /// curve.
   [[nodiscard]] double dot_gray(const CeilingDisc& dot, const Shutter& shutter) const;
 
   CameraModel camera_;
@@ -83,7 +84,7 @@ class ImageFormer {
   DiscProfile profile_;
   CeilingBackground background_;
   SensorNoise noise_;
-  LightImage light_;  ///< kept between frames for its memory only
+  LightImage light_;  ///< kept between frames only to reuse its memory
 };
 
 }  // namespace lodestar

@@ -6,7 +6,7 @@
 namespace lodestar {
 namespace {
 
-/// Whole pixels from first to last, both included; empty when last < first.
+/// Pixels from first to last, both included; empty when last < first.
 struct Span {
   int first = 0;
   int last = -1;
@@ -18,7 +18,7 @@ Span pixels_between(double low, double high, int count) {
   return {static_cast<int>(first), static_cast<int>(last)};
 }
 
-/// Puts light of so many units over what is there, `share` of it opaque.
+/// Blends light of `units` over the present value with opacity `share`.
 void lay_over(std::int16_t& pixel, double units, double share) {
   pixel = static_cast<std::int16_t>(pixel + share * (units - pixel) + 0.5);  // never negative
 }
@@ -27,7 +27,7 @@ double units_of(double gray) {
   return LightImage::units_per_gray * std::clamp(gray, 0.0, LightImage::brightest_gray);
 }
 
-/// Share of the ellipse's light on a point: the profile at its distance from the rim along the ray from the
+/// Share of the ellipse's light at a point: the profile at its distance from the rim along the ray from the
 /// centre.
 double share_at(const Vec2& from_center_px, const ProjectedDisc& disc, double sigma_px,
                 const DiscProfile::Row& profile) {
@@ -37,8 +37,7 @@ double share_at(const Vec2& from_center_px, const ProjectedDisc& disc, double si
   return profile.at((rim_px - distance_px) / sigma_px);
 }
 
-/// The range [low, high] of x in which low_value <= slope * x + offset <= high_value, cut out of the range
-/// given.
+/// The part of the given range [low, high] of x in which low_value <= slope * x + offset <= high_value.
 void narrow(double& low, double& high, double slope, double offset, double low_value, double high_value) {
   if (std::abs(slope) < 1e-9) {
     if (offset < low_value || offset > high_value) high = low - 1.0;
@@ -60,7 +59,7 @@ LightImage::LightImage(int width_px, int height_px)
 
 void LightImage::paint(const ProjectedDisc& disc, const Vec2& motion_px, double gray, double sigma_px,
                        const DiscProfile& profile) {
-  // The smear is the mean of copies less than a sigma apart, too dense to be told from a continuous one.
+  // Motion blur is the mean of copies less than a sigma apart, indistinguishable from a continuous one.
   const int copies = 1 + static_cast<int>(std::ceil(motion_px.norm() / sigma_px));
   const DiscProfile::Row row_profile = profile.of_radius(disc.radius_px / sigma_px);
   const Vec2 reach =
@@ -90,14 +89,14 @@ void LightImage::paint(const Band& band, double gray, double sigma_px, const Dis
   if (length < 1e-6) return;
   const Vec2 direction = chord / length;
   constexpr double far = 1e6;
-  constexpr double just_before = -1e-9;  // a pixel right on a cut belongs to the piece that begins there
+  constexpr double just_before = -1e-9;  // a pixel exactly on a cut belongs to the segment that begins there
   const double reach = band.half_width_px + DiscProfile::reach * sigma_px;
   const DiscProfile::Row edge = profile.of_straight_edge();
   const double units = units_of(gray);
   const Span rows = pixels_between(std::min(band.from_px.y(), band.to_px.y()) - reach,
                                    std::max(band.from_px.y(), band.to_px.y()) + reach, height_px_);
   for (int v = rows.first; v <= rows.last; ++v) {
-    // Along, across and beyond the cuts: all linear in u within a row.
+    // Position along the band, across it, and relative to the cuts: all linear in u within a row.
     const double dv = v - band.from_px.y();
     const double along_0 = direction.y() * dv - direction.x() * band.from_px.x();
     const double across_0 = direction.x() * dv + direction.y() * band.from_px.x();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double reach_sigmas = 4.0;
 
-/// Pixels [left, right] x [top, bottom] of the picture that the square and its blur touch.
+/// The pixels [left, right] x [top, bottom] affected by the square and its blur.
 struct Window {
   int left = 0;
   int top = 0;
@@ -22,7 +22,7 @@ struct Window {
 
 std::optional<Window> window_of(const PrintedSquare& square, const Eigen::Isometry3d& camera_from_square,
                                 const CameraModel& camera, double margin_px) {
-  constexpr int steps = 8;  // along an edge, which a lens may bend
+  constexpr int steps = 8;  // per edge, which lens distortion may bend
   Vec2 low = Vec2::Constant(1e9);
   Vec2 high = Vec2::Constant(-1e9);
   for (int i = 0; i <= steps; ++i) {
@@ -45,7 +45,7 @@ std::optional<Window> window_of(const PrintedSquare& square, const Eigen::Isomet
       std::min(between(std::ceil(high.y() + margin_px), camera.height_px - 1), camera.height_px - 1)};
 }
 
-/// The one or two modules that a sample of some width covers along one axis, and the second one's share.
+/// The one or two modules that a sample of the given width covers along one axis, and the second one's share.
 struct Covered {
   int first = 0;
   int second = 0;
@@ -59,8 +59,8 @@ Covered covered_by(double place, double width) {
   return {static_cast<int>(low), static_cast<int>(high), share};
 }
 
-/// (Opacity, light) of the pattern about a point, which counts modules from the top-left corner. The sample's
-/// own width softens the edges, so that they lie where they are and not on the next sample.
+/// (Opacity, light) of the pattern at a point, in modules from the top-left corner. Averaging over the
+/// sample's width keeps edges at their subsample position instead of snapping them to samples.
 cv::Vec2f sample(const PrintedSquare& square, const Vec2& place, double width) {
   const Covered column = covered_by(place.x(), width);
   const Covered row = covered_by(place.y(), width);
@@ -77,7 +77,8 @@ cv::Vec2f sample(const PrintedSquare& square, const Vec2& place, double width) {
   return sum;
 }
 
-/// Where a pixel's ray meets the square, in modules from its top-left corner; far outside when it does not.
+/// Intersection of a pixel's ray with the square, in modules from its top-left corner; far outside when there
+/// is none.
 class Sight {
  public:
   Sight(const PrintedSquare& square, const Eigen::Isometry3d& camera_from_square, const CameraModel& camera)
@@ -105,13 +106,13 @@ class Sight {
   double middle_;
 };
 
-/// Puts light over a pixel, `opacity` of it opaque; `gray` is weighed with its opacity already.
+/// Blends light over a pixel; `gray` is premultiplied by `opacity`.
 void lay_over(std::int16_t& pixel, double opacity, double gray) {
   const double units = LightImage::units_per_gray * std::clamp(gray, 0.0, LightImage::brightest_gray);
   pixel = static_cast<std::int16_t>(pixel * (1.0 - std::clamp(opacity, 0.0, 1.0)) + units + 0.5);
 }
 
-/// Share of a blurred stripe of this width (all in sigmas) on a point so far from its first edge.
+/// Share of a blurred stripe of this width at a given distance from its first edge, all in sigmas.
 double share_of_stripe(double from_edge, double width) {
   const auto beyond = [](double x) {
     if (std::abs(x) > reach_sigmas) return x > 0.0 ? 1.0 : 0.0;
@@ -120,8 +121,8 @@ double share_of_stripe(double from_edge, double width) {
   return beyond(from_edge) - beyond(from_edge - width);
 }
 
-/// A square without a pattern: two crossed stripes in closed form. Its size in the picture is taken as that
-/// in its middle, which changes nothing but the blur of its edges.
+/// A square without a pattern: the product of two stripes in closed form. The image scale at its centre is
+/// used throughout, which affects only the blur of its edges.
 void paint_plain(const PrintedSquare& square, const Sight& sight, const Window& window,
                  const Vignetting& vignetting, double sigma_px, LightImage& image) {
   const Vec2 middle(0.5 * (window.left + window.right), 0.5 * (window.top + window.bottom));
@@ -140,13 +141,13 @@ void paint_plain(const PrintedSquare& square, const Sight& sight, const Window& 
   }
 }
 
-/// A square with a pattern, sampled finely.
+/// A square with a pattern, supersampled.
 void paint_pattern(const PrintedSquare& square, const Sight& sight, const Window& window,
                    const Vignetting& vignetting, double sigma_px, LightImage& image) {
   constexpr int fine = 5;  // samples per pixel and axis: odd, so that one lies on the pixel's centre
   const Vec2 middle(0.5 * (window.left + window.right), 0.5 * (window.top + window.bottom));
   const double width = (sight.place(middle + Vec2(1.0 / fine, 0.0)) - sight.place(middle)).norm();
-  // A margin beyond the window, so that what lies just outside of the picture blurs into it.
+  // A margin around the window, so that content just outside the image blurs into it.
   const int margin = static_cast<int>(std::ceil(reach_sigmas * sigma_px)) * fine;
   cv::Mat2f samples(window.height() * fine + 2 * margin, window.width() * fine + 2 * margin);
   for (int j = 0; j < samples.rows; ++j) {

@@ -6,7 +6,7 @@
 namespace lodestar {
 namespace {
 
-constexpr int corners = 12;  // of the polygon that stands for the outline
+constexpr int corners = 12;  // of the polygon that approximates the outline
 
 /// Area, centroid and second moments about the centroid of a polygon.
 struct Moments {
@@ -16,7 +16,7 @@ struct Moments {
 };
 
 Moments moments_of(const std::array<Vec2, corners>& polygon) {
-  // About the first corner, so that little is lost to cancellation far from the image's origin.
+  // Relative to the first corner, to limit cancellation far from the image origin.
   double twice_area = 0.0;
   Vec2 first = Vec2::Zero();
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
@@ -48,8 +48,8 @@ std::optional<ProjectedDisc> project_disc(const Vec3& center_in_map, double radi
     outline[static_cast<std::size_t>(i)] = *pixel;
   }
   const Moments moments = moments_of(outline);
-  // For an ellipse with half axes S the second moments are area * S S^T / 4; a regular polygon with corners
-  // on it has a little less, by a factor that is known.
+  // For an ellipse with semi-axes S the second moments are area * S S^T / 4; those of an inscribed regular
+  // polygon are smaller by a known factor.
   static const double polygon_share = (2.0 + std::cos(2.0 * std::numbers::pi / corners)) / 3.0;
   const Eigen::Matrix2d squared = moments.second * (4.0 / (moments.area * polygon_share));
   const double determinant = squared.determinant();

@@ -8,7 +8,7 @@
 namespace lodestar {
 namespace {
 
-/// Slower than this the robot stands or turns on the spot.
+/// Below this speed the robot counts as standing or turning on the spot.
 constexpr double driving_mps = 0.01;
 
 }  // namespace

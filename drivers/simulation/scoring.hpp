@@ -14,40 +14,41 @@ struct TruePose {
   Pose2 map_from_base;
 };
 
-/// How one arrival really was.
+/// The true errors of one arrival.
 struct ArrivalScore {
   double position_error_m = 0.0;
-  std::optional<double> heading_error_rad;  ///< absolute; nothing when no heading was wanted
+  std::optional<double> heading_error_rad;  ///< absolute; empty when no heading was requested
 };
 
-/// The judge of a simulated drive, the only one outside the simulated drivers who sees the truth. It never
-/// answers while a decision could depend on it: the program asks after the drive, or hands in claims.
+/// Scores a simulated drive against ground truth; the only class outside the simulated drivers that knows it.
+/// No decision can depend on it: results are read after the drive, and during it the program only reports
+/// claims.
 class Scorer {
  public:
   explicit Scorer(const OccupancyMap& map, double robot_radius_m);
 
-  /// From the simulated world, at a fixed rate. `ran_against_obstacle`: since the record before, an obstacle
-  /// held the robot where it was.
+  /// Called by the simulated world at a fixed rate. `ran_against_obstacle`: since the previous record, an
+  /// obstacle blocked the robot.
   void record(const TruePose& truth, bool ran_against_obstacle = false);
 
-  /// What stands around is another one from now on.
+  /// Replaces the map of obstacles.
   void change_map(const OccupancyMap& map) { map_ = map; }
 
-  /// The navigator claims to have arrived. Scored by the newest record; ends the path followed.
+  /// The navigator claims to have arrived: scored against the newest record; ends the path followed.
   void claim_arrival(const Vec2& goal_m, std::optional<double> heading_rad);
-  /// The navigator follows this path from now on; none, when it is empty.
+  /// Sets the path that the navigator follows; empty: none.
   void claim_path(const Path& path);
 
-  /// Another drive begins: forgets arrivals, contacts and all but the newest of the track.
+  /// Starts another drive: clears arrivals, contacts and all of the track but its newest pose.
   void forget();
 
   [[nodiscard]] const std::vector<ArrivalScore>& arrivals() const { return arrivals_; }
   [[nodiscard]] const std::vector<TruePose>& track() const { return track_; }
-  /// Distances of the driven track from the path followed at the time, one per recorded pose at which the
-  /// robot was on its way along a path: a robot that turns on the spot or waits adds none.
+  /// Cross-track errors: distances of the driven track from the path followed at the time, one per recorded
+  /// pose at which the robot moved along a path; turning on the spot and waiting add none.
   [[nodiscard]] const std::vector<double>& path_distances_m() const { return path_distances_m_; }
-  /// Recorded poses at which the robot's disc overlapped a cell that is not drivable, left the map, or had
-  /// run against something.
+  /// Recorded poses at which the robot's disc overlapped a cell that is not drivable, left the map, or was
+  /// blocked by an obstacle.
   [[nodiscard]] int contacts() const { return contacts_; }
 
  private:

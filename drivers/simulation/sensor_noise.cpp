@@ -6,7 +6,7 @@
 #include "maps/input_error.hpp"
 #include "maps/random.hpp"
 
-// Fixed point, so that eight pixels are done at once. Products keep their upper 16 bits only:
+// Fixed point, so that eight pixels are processed at once. Products keep their upper 16 bits only:
 //   deviation = base + (slope * light >> 16)      in 1/1024 gray, light in 1/64 gray
 //   noise     = number * deviation >> 16          in 1/64 gray, number with deviation 2^12
 namespace lodestar {
@@ -21,7 +21,7 @@ constexpr double deviation_units_per_gray = 65536.0 / one_sigma * LightImage::un
 constexpr double slope_units = deviation_units_per_gray / LightImage::units_per_gray * 65536.0;
 constexpr double steepest = 32767.0 / slope_units;  // gray of deviation per gray of light
 
-constexpr double most_noise_gray = 15.0;  // with seven sigmas of it the brightest light still fits 16 bits
+constexpr double most_noise_gray = 15.0;  // the brightest light plus seven sigmas of it still fits 16 bits
 
 std::int16_t upper_half(std::int16_t a, std::int16_t b) {
   return static_cast<std::int16_t>((a * b) >> 16);
@@ -32,7 +32,7 @@ std::int16_t upper_half(std::int16_t a, std::int16_t b) {
 SensorNoise::SensorNoise(double read_noise_gray, double shot_noise_gray_at_255, std::uint64_t seed)
     : seed_(seed), tangents_(tangents_of(read_noise_gray, shot_noise_gray_at_255)), noise_(table_size) {
   Random random = Random(seed).stream(numbers);
-  constexpr double farthest = 7.0;  // sigmas that 16 bits hold
+  constexpr double farthest = 7.0;  // sigmas that fit 16 bits
   for (std::int16_t& number : noise_) {
     number =
         static_cast<std::int16_t>(std::lrint(one_sigma * std::clamp(random.normal(), -farthest, farthest)));
@@ -41,18 +41,17 @@ SensorNoise::SensorNoise(double read_noise_gray, double shot_noise_gray_at_255, 
 
 std::array<SensorNoise::Tangent, SensorNoise::tangent_count> SensorNoise::tangents_of(
     double read_noise_gray, double shot_noise_gray_at_255) {
-  // The curve is concave, so the least of some tangents lies just above it. With d the deviation, the tangent
-  // at d_i exceeds it by (d - d_i)^2 / (2 d d_i) of itself: touching points at even ratios are best.
+  // The curve is concave, so the minimum of several tangents lies just above it. With d the deviation, the
+  // tangent at d_i exceeds it by (d - d_i)^2 / (2 d d_i) of itself: touching points at even ratios are best.
   const double shot2_per_gray = shot_noise_gray_at_255 * shot_noise_gray_at_255 / 255.0;
   const double read2 = read_noise_gray * read_noise_gray;
-  const double lowest = std::sqrt(read2 + shot2_per_gray);  // at one gray: infinite slopes are of no use
+  const double lowest = std::sqrt(read2 + shot2_per_gray);  // at one gray level, to keep the slope finite
   const double highest = std::sqrt(read2 + 255.0 * shot2_per_gray);
   if (!(highest <= most_noise_gray)) throw InputError("simulated camera: more than 15 gray levels of noise");
   std::array<Tangent, tangent_count> tangents;
   for (std::size_t i = 0; i < tangents.size(); ++i) {
     const double place = (static_cast<double>(i) + 0.5) / tangent_count;
-    // Where the curve is too steep for 16 bits the deviation is a fraction of a gray level and matters
-    // little.
+    // Where the curve is too steep for 16 bits, the deviation is a fraction of a gray level and negligible.
     const double wanted = lowest > 0.0 ? lowest * std::pow(highest / lowest, place) : 0.0;
     const double deviation = std::max(wanted, shot2_per_gray / (2.0 * steepest));
     const double slope = deviation > 0.0 ? shot2_per_gray / (2.0 * deviation) : 0.0;

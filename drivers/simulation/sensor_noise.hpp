@@ -9,9 +9,9 @@
 
 namespace lodestar {
 
-/// What the sensor makes of light: read noise and shot noise, whose deviation at gray g is
-/// sqrt(read^2 + shot^2 g / 255), then 8 bits with saturation. Gaussian numbers come from a table of 2^17
-/// that every row of every frame enters at a random place.
+/// Sensor model: read noise and shot noise with standard deviation sqrt(read^2 + shot^2 g / 255) at gray g,
+/// then 8 bits with saturation. Gaussian numbers come from a table of 2^17, read from a random position in
+/// every row of every frame.
 class SensorNoise {
  public:
   SensorNoise(double read_noise_gray, double shot_noise_gray_at_255, std::uint64_t seed);

@@ -8,7 +8,7 @@
 namespace lodestar {
 namespace {
 
-/// The counter's 32 bits of millimetres, wrapping around.
+/// A 32-bit counter of millimetres that wraps around.
 std::int32_t counter_mm(double travel_m, std::int32_t start_mm) {
   const auto rolled_mm = static_cast<std::int64_t>(std::floor(travel_m * 1000.0));
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(start_mm + rolled_mm));
@@ -27,7 +27,7 @@ void SimulatedBase::step(Stamp now) {
   if (now < *next_feedback_) return;
   *next_feedback_ += options_.feedback_period;
   if (*next_feedback_ <= now)
-    next_feedback_ = now + options_.feedback_period;  // held up: nothing to catch up
+    next_feedback_ = now + options_.feedback_period;  // delayed: missed frames are not made up for
   measure_speed(now);
   send_feedback();
 }
@@ -55,7 +55,7 @@ void SimulatedBase::take_in(const CanFrame& frame, Stamp now) {
   if (const auto velocity = agilex::decode_motion_command(frame)) {
     if (takes_commands()) command_ = Command{now, *velocity};
   } else if (const auto mode = agilex::decode_control_mode(frame)) {
-    // The remote control has the highest right, and nobody is handed the base in its name.
+    // The remote control has priority: CAN mode is not granted while it is in control.
     const bool is_grantable = *mode == agilex::ControlMode::standby || *mode == agilex::ControlMode::can ||
                               *mode == agilex::ControlMode::uart;
     if (mode_ == agilex::ControlMode::remote || !is_grantable || *mode == mode_) return;
@@ -94,7 +94,7 @@ void SimulatedBase::drive_wheels(Stamp now) {
   motion_.set_wheel_targets(left_mps / excess, right_mps / excess);
 }
 
-/// Encoder steps since the last feedback, smoothed: one step in 20 ms is already 25 mm/s.
+/// Speed from encoder steps since the last feedback, smoothed: one step in 20 ms is already 25 mm/s.
 void SimulatedBase::measure_speed(Stamp now) {
   const double period_s = seconds(measured_at_ ? now - *measured_at_ : options_.feedback_period);
   measured_at_ = now;
@@ -110,7 +110,7 @@ void SimulatedBase::measure_speed(Stamp now) {
   measured_.turn_radps += share * ((right_mps - left_mps) / options_.track_width_m - measured_.turn_radps);
 }
 
-/// Nobody hears it when the bus does not take a frame; the next one is newer.
+/// A frame that the bus does not accept is dropped; the next one is newer.
 void SimulatedBase::send_feedback() {
   if (defects_.silent) return;
   const agilex::SystemState state{vehicle_state(), mode_, options_.battery_v, fault_bits_, counter_};

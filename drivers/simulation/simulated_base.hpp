@@ -11,9 +11,9 @@
 
 namespace lodestar {
 
-/// A differential base as it really is.
+/// True parameters of a differential base.
 struct SimulatedBaseOptions {
-  double track_width_m = 0.40;  ///< as the firmware believes
+  double track_width_m = 0.40;  ///< as configured in the firmware
   double true_track_width_m = 0.404;
   double left_wheel_scale = 1.006;  ///< true travel over reported travel: unequal wheels
   double right_wheel_scale = 0.994;
@@ -21,22 +21,22 @@ struct SimulatedBaseOptions {
   double slip_sigma_per_sqrt_m = 0.002;
   double motor_lag_s = 0.08;  ///< first-order lag of the wheel speed loop
   double max_wheel_acceleration_mps2 = 2.0;
-  double max_wheel_mps = 1.6;          ///< of the motors; a command beyond keeps its curve
+  double max_wheel_mps = 1.6;          ///< motor limit; commands beyond it keep their curvature
   double encoder_step_m = 0.0005;      ///< quantization of the wheel encoders
   double speed_filter_s = 0.03;        ///< smoothing of the measured speed in the motion state
-  std::int32_t odometer_start_mm = 0;  ///< what both counters show at power-up
+  std::int32_t odometer_start_mm = 0;  ///< initial value of both counters
   double battery_v = 26.0;
   Duration command_timeout = std::chrono::milliseconds(500);
   Duration feedback_period = std::chrono::milliseconds(20);
   Duration can_latency = std::chrono::milliseconds(1);
-  bool has_periphery = false;  ///< lights, battery ...: not for our driver, but for other clients
+  bool has_periphery = false;  ///< lights, battery ...: for other clients; our driver does not need them
 };
 
 class SimulatedMotion;
 
-/// The firmware of an AgileX V2 base over the simulated wheels. It reads their encoders and drives their
-/// motors; where the robot is on the floor it knows no better than a real one does. After power-up it
-/// stands by until it is asked for CAN mode; without motion commands it comes to rest.
+/// The firmware of an AgileX V2 base on the simulated wheels. It reads the encoders and drives the motors;
+/// like real firmware it has no access to the robot's pose. After power-up it is in standby until CAN mode is
+/// requested; without motion commands it stops.
 class SimulatedBase final : public SimulatedFirmware {
  public:
   SimulatedBase(CanBus& bus, SimulatedMotion& motion, const SimulatedBaseOptions& options = {});

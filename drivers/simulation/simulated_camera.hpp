@@ -13,9 +13,9 @@
 
 namespace lodestar {
 
-/// A camera on the simulated robot. The world tells it at every step where the base truly is; frame number k
-/// opens at k periods after time 0, is stamped with the middle of its exposure and arrives `latency` later,
-/// unless it is lost. The body wobbles a little about the floor point. Equal seeds and equal drives give
+/// A camera on the simulated robot. The world passes it the base's true pose at every step; the exposure of
+/// frame k begins k periods after time 0, the frame is stamped with mid-exposure and arrives `latency` later,
+/// unless it is lost. The body tilts slightly about its point on the floor. Equal seeds and equal drives give
 /// equal bytes.
 class SimulatedCamera : public Camera {
  public:
@@ -25,17 +25,16 @@ class SimulatedCamera : public Camera {
                   const Eigen::Isometry3d& base_from_camera, const SimulatedCameraOptions& options,
                   std::uint64_t seed);
 
-  /// The base's true pose at `now`. Stamps ascend; between two of them the base is taken to move evenly.
+  /// The base's true pose at `now`. Stamps ascend; motion is interpolated linearly between them.
   void observe(Stamp now, const Pose2& true_map_from_base);
 
-  /// From the next frame on these markers hang on the ceiling, and such lamps beside its own.
+  /// From the next frame on: replaces the markers, and the lamps in addition to the ceiling's own.
   void rehang(const MarkerRegistry& registry, std::vector<CeilingDisc> more_lamps);
 
-  /// A frame is formed when it is asked for, so one that nobody polls costs nothing.
+  /// A frame is rendered when it is polled; one that is not polled costs nothing.
   std::optional<Frame> poll() override;
 
-  /// Drops the oldest of the frames that were not polled until so many are left, as a device does that has no
-  /// more buffers.
+  /// Drops the oldest unpolled frames until this many are left, like a device that runs out of buffers.
   void keep_newest(std::size_t frames);
 
  private:
@@ -62,9 +61,9 @@ class SimulatedCamera : public Camera {
   TiltWobble wobble_;
   ImageFormer image_former_;
   std::optional<Observation> last_;
-  std::optional<Exposure> open_;       ///< begun, not yet closed
-  std::uint64_t next_number_ = 0;      ///< of the frame that opens next
-  std::deque<Exposure> on_their_way_;  ///< closed, not yet polled
+  std::optional<Exposure> open_;       ///< in progress
+  std::uint64_t next_number_ = 0;      ///< of the next frame to be exposed
+  std::deque<Exposure> on_their_way_;  ///< exposed, not yet polled
 };
 
 }  // namespace lodestar

@@ -4,23 +4,22 @@
 
 namespace lodestar {
 
-/// How the simulated camera forms images and when they arrive. Gray values are of the 8-bit scale, before
-/// noise.
+/// Image formation and timing of the simulated camera. Gray values are on the 8-bit scale, before noise.
 struct SimulatedCameraOptions {
-  Duration period = std::chrono::milliseconds(50);   ///< from one opening of the shutter to the next
+  Duration period = std::chrono::milliseconds(50);   ///< from the start of one exposure to the next
   Duration latency = std::chrono::milliseconds(45);  ///< from mid-exposure to arrival
   Duration exposure = std::chrono::milliseconds(4);  ///< motion blur while the robot moves
-  double dot_gray = 246.0;      ///< of a dot's middle on the axis; 246 is ordinary light, 120..200 is hard
+  double dot_gray = 246.0;  ///< at a dot's centre on the axis; 246 is ordinary light, 120..200 is difficult
   double dot_gray_sigma = 2.0;  ///< from dot to dot
-  /// How far a dot is off its place in the marker, in each coordinate: film is cut and glued by hand.
+  /// Placement error of a dot in the marker, in each coordinate: film is cut and glued by hand.
   double dot_place_sigma_m = 0.00005;
-  double background_gray = 35.0;        ///< of the plain ceiling on the axis; ambient light makes it brighter
-  double blur_sigma_px = 0.5;           ///< point spread of the lens, besides the pixel's own area
+  double background_gray = 35.0;        ///< of the bare ceiling on the axis; ambient light raises it
+  double blur_sigma_px = 0.5;           ///< point spread of the lens, without the pixel's own area
   double read_noise_gray = 1.5;         ///< standard deviation in the dark
   double shot_noise_gray_at_255 = 4.0;  ///< grows with the square root of the signal
   double vignetting = 0.3;              ///< loss of light in the corners
   double texture_gray = 6.0;            ///< amplitude of the ceiling's texture
-  double tilt_sigma_rad = 0.002;        ///< wobble of the body on the floor, each axis
+  double tilt_sigma_rad = 0.002;        ///< body sway (roll and pitch), each axis
   bool tubes = true;                    ///< fluorescent tubes on the ceiling, as in Fig. 2
   bool lamps = true;
   bool glints = true;

@@ -7,17 +7,16 @@
 
 namespace lodestar {
 
-/// How the robot's disk fares in the simulated world, for those who write to it. May be asked from any
-/// thread.
+/// State of the robot's disk in the simulated world, for the recorders that write to it. Thread-safe.
 class SimulatedDisk {
  public:
-  /// As the faults of now have it.
+  /// Applies the active faults.
   void suffer(const std::vector<Fault>& active);
 
-  /// It takes nothing.
+  /// True when nothing more can be written.
   [[nodiscard]] bool full() const { return full_; }
 
-  /// How long each write takes.
+  /// Duration of each write.
   [[nodiscard]] Duration delay() const { return from_seconds(delay_s_); }
 
  private:

@@ -12,7 +12,7 @@
 namespace lodestar {
 namespace {
 
-/// The motion of the base when its wheels roll that far at constant speed: an exact arc.
+/// Motion of the base when its wheels roll these distances at constant speed: an exact arc.
 Pose2 arc(double left_m, double right_m, double track_width_m) {
   const double length_m = (left_m + right_m) / 2.0;
   const double turn_rad = (right_m - left_m) / track_width_m;
@@ -44,8 +44,8 @@ void SimulatedMotion::slip(double left_share, double right_share) {
 
 void SimulatedMotion::carry_off(double by_m, double turn_rad, Random random) {
   constexpr int directions = 32;
-  // To all sides of the robot. It may be rolling: where there is such a place, nobody puts it nearer to a
-  // wall than it needs to notice and to stop.
+  // Candidates in all directions. The robot may be rolling: if possible it is placed no nearer to a wall than
+  // the distance that it needs to notice and to stop.
   constexpr std::array rooms_m{0.65, 0.5, 0.4, 0.3};
   std::vector<Vec2> places_m;
   const double first_rad = random.uniform(0.0, 2.0 * std::numbers::pi);
@@ -72,14 +72,14 @@ void SimulatedMotion::step(Duration by) {
   move(left_m, right_m);
 }
 
-/// Turns the wheel and returns what the ground sees of it: scaled by its true size, and slipping. The
-/// variance of slip grows with the way rolled, so that the sum does not depend on the step.
+/// Turns the wheel and returns its travel over ground: scaled by its true radius, and with slip. The variance
+/// of the slip grows with the distance rolled, so that its sum does not depend on the step size.
 double SimulatedMotion::roll(Wheel& wheel, double scale, double elapsed_s) {
   const double wish_mps2 = (wheel.target_mps - wheel.speed_mps) / std::max(options_.motor_lag_s, elapsed_s);
   const double most_mps2 = options_.max_wheel_acceleration_mps2;
   const double speed_before_mps = wheel.speed_mps;
   wheel.speed_mps += std::clamp(wish_mps2, -most_mps2, most_mps2) * elapsed_s;
-  // The exponential never ends, a real wheel sticks.
+  // The exponential decay never reaches zero; a real wheel stops by static friction.
   if (wheel.target_mps == 0.0 && std::abs(wheel.speed_mps) < 1e-4) wheel.speed_mps = 0.0;
 
   const double rolled_m = (speed_before_mps + wheel.speed_mps) / 2.0 * elapsed_s;
@@ -89,8 +89,8 @@ double SimulatedMotion::roll(Wheel& wheel, double scale, double elapsed_s) {
          options_.slip_sigma_per_sqrt_m * std::sqrt(std::abs(rolled_m)) * slip_.normal();
 }
 
-/// A robot that would run into something turns, but stays where it is. One that overlaps already may go
-/// anywhere: it was put there.
+/// A robot that would hit an obstacle turns but does not translate. One that overlaps an obstacle already,
+/// because it was placed there, may move freely.
 void SimulatedMotion::move(double left_m, double right_m) {
   Pose2 moved = map_from_base_ * arc(left_m, right_m, options_.true_track_width_m);
   const bool moves = moved.position_m != map_from_base_.position_m;

@@ -10,46 +10,47 @@
 
 namespace lodestar {
 
-/// The wheels and the ground: the only place where the robot truly is somewhere. For the simulated world
-/// alone; nothing that navigates may see it.
+/// Wheels and ground contact: holds the robot's true pose. For the simulated world only; navigation code must
+/// not use it.
 class SimulatedMotion {
  public:
-  /// What the robot can run into: a disc among the cells of a map that are not drivable.
+  /// Obstacles: a disc-shaped robot against the cells of a map that are not drivable.
   struct Surroundings {
     OccupancyMap map;
     double robot_radius_m = 0.0;
   };
 
-  /// Without surroundings the floor is endless and empty.
+  /// Without surroundings the floor is unbounded and empty.
   SimulatedMotion(const SimulatedBaseOptions& options, const Pose2& start, std::uint64_t seed,
                   std::optional<Surroundings> surroundings = std::nullopt);
 
-  /// What the motors are told: speeds at the rim, as the firmware believes the wheels to be.
+  /// Speed setpoints of the motors, at the rim of the wheels as configured in the firmware.
   void set_wheel_targets(double left_mps, double right_mps);
 
-  /// From now on the floor goes by less than the wheels roll, by these shares; 0: as usual.
+  /// Sets the slip: the share of each wheel's travel by which the robot moves less than the wheel rolls; 0:
+  /// none.
   void slip(double left_share, double right_share);
 
-  /// Somebody carries the robot so far, in one of the directions where it then stands free, and turns it by
-  /// so much; nobody does where there is no room.
+  /// Kidnaps the robot: displaces it by `by_m` in a random direction in which it ends up clear of obstacles,
+  /// and turns it by `turn_rad`. Does nothing where there is no room.
   void carry_off(double by_m, double turn_rad, Random random);
 
-  /// Rolls on for a short time, a millisecond or two, on an exact arc.
+  /// Integrates the motion over a short time, a millisecond or two, along an exact arc.
   void step(Duration by);
 
-  // What the encoders show: rolled since power-up, in whole encoder steps.
+  // Encoder readings: travel since power-up, in whole encoder steps.
   [[nodiscard]] double left_encoder_m() const;
   [[nodiscard]] double right_encoder_m() const;
 
-  /// Somebody pushes the robot, wheels and all: `by` in its own frame.
+  /// Displaces the robot by `by` in its own frame without turning the wheels.
   void push(const Pose2& by) { map_from_base_ = map_from_base_ * by; }
 
-  /// What stands around is another one from now on.
+  /// Replaces the map of obstacles.
   void change_surroundings(const OccupancyMap& map);
 
   [[nodiscard]] const Pose2& true_map_from_base() const { return map_from_base_; }
 
-  /// The last step ran against an obstacle: the wheels turned, the robot stayed where it was.
+  /// True when an obstacle blocked the last step: the wheels turned, the robot did not move.
   [[nodiscard]] bool is_blocked() const { return blocked_; }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 namespace tables = odrive::tables;
 
-/// True once in each period; when held up, there is nothing to catch up.
+/// True once in each period; after a delay, missed periods are not made up for.
 bool is_due(std::optional<Stamp>& next, Stamp now, Duration period) {
   if (next && now < *next) return false;
   next = next && *next + period > now ? *next + period : now + period;
@@ -41,7 +41,7 @@ void SimulatedOdrive::take_in(const CanFrame& frame, Stamp now) {
     Axis& axis = axes_[node];
     const std::uint32_t offset = node * odrive::node_step;
     if (frame.id / odrive::node_step != node) continue;
-    axis.fed = now;  // whatever is addressed to the axis feeds its watchdog
+    axis.fed = now;  // every message to the axis feeds its watchdog
     if (const auto velocity = decode(tables::set_input_velocity, frame, offset)) {
       axis.wanted_rps = (*velocity)[0];
     } else if (const auto state = decode(tables::set_axis_state, frame, offset)) {
@@ -100,7 +100,7 @@ double SimulatedOdrive::m_per_rev() const {
   return std::numbers::pi * options_.wheel_diameter_m;
 }
 
-/// An idle axis coasts: here it rolls out as quickly as the simulated wheels slow down.
+/// An idle axis coasts: here it slows down like the simulated wheels with a setpoint of zero.
 void SimulatedOdrive::drive_wheels() {
   std::array<double, 2> wanted_mps{};
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -155,8 +155,8 @@ void SimulatedOdrive::answer(std::uint32_t node, std::uint32_t command) {
   if (frame && answers_.size() < most_waiting) answers_.push_back(*frame);
 }
 
-/// What the axis says of itself under this command; nothing for what is no question. A wheel that turns
-/// overcomes a plain friction.
+/// The axis's answer to a request for this command; empty for commands that cannot be requested. Torque: a
+/// turning wheel overcomes a constant friction.
 std::optional<CanFrame> SimulatedOdrive::frame_of(std::uint32_t node, std::uint32_t command) const {
   constexpr double friction_nm = 0.2;
   constexpr double nm_per_a = 0.4;

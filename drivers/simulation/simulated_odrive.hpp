@@ -15,22 +15,23 @@ struct SimulatedOdriveOptions {
   double max_wheel_mps = 1.6;
   double supply_v = 24.0;
   bool right_is_mirrored = true;
-  Duration heartbeat_period = std::chrono::milliseconds(100);  ///< and of errors, currents, temperatures ...
+  Duration heartbeat_period = std::chrono::milliseconds(100);  ///< also of errors, currents, temperatures ...
   Duration estimate_period = std::chrono::milliseconds(10);
-  std::optional<Duration> watchdog;  ///< as delivered, an ODrive has none: it drives on as told last
+  /// Off by default on an ODrive: it then keeps executing the last command.
+  std::optional<Duration> watchdog;
 };
 
 class SimulatedMotion;
 
-/// An ODrive with two axes, node 0 left and node 1 right, that speaks CANSimple, and controls velocities. It
-/// sends everything that can be cyclic, and answers requests (a frame without data, or a remote request).
+/// An ODrive with two axes (node 0 left, node 1 right) that speaks CANSimple, in velocity control. It sends
+/// every message that can be cyclic, and answers requests (a frame without data, or a remote request).
 class SimulatedOdrive final : public SimulatedFirmware {
  public:
   SimulatedOdrive(CanBus& bus, SimulatedMotion& motion, const SimulatedOdriveOptions& options = {});
 
   void step(Stamp now) override;
   void press_emergency_stop(bool pressed) override;
-  /// Someone else brings the axes to rest.
+  /// Another device brings the axes to rest.
   void take_over_by_remote(bool taken) override;
   void set_fault_bits(std::uint16_t bits) override;
   [[nodiscard]] bool is_told_to_move() const override;
@@ -38,14 +39,14 @@ class SimulatedOdrive final : public SimulatedFirmware {
  private:
   struct Axis {
     std::uint8_t state = 1;
-    bool controls_velocity = true;  ///< the other control modes are not simulated: the wheel stands
+    bool controls_velocity = true;  ///< other control modes are not simulated: the wheel stands
     std::uint32_t errors = 0;
     std::uint32_t disarm_reason = 0;
     double wanted_rps = 0.0;
-    std::optional<Stamp> fed;  ///< the watchdog
+    std::optional<Stamp> fed;  ///< when the watchdog was last fed
     double last_m = 0.0;
-    double speed_rps = 0.0;     ///< positive ahead
-    double position_rev = 0.0;  ///< as the axis turns: a mirrored one backwards
+    double speed_rps = 0.0;     ///< positive forward
+    double position_rev = 0.0;  ///< of the axis itself: a mirrored one turns backwards
     double velocity_rps = 0.0;
   };
 
@@ -64,7 +65,7 @@ class SimulatedOdrive final : public SimulatedFirmware {
   SimulatedMotion& motion_;
   SimulatedOdriveOptions options_;
   std::array<Axis, 2> axes_;
-  std::deque<CanFrame> answers_;  ///< one at each pass
+  std::deque<CanFrame> answers_;  ///< one is sent per cycle
   bool emergency_stop_ = false;
   std::optional<Stamp> next_estimate_;
   std::optional<Stamp> estimated_at_;

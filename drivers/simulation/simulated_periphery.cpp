@@ -28,11 +28,11 @@ void SimulatedPeriphery::take_in(const CanFrame& frame) {
 }
 
 void SimulatedPeriphery::answer_with_numbers() {
-  constexpr double version_1_0 = 0x0100;  // the high byte counts whole versions
+  constexpr double version_1_0 = 0x0100;  // the high byte is the major version
   answers_.push_back(encode(tables::version_answer, {version_1_0, version_1_0, version_1_0, version_1_0}));
 }
 
-/// Eighty letters in ten frames.
+/// Eighty characters in ten frames.
 void SimulatedPeriphery::answer_with_text() {
   constexpr std::string_view text = "LODESTAR SIMULATED BASE H1.0 S1.0";
   constexpr std::size_t letters = 80;
@@ -77,7 +77,7 @@ void SimulatedPeriphery::send_battery() {
   (void)bus_.send(encode(tables::battery_extended, {}));
 }
 
-/// The lights, and a remote control whose switches are up and whose sticks nobody touches.
+/// The lights, and a remote control with its switches up and its sticks untouched.
 void SimulatedPeriphery::send_panel() {
   constexpr double up = 2.0;
   CanFrame state = lights_;

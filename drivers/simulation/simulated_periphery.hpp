@@ -8,21 +8,20 @@
 
 namespace lodestar {
 
-/// What an AgileX base has and tells of beside its drive: the motors, battery, lights, the remote control's
-/// sticks and the version of its firmware. Clients of other makers wait for all that, or find out by it what
-/// base they talk to.
+/// What an AgileX base reports beyond its drive: motors, battery, lights, the remote control's sticks and the
+/// firmware version. Third-party clients wait for these messages, or identify the base by them.
 class SimulatedPeriphery {
  public:
   SimulatedPeriphery(CanBus& bus, double battery_v) : bus_(bus), battery_v_(battery_v) {}
 
-  /// A command for the lights, a question for the version; else nothing.
+  /// Handles light commands and version requests; ignores other frames.
   void take_in(const CanFrame& frame);
 
-  /// With every feedback of the drive, each 20 ms; what is told more rarely, with some of them.
+  /// Called with every drive feedback (20 ms); slower messages are sent with some of them.
   void send_feedback(const BodyVelocity& measured, double track_width_m);
 
-  /// One frame of what was asked for; at every pass of the firmware, as several frames with the same
-  /// identifier only follow one another.
+  /// One frame of the requested answers per firmware cycle, since frames with the same identifier are sent
+  /// one after another.
   void send_answer();
 
  private:

@@ -17,7 +17,7 @@
 namespace lodestar {
 namespace {
 
-// Each purpose draws from its own stream of the seed.
+// Each purpose has its own random stream derived from the seed.
 constexpr std::uint64_t slip_stream = 1;
 constexpr std::uint64_t camera_stream = 2;
 constexpr std::uint64_t schedule_stream = 3;
@@ -70,7 +70,7 @@ struct Simulation::World {
     score();
   }
 
-  /// Everything is as the faults of now have it.
+  /// Applies the active faults to all parts.
   void suffer() {
     const std::vector<Fault> active = faults.active();
     camera.rehang(disturbed(registry, active),
@@ -99,7 +99,7 @@ struct Simulation::World {
   SimulationOptions options;
   MarkerRegistry registry;
   Stamp now;
-  Stamp wanted;  ///< that all calls of advance() so far add up to
+  Stamp wanted;  ///< time that all calls of advance() add up to
   InProcessBus bus;
   CanBus& navigator_end;
   CanBus& base_end;

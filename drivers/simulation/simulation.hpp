@@ -18,22 +18,22 @@
 
 namespace lodestar {
 
-/// Everything that the simulated world is made of. The map and registry are the true ones.
+/// Everything that makes up the simulated world. Map and registry are the true ones.
 struct SimulationOptions {
   SimulatedBaseOptions base;
   SimulatedCameraOptions camera;
   Pose2 start;                   ///< true pose of the base at time 0
-  double robot_radius_m = 0.25;  ///< of the disc that runs into obstacles
+  double robot_radius_m = 0.25;  ///< of the disc that collides with obstacles
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   Duration physics_step = std::chrono::milliseconds(1);
   Duration scoring_period = std::chrono::milliseconds(20);  ///< between records of the true pose
   std::uint64_t seed = 1;
   std::vector<Fault> faults;
-  std::shared_ptr<SimulatedDisk> disk;  ///< of those who keep a record of the drive, if anybody does
+  std::shared_ptr<SimulatedDisk> disk;  ///< disk of the recorders, if there are any
 };
 
-/// The simulated world as a set of drivers: a camera and a CAN bus, moved along in simulated time. Nothing
-/// here tells where the robot really is; that is for the Scorer alone.
+/// The simulated world as a set of drivers: a camera and a CAN bus, advanced in simulated time. It does not
+/// expose the robot's true pose; only the Scorer sees it.
 class Simulation {
  public:
   /// Throws InputError when the physics step is not positive or the camera's options are not possible.
@@ -41,8 +41,8 @@ class Simulation {
              const SimulationOptions& options);
   ~Simulation();
 
-  /// Moves time on in fixed small steps: wheels turn, frames are exposed, CAN frames travel. What is left of
-  /// the last step waits for the next call.
+  /// Advances time in small fixed steps: wheels turn, frames are exposed, CAN frames are transmitted. A
+  /// remainder shorter than a step is carried over to the next call.
   void advance(Duration by);
   /// Starts at Stamp{}.
   [[nodiscard]] Stamp now() const;
@@ -50,22 +50,23 @@ class Simulation {
   Camera& camera();
   CanBus& can();
 
-  /// The base, for what people and wear do to it; it does not know where it is.
+  /// The base's firmware, to inject events and defects; it has no access to the pose.
   SimulatedBase& base();
 
-  /// Somebody pushes the robot, wheels and all: `by` in the robot's own frame.
+  /// Displaces the robot by `by` in its own frame without turning the wheels.
   void push(const Pose2& by);
 
-  /// Somebody moves the furniture: what stands in the robot's way from now on.
+  /// Replaces the true map of obstacles (moved furniture).
   void change_map(const OccupancyMap& map);
 
-  /// Called with every CAN frame on the bus, either way, when it is on the wire (for the run's can.log).
+  /// Called with every CAN frame on the bus, in both directions, when it is on the wire (for the run's
+  /// can.log).
   void on_can_frame(std::function<void(const StampedCanFrame&)> listener);
 
-  /// What has gone wrong so far; for judges and reports.
+  /// The faults that have occurred so far, for scoring and reports.
   [[nodiscard]] std::vector<FaultEvent> faults() const;
 
-  /// The judge, who sees the truth.
+  /// The scorer, which knows ground truth.
   [[nodiscard]] Scorer& scorer();
 
  private:

@@ -8,14 +8,14 @@
 
 namespace lodestar {
 
-/// The small roll and pitch of a body on a floor that is not quite even: for each axis a sum of sines
-/// between 0.2 and 3 Hz with random phases, hence smooth and known at any time.
+/// Small roll and pitch of the body on an uneven floor: for each axis a sum of sines between 0.2 and 3 Hz
+/// with random phases, hence smooth and defined at any time.
 class TiltWobble {
  public:
   /// sigma_rad: standard deviation over time, each axis.
   TiltWobble(double sigma_rad, Random random);
 
-  /// level_from_tilted: turns the base frame about its origin on the floor.
+  /// level_from_tilted: rotation of the base frame about its origin on the floor.
   [[nodiscard]] Eigen::Isometry3d at(Stamp stamp) const;
 
  private:
@@ -28,7 +28,7 @@ class TiltWobble {
   static Waves draw_waves(Random& random);
   [[nodiscard]] double angle_rad(const Waves& waves, Stamp stamp) const;
 
-  double amplitude_rad_;  ///< of one wave
+  double amplitude_rad_;  ///< of one sine
   Waves roll_;
   Waves pitch_;
 };

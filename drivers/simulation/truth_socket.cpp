@@ -23,7 +23,7 @@ struct PoseMessage {
   double yaw_rad = 0.0;
 };
 
-/// An abstract name: it begins with a zero byte.
+/// An abstract socket name: it begins with a zero byte.
 struct Address {
   explicit Address(const std::string& interface) {
     const std::string name = "lodestar-world-" + interface;

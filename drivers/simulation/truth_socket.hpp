@@ -7,17 +7,17 @@
 #include "drivers/simulation/scoring.hpp"
 #include "drivers/system/file_descriptor.hpp"
 
-// How the simulated world in one process tells the simulated camera in another where the robot truly is. Only
-// drivers/ may listen. The socket has no file: it is found by the name of the CAN interface, within the same
-// network namespace as that.
+// Sends the robot's true pose from the simulated world in one process to the simulated camera in another.
+// Only drivers/ may use it. The socket is abstract (it has no file): it is found by the name of the CAN
+// interface, within the same network namespace.
 namespace lodestar {
 
 class TruthServer {
  public:
-  /// Throws InputError when another world is already simulated on this interface.
+  /// Throws InputError when this interface already has a simulated world.
   explicit TruthServer(const std::string& interface);
 
-  /// To all who listen; one that does not keep up misses poses.
+  /// Sends to all listeners; a slow listener misses poses.
   void tell(const TruePose& pose);
 
  private:
@@ -29,8 +29,8 @@ class TruthListener {
  public:
   explicit TruthListener(std::string interface) : interface_(std::move(interface)) {}
 
-  /// The next pose, oldest first; nothing when there is none, or no world (then it is looked for again now
-  /// and then).
+  /// The oldest pose not yet polled; empty when there is none or no world (which is then looked for again
+  /// from time to time).
   std::optional<TruePose> poll();
 
  private:
