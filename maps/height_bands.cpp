@@ -10,9 +10,9 @@ namespace {
 
 /// The bits of all bands that overlap the heights from `from_m` to `to_m`.
 std::uint32_t bits_between(const HeightBands& bands, double from_m, double to_m) {
-  constexpr double dust_m = 1e-6;  // a voxel's face on the boundary of two bands belongs to one of them
-  const auto first = static_cast<int>(std::floor((from_m - bands.low_m + dust_m) / bands.step_m));
-  const auto last = static_cast<int>(std::floor((to_m - bands.low_m - dust_m) / bands.step_m));
+  constexpr double tolerance_m = 1e-6;  // a voxel's face on the boundary of two bands belongs to one of them
+  const auto first = static_cast<int>(std::floor((from_m - bands.low_m + tolerance_m) / bands.step_m));
+  const auto last = static_cast<int>(std::floor((to_m - bands.low_m - tolerance_m) / bands.step_m));
   std::uint32_t bits = 0;
   for (int band = std::max(first, 0); band <= std::min(last, HeightBands::count - 1); ++band)
     bits |= 1U << static_cast<unsigned>(band);

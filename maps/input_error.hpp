@@ -12,7 +12,7 @@ class InputError : public std::runtime_error {
  public:
   InputError(const std::filesystem::path& file, int line, const std::string& found,
              const std::string& wanted);
-  explicit InputError(const std::string& what_is_wrong) : std::runtime_error(what_is_wrong) {}
+  explicit InputError(const std::string& message) : std::runtime_error(message) {}
 };
 
 }  // namespace lodestar

@@ -70,7 +70,7 @@ std::int8_t value_of(std::uint8_t gray, const MapFileInfo& info) {
 }
 
 /// In raw mode the pixel is the occupancy value itself, and alpha is ignored.
-bool hides_value(const MapImage& image, std::size_t pixel, MapMode mode) {
+bool is_transparent(const MapImage& image, std::size_t pixel, MapMode mode) {
   return mode != MapMode::raw && !image.transparent.empty() && image.transparent[pixel];
 }
 
@@ -83,7 +83,7 @@ void fill_cells(const MapImage& image, const MapFileInfo& info, OccupancyMap& ma
     for (int column = 0; column < map.columns; ++column) {
       const std::size_t pixel = map.index({column, map.rows - 1 - row});
       map.cells[map.index({column, row})] =
-          hides_value(image, pixel, info.mode) ? OccupancyMap::unknown : value_of(image.gray[pixel], info);
+          is_transparent(image, pixel, info.mode) ? OccupancyMap::unknown : value_of(image.gray[pixel], info);
     }
   }
 }

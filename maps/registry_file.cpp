@@ -50,7 +50,7 @@ MarkerRegistry read_registry(StrictYaml yaml) {
   return registry;
 }
 
-MarkerRegistry with_each_id_once(MarkerRegistry registry, const std::filesystem::path& file) {
+MarkerRegistry require_unique_ids(MarkerRegistry registry, const std::filesystem::path& file) {
   std::map<int, int> line_of_id;
   for (const RegisteredMarker& marker : registry.markers) {
     const auto [first, is_new] = line_of_id.emplace(marker.id, marker.line);
@@ -68,11 +68,11 @@ MarkerRegistry load_registry_draft(const std::filesystem::path& file) {
 }
 
 MarkerRegistry load_registry(const std::filesystem::path& file) {
-  return with_each_id_once(load_registry_draft(file), file);
+  return require_unique_ids(load_registry_draft(file), file);
 }
 
 MarkerRegistry parse_registry(const std::string& text, const std::filesystem::path& file) {
-  return with_each_id_once(read_registry(StrictYaml::parse(text, file)), file);
+  return require_unique_ids(read_registry(StrictYaml::parse(text, file)), file);
 }
 
 std::string registry_text(const MarkerRegistry& registry) {

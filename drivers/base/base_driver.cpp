@@ -72,7 +72,7 @@ BaseFeedback BaseDriver::poll(Stamp now) {
   now_ = now;
   std::vector<WheelTravel> travel;
   while (const auto received = bus_.poll()) take_in(*received, travel);
-  if (const auto fault = complaint_of_bus(); fault && state_ == BaseState::ready) latch(*fault);
+  if (const auto fault = bus_fault(); fault && state_ == BaseState::ready) latch(*fault);
   if (state_ == BaseState::ready) {
     if (!was_asleep) watch(now);
   } else if (state_ != BaseState::fault) {
@@ -106,22 +106,22 @@ void BaseDriver::take_in_system_state(Stamp stamp, const SystemState& state) {
   system_ = state;
 
   if (state_ != BaseState::ready) return;
-  if (const auto fault = complaint(state)) latch(*fault);
+  if (const auto fault = system_fault(state)) latch(*fault);
 }
 
 /// Faults of a ready base that show by elapsed time; those that its frames report are latched on arrival.
 void BaseDriver::watch(Stamp now) {
-  if (!hears_everything(now)) return latch(BaseFault::feedback_lost);
-  const bool base_obeys_us = !is_older(commanded_at_, now, options_.base_command_timeout);
-  const BodyVelocity expected = base_obeys_us ? commanded_ : BodyVelocity{};
+  if (!feedback_is_complete(now)) return latch(BaseFault::feedback_lost);
+  const bool command_is_valid = !is_older(commanded_at_, now, options_.base_command_timeout);
+  const BodyVelocity expected = command_is_valid ? commanded_ : BodyVelocity{};
   if (following_.strays(now, expected, *measured_)) latch(BaseFault::not_following);
 }
 
 void BaseDriver::shake_hands(Stamp now) {
   state_ = BaseState::waiting_for_base;
-  fault_ = complaint_of_bus();
-  if (!fault_) fault_ = hears_state(now) ? complaint(*system_) : BaseFault::feedback_lost;
-  if (!fault_ && !hears_everything(now)) fault_ = BaseFault::feedback_lost;
+  fault_ = bus_fault();
+  if (!fault_) fault_ = state_is_fresh(now) ? system_fault(*system_) : BaseFault::feedback_lost;
+  if (!fault_ && !feedback_is_complete(now)) fault_ = BaseFault::feedback_lost;
   if (!fault_) {
     state_ = BaseState::ready;
     commanded_at_.reset();
@@ -174,11 +174,11 @@ bool BaseDriver::send(const std::vector<CanFrame>& frames) {
 bool BaseDriver::resume(Stamp now) {
   if (state_ != BaseState::fault) return true;
   const BusState bus = bus_.health().state;
-  if (!hears_everything(now) || (complaint_of_bus() && bus != BusState::held)) return false;
-  const auto still = complaint(*system_);
-  const bool offers_itself = still == BaseFault::left_can_mode && system_->mode == ControlMode::standby;
+  if (!feedback_is_complete(now) || (bus_fault() && bus != BusState::held)) return false;
+  const auto still = system_fault(*system_);
+  const bool is_in_standby = still == BaseFault::left_can_mode && system_->mode == ControlMode::standby;
   if (still && still != BaseFault::left_can_mode) send(protocol_->clear_faults());
-  if (still && !offers_itself) return false;
+  if (still && !is_in_standby) return false;
   if (bus == BusState::held) bus_.resume();
   state_ = BaseState::waiting_for_base;
   fault_.reset();
@@ -186,17 +186,17 @@ bool BaseDriver::resume(Stamp now) {
   return true;
 }
 
-bool BaseDriver::hears_state(Stamp now) const {
+bool BaseDriver::state_is_fresh(Stamp now) const {
   return !is_older(last_heard_, now, options_.max_feedback_age) &&
          !is_older(last_alive_, now, options_.max_kind_age);
 }
 
-bool BaseDriver::hears_everything(Stamp now) const {
-  return hears_state(now) && !is_older(last_motion_state_, now, options_.max_kind_age) &&
+bool BaseDriver::feedback_is_complete(Stamp now) const {
+  return state_is_fresh(now) && !is_older(last_motion_state_, now, options_.max_kind_age) &&
          !is_older(last_odometer_, now, options_.max_kind_age);
 }
 
-std::optional<BaseFault> BaseDriver::complaint(const SystemState& state) const {
+std::optional<BaseFault> BaseDriver::system_fault(const SystemState& state) const {
   if (state.vehicle == VehicleState::emergency_stop) return BaseFault::emergency_stop;
   if (state.vehicle != VehicleState::normal) return BaseFault::vehicle_exception;
   if ((state.fault_bits & ~options_.ignored_fault_bits) != 0) return BaseFault::fault_bits;
@@ -204,7 +204,7 @@ std::optional<BaseFault> BaseDriver::complaint(const SystemState& state) const {
   return std::nullopt;
 }
 
-std::optional<BaseFault> BaseDriver::complaint_of_bus() const {
+std::optional<BaseFault> BaseDriver::bus_fault() const {
   switch (bus_.health().state) {
     case BusState::up:
     case BusState::error_passive:

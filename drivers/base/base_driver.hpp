@@ -111,10 +111,10 @@ class BaseDriver {
   void shake_hands(Stamp now);
   void latch(BaseFault fault);
   bool send(const std::vector<CanFrame>& frames);
-  [[nodiscard]] bool hears_state(Stamp now) const;
-  [[nodiscard]] bool hears_everything(Stamp now) const;
-  [[nodiscard]] std::optional<BaseFault> complaint(const SystemState& state) const;
-  [[nodiscard]] std::optional<BaseFault> complaint_of_bus() const;
+  [[nodiscard]] bool state_is_fresh(Stamp now) const;
+  [[nodiscard]] bool feedback_is_complete(Stamp now) const;
+  [[nodiscard]] std::optional<BaseFault> system_fault(const SystemState& state) const;
+  [[nodiscard]] std::optional<BaseFault> bus_fault() const;
   [[nodiscard]] BodyVelocity within_limits(const BodyVelocity& velocity);
 
   CanBus& bus_;

@@ -22,12 +22,12 @@ void CommandFollowing::restart(Stamp now, const BodyVelocity& measured) {
 }
 
 bool CommandFollowing::strays(Stamp now, const BodyVelocity& commanded, const BodyVelocity& measured) {
-  const Duration elapsed = std::clamp(now - last_, Duration::zero(), options_.longest_look);
+  const Duration elapsed = std::clamp(now - last_, Duration::zero(), options_.max_interval);
   const double elapsed_s = seconds(elapsed);
-  slowest_.forward_mps = moved_towards(slowest_.forward_mps, commanded.forward_mps,
-                                       options_.least_acceleration_mps2 * elapsed_s);
+  slowest_.forward_mps =
+      moved_towards(slowest_.forward_mps, commanded.forward_mps, options_.min_acceleration_mps2 * elapsed_s);
   slowest_.turn_radps = moved_towards(slowest_.turn_radps, commanded.turn_radps,
-                                      options_.least_turn_acceleration_radps2 * elapsed_s);
+                                      options_.min_turn_acceleration_radps2 * elapsed_s);
   last_ = now;
 
   const auto still_strayed = [&](Duration before, const FollowingTolerance& tolerance) {

@@ -17,9 +17,9 @@ struct CommandFollowingOptions {
   FollowingTolerance gross{.forward_mps = 0.3, .turn_radps = 0.8, .patience = std::chrono::milliseconds(200)};
   /// One stuck wheel of a creeping robot deviates by no more than this.
   FollowingTolerance fine{.forward_mps = 0.15, .turn_radps = 0.35, .patience = std::chrono::seconds(1)};
-  double least_acceleration_mps2 = 1.0;  ///< reached by any healthy base, towards the command
-  double least_turn_acceleration_radps2 = 3.0;
-  Duration longest_look = std::chrono::milliseconds(50);  ///< most that counts of the time between two calls
+  double min_acceleration_mps2 = 1.0;  ///< reached by any healthy base, towards the command
+  double min_turn_acceleration_radps2 = 3.0;
+  Duration max_interval = std::chrono::milliseconds(50);  ///< most that counts of the time between two calls
 };
 
 /// Monitors whether the base follows its commands. A reference speed models the slowest healthy base; the
@@ -38,7 +38,7 @@ class CommandFollowing {
 
   /// True when the measured velocity has been outside the band for longer than a tolerance allows. To be
   /// called at a steady rate: a pause of the caller, without commands and measurements, counts for at most
-  /// `longest_look`.
+  /// `max_interval`.
   [[nodiscard]] bool strays(Stamp now, const BodyVelocity& commanded, const BodyVelocity& measured);
 
  private:

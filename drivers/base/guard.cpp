@@ -19,7 +19,7 @@ namespace {
 
 /// Requests real-time priority and locked memory; without the permissions the guard runs as an ordinary
 /// process.
-void ask_for_real_time() {
+void request_real_time() {
   const sched_param priority{.sched_priority = 20};
   (void)sched_setscheduler(0, SCHED_FIFO, &priority);
   (void)mlockall(MCL_CURRENT | MCL_FUTURE);
@@ -33,7 +33,7 @@ void ignore_signals() {
 [[noreturn]] void guard(SocketCanBus& bus, int navigator_socket, const GuardOptions& options) {
   prctl(PR_SET_NAME, "lodestar-guard");
   ignore_signals();
-  ask_for_real_time();
+  request_real_time();
   GuardLoop(bus, navigator_socket, options).run();
   _exit(0);
 }

@@ -22,7 +22,7 @@ GuardLoop::GuardLoop(SocketCanBus& bus, int navigator_socket, const GuardOptions
 
 void GuardLoop::run() {
   while (navigator_is_there_ || repeats_left_ > 0) {
-    wait_for_something();
+    wait_for_input();
     // If the whole machine stalled, the navigator did not hang: each pass counts at most `longest_pass`.
     const Stamp now = monotonic_now();
     silence_ += std::min(now - now_, longest_pass);
@@ -34,7 +34,7 @@ void GuardLoop::run() {
   }
 }
 
-void GuardLoop::wait_for_something() const {
+void GuardLoop::wait_for_input() const {
   std::array<pollfd, 2> sockets{{{.fd = bus_.descriptor(), .events = POLLIN, .revents = 0},
                                  {.fd = navigator_, .events = POLLIN, .revents = 0}}};
   (void)::poll(sockets.data(), navigator_is_there_ ? 2 : 1, longest_wait_ms);

@@ -26,7 +26,7 @@ class GuardLoop {
   void run();
 
  private:
-  void wait_for_something() const;
+  void wait_for_input() const;
   void take_requests();
   void take(const GuardRequest& request);
   void pass_on_frames();

@@ -143,9 +143,9 @@ class OdriveProtocol final : public BaseProtocol {
     SystemState state;
     state.fault_bits = left_.errors | right_.errors;
     if ((state.fault_bits & odrive::estop_requested) != 0) state.vehicle = VehicleState::emergency_stop;
-    const bool both_obey =
+    const bool both_in_control =
         left_.state == odrive::closed_loop_control && right_.state == odrive::closed_loop_control;
-    state.mode = both_obey ? ControlMode::can : ControlMode::standby;
+    state.mode = both_in_control ? ControlMode::can : ControlMode::standby;
     state.counter = ++pulses_;
     return state;
   }

@@ -19,15 +19,15 @@ constexpr double stamp_slack_s = 0.05;
 }  // namespace
 
 std::optional<WheelTravel> TravelCounter::take(Stamp stamp, const agilex::Odometer& odometer) {
-  return go_on({stamp, static_cast<double>(odometer.left_mm), static_cast<double>(odometer.right_mm)},
-               difference);
+  return accumulate({stamp, static_cast<double>(odometer.left_mm), static_cast<double>(odometer.right_mm)},
+                    difference);
 }
 
 std::optional<WheelTravel> TravelCounter::take(Stamp stamp, double left_mm, double right_mm) {
-  return go_on({stamp, left_mm, right_mm}, [](double newer, double older) { return newer - older; });
+  return accumulate({stamp, left_mm, right_mm}, [](double newer, double older) { return newer - older; });
 }
 
-std::optional<WheelTravel> TravelCounter::go_on(const Reading& reading, Difference difference) {
+std::optional<WheelTravel> TravelCounter::accumulate(const Reading& reading, Difference difference) {
   if (!last_) last_ = reading;
   const auto follows = [&](const Reading& older) {
     const double most_mm = mm_per_m * max_wheel_mps_ * (seconds(reading.stamp - older.stamp) + stamp_slack_s);
@@ -35,15 +35,15 @@ std::optional<WheelTravel> TravelCounter::go_on(const Reading& reading, Differen
            std::abs(difference(reading.right_mm, older.right_mm)) <= most_mm;
   };
   // A single jump is a corrupted frame; if the next reading fits the jump, the base was restarted.
-  if (!follows(*last_) && leapt_ && follows(*leapt_)) last_ = leapt_;
+  if (!follows(*last_) && outlier_ && follows(*outlier_)) last_ = outlier_;
   if (!follows(*last_)) {
-    leapt_ = reading;
+    outlier_ = reading;
     return std::nullopt;
   }
   left_mm_ += difference(reading.left_mm, last_->left_mm);
   right_mm_ += difference(reading.right_mm, last_->right_mm);
   last_ = reading;
-  leapt_.reset();
+  outlier_.reset();
   return WheelTravel{reading.stamp, left_mm_ / mm_per_m, right_mm_ / mm_per_m};
 }
 

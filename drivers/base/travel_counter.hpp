@@ -32,11 +32,11 @@ class TravelCounter {
 
   using Difference = double (*)(double newer, double older);
 
-  std::optional<WheelTravel> go_on(const Reading& reading, Difference difference);
+  std::optional<WheelTravel> accumulate(const Reading& reading, Difference difference);
 
   double max_wheel_mps_ = 0.0;
-  std::optional<Reading> last_;   ///< last plausible reading
-  std::optional<Reading> leapt_;  ///< last implausible reading since then
+  std::optional<Reading> last_;     ///< last plausible reading
+  std::optional<Reading> outlier_;  ///< last implausible reading since then
   double left_mm_ = 0.0;
   double right_mm_ = 0.0;
 };

@@ -15,7 +15,7 @@ namespace lodestar {
 namespace {
 
 /// Any socket serves for interface queries.
-FileDescriptor socket_to_ask() {
+FileDescriptor query_socket() {
   return FileDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
 }
 
@@ -25,7 +25,7 @@ bool is_virtual(const std::string& name) {
   ifreq request{};
   name.copy(request.ifr_name, IFNAMSIZ - 1);
   request.ifr_data = reinterpret_cast<char*>(&info);
-  if (::ioctl(socket_to_ask().get(), SIOCETHTOOL, &request) != 0) return false;
+  if (::ioctl(query_socket().get(), SIOCETHTOOL, &request) != 0) return false;
   const std::string_view driver(info.driver);
   return driver == "vcan" || driver == "vxcan";
 }
@@ -42,7 +42,7 @@ std::string name_of_state(int state) {
 bool is_switched_on(const std::string& name) {
   ifreq request{};
   name.copy(request.ifr_name, IFNAMSIZ - 1);
-  return ::ioctl(socket_to_ask().get(), SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
+  return ::ioctl(query_socket().get(), SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
 }
 
 CanInterface look_at_can_interface(const std::string& name) {

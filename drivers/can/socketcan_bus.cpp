@@ -193,7 +193,8 @@ void SocketCanBus::read_all() {
       take_in_failure(error);
       const bool more_may_come = error == EINTR || error == EBADMSG || error == ENETDOWN || error == ENODEV;
       if (more_may_come) continue;
-      waits_long_ = !waiting_.empty() && monotonic_now() - waiting_.front().sent > options_.stalled_after;
+      oldest_is_overdue_ =
+          !waiting_.empty() && monotonic_now() - waiting_.front().sent > options_.stalled_after;
       return;
     }
     if (message->lost) counts_.lost = *message->lost;
@@ -205,8 +206,7 @@ void SocketCanBus::read_all() {
     } else if ((frame.can_id & unwanted) == 0) {
       ++counts_.received;
       // A bus-off controller receives nothing: if frames keep arriving, the report was wrong.
-      const bool is_long_ago =
-          disturbed_ && monotonic_now() - *disturbed_ > options_.disbelieve_bus_off_after;
+      const bool is_long_ago = disturbed_ && monotonic_now() - *disturbed_ > options_.bus_off_expires_after;
       if (state_ == BusState::bus_off && is_long_ago) state_ = BusState::up;
       const Stamp stamp = stamp_from(message->wall_stamp, over_wall);
       newest_ = std::max(newest_, stamp);  // never backwards, whatever the clocks do
@@ -217,7 +217,7 @@ void SocketCanBus::read_all() {
 
 BusHealth SocketCanBus::health() const {
   const bool carries = state_ == BusState::up || state_ == BusState::error_passive;
-  const bool is_stalled = waits_long_ || refused_in_a_row_ >= options_.stalled_after_refusals;
+  const bool is_stalled = oldest_is_overdue_ || refused_in_a_row_ >= options_.stalled_after_refusals;
   return {carries && is_stalled ? BusState::stalled : state_, counts_};
 }
 

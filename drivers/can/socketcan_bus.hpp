@@ -21,7 +21,7 @@ struct SocketCanOptions {
   Duration stalled_after = std::chrono::milliseconds(100);  ///< time without the confirmation of a frame
   int stalled_after_refusals = 3;                           ///< consecutive frames refused by the kernel
   /// A reported bus-off is dropped when frames still arrive this long after the report.
-  Duration disbelieve_bus_off_after = std::chrono::seconds(5);
+  Duration bus_off_expires_after = std::chrono::seconds(5);
   /// A frame that is never confirmed blocks its successors no longer than this.
   Duration forget_after = std::chrono::seconds(1);
 };
@@ -68,9 +68,9 @@ class SocketCanBus final : public CanBus {
   std::deque<StampedCanFrame> arrived_;  ///< not yet polled
   std::optional<Stamp> disturbed_;       ///< last report of the controller being error-passive or bus-off
   int refused_in_a_row_ = 0;
-  Stamp refused_;                ///< time of the newest refusal
-  std::deque<Waiting> waiting_;  ///< accepted by the kernel, not yet confirmed
-  bool waits_long_ = false;      ///< the oldest waited too long when everything received had been read
+  Stamp refused_;                   ///< time of the newest refusal
+  std::deque<Waiting> waiting_;     ///< accepted by the kernel, not yet confirmed
+  bool oldest_is_overdue_ = false;  ///< the oldest waited too long when everything received had been read
 };
 
 }  // namespace lodestar

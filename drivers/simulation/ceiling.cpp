@@ -127,7 +127,7 @@ std::vector<Vec2> tile_middles_m(const Extent& extent, const Vec2& spacing_m, co
   return middles;
 }
 
-Vec2 lay_tiles(Random random) {
+Vec2 draw_tile_corner(Random random) {
   const double x_m = random.uniform(0.0, ceiling_tile_m);
   return {x_m, random.uniform(0.0, ceiling_tile_m)};
 }
@@ -202,7 +202,7 @@ Ceiling fit_ceiling(const MarkerRegistry& registry, const SimulatedCameraOptions
   Ceiling ceiling;
   ceiling.markers = hang_markers(registry, options, seed);
   ceiling.height_m = median_height_m(ceiling.markers);
-  ceiling.tile_corner_m = lay_tiles(random.stream(place_of_tiles));
+  ceiling.tile_corner_m = draw_tile_corner(random.stream(place_of_tiles));
   const Extent extent = extent_of(ceiling.markers);
   if (options.tubes) ceiling.tubes = fit_tubes(ceiling, extent);
   if (options.lamps) ceiling.lamps = fit_lamps(ceiling, extent, random.stream(places_of_lamps));

@@ -35,7 +35,7 @@ void read_times(StrictYaml& yaml, const FaultRow& row, Fault& fault) {
   } else {
     fault.begin = from_seconds(yaml.number("at_s", 0.0, longest_s));
   }
-  if (!row.happens_at_once && yaml.has("for_s"))
+  if (!row.is_instantaneous && yaml.has("for_s"))
     fault.lasts = from_seconds(yaml.number("for_s", 0.0, longest_s));
 }
 
@@ -46,7 +46,7 @@ Fault read_fault(StrictYaml& yaml) {
   if (row.concerns_a_marker && yaml.has("marker")) fault.marker = yaml.integer("marker", 0, highest_id);
   for (const FaultParameter& parameter : row.parameters) {
     fault.*parameter.value =
-        parameter.in_our_units * yaml.number(std::string(parameter.key), parameter.low, parameter.high);
+        parameter.unit_factor * yaml.number(std::string(parameter.key), parameter.low, parameter.high);
   }
   yaml.finish();
   return fault;

@@ -16,7 +16,7 @@ std::optional<int> nearest_marker(const MarkerRegistry& registry, const Vec2& po
   return nearest == registry.markers.end() ? std::nullopt : std::optional(nearest->id);
 }
 
-bool befalls_one_marker(const Fault& fault) {
+bool affects_one_marker(const Fault& fault) {
   return fault.kind != FaultKind::markers_occluded &&
          fault_table()[static_cast<std::size_t>(fault.kind)].concerns_a_marker;
 }
@@ -43,7 +43,7 @@ bool FaultSchedule::advance(Stamp now, const Vec2& position_m, const MarkerRegis
   for (Entry& entry : entries_) {
     if (!entry.has_begun && entry.begin <= now) {
       entry.has_begun = true;
-      if (!entry.fault.marker && befalls_one_marker(entry.fault))
+      if (!entry.fault.marker && affects_one_marker(entry.fault))
         entry.fault.marker = nearest_marker(registry, position_m);
       begun_.push_back(entry.fault);
       changed = true;

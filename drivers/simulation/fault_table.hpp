@@ -14,7 +14,7 @@ struct FaultParameter {
   double low = 0.0;
   double high = 0.0;
   double Fault::* value = nullptr;
-  double in_our_units = 1.0;  ///< conversion factor to the member's unit
+  double unit_factor = 1.0;  ///< conversion factor to the member's unit
 };
 
 struct FaultRow {
@@ -22,7 +22,7 @@ struct FaultRow {
   std::string_view name;
   std::span<const FaultParameter> parameters;
   bool concerns_a_marker = false;
-  bool happens_at_once = false;  ///< has no duration
+  bool is_instantaneous = false;  ///< has no duration
 };
 
 /// One row per kind, in the order of the enumeration.

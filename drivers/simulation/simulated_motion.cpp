@@ -75,10 +75,10 @@ void SimulatedMotion::step(Duration by) {
 /// Turns the wheel and returns its travel over ground: scaled by its true radius, and with slip. The variance
 /// of the slip grows with the distance rolled, so that its sum does not depend on the step size.
 double SimulatedMotion::roll(Wheel& wheel, double scale, double elapsed_s) {
-  const double wish_mps2 = (wheel.target_mps - wheel.speed_mps) / std::max(options_.motor_lag_s, elapsed_s);
+  const double wanted_mps2 = (wheel.target_mps - wheel.speed_mps) / std::max(options_.motor_lag_s, elapsed_s);
   const double most_mps2 = options_.max_wheel_acceleration_mps2;
   const double speed_before_mps = wheel.speed_mps;
-  wheel.speed_mps += std::clamp(wish_mps2, -most_mps2, most_mps2) * elapsed_s;
+  wheel.speed_mps += std::clamp(wanted_mps2, -most_mps2, most_mps2) * elapsed_s;
   // The exponential decay never reaches zero; a real wheel stops by static friction.
   if (wheel.target_mps == 0.0 && std::abs(wheel.speed_mps) < 1e-4) wheel.speed_mps = 0.0;
 
