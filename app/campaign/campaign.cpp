@@ -28,18 +28,18 @@ std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
   for (std::string line; std::getline(stream, line);) {
     ++number;
     const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (json.is_discarded()) continue;  // cut off while it was written: that mission is run again
+    if (json.is_discarded()) continue;  // truncated when the campaign was killed: that mission is run again
     try {
       MissionOutcome outcome = outcome_from(json);
       outcomes[outcome.mission] = std::move(outcome);
     } catch (const std::exception& error) {
-      throw InputError(file, number, error.what(), "a mission as a campaign keeps it");
+      throw InputError(file, number, error.what(), "a mission outcome as `campaign` writes it");
     }
   }
   return outcomes;
 }
 
-/// The first thing that the navigator said or refused after the fault had begun.
+/// Time from the start of the fault to the first notice or refused fix of the navigator.
 std::optional<double> noticed_after_s(const RunRecord& record) {
   if (record.faults.size() != 1) return std::nullopt;
   const Stamp begin = record.faults.front().begin;
@@ -55,10 +55,10 @@ std::optional<double> noticed_after_s(const RunRecord& record) {
   return seconds(*first - begin);
 }
 
-/// The way from each reason to stop until the robot stood.
+/// The longest distance travelled from a reason to stop to standstill.
 std::optional<double> stopped_within_m(const RunRecord& record) {
   constexpr double still_m = 0.0002;  // between two records
-  constexpr double carried_m = 0.1;   // no wheel does that
+  constexpr double carried_m = 0.1;   // a longer step is a kidnapping, not wheel motion
   std::optional<double> longest;
   for (const NoticeRecord& notice : record.notices) {
     if (!notice.stops) continue;

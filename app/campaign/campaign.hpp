@@ -12,20 +12,20 @@
 
 namespace lodestar {
 
-inline constexpr double silently_wrong_m = 0.10;  ///< from the goal, while claiming to be there
+inline constexpr double silently_wrong_m = 0.10;  ///< from the goal, while arrival is reported
 
-/// What a campaign keeps of one mission.
+/// The outcome of one mission.
 struct MissionOutcome {
   std::uint64_t mission = 0;  ///< its number, and its seed
   std::vector<std::string> faults;
   bool arrived = false;
-  double error_m = 0.0;  ///< true distance from the goal, when it claimed to be there
+  double error_m = 0.0;  ///< true distance from the goal, when arrival was reported
   std::string failure;   ///< in words, when it did not arrive
   int contacts = 0;
   double driven_s = 0.0;  ///< simulated
-  /// From the begin of the fault to the first sign that the navigator took notice, where there was one fault.
+  /// From the start of the fault to the first notice or refused fix, for missions with exactly one fault.
   std::optional<double> noticed_after_s;
-  std::optional<double> stopped_within_m;  ///< the longest way to rest after a reason to stop
+  std::optional<double> stopped_within_m;  ///< longest stopping distance after a reason to stop
 
   [[nodiscard]] bool hit_something() const { return contacts > 0; }
   [[nodiscard]] bool silently_wrong() const { return arrived && error_m > silently_wrong_m; }
@@ -34,7 +34,7 @@ struct MissionOutcome {
 nlohmann::ordered_json as_json(const MissionOutcome& outcome);
 MissionOutcome outcome_from(const nlohmann::json& json);
 
-/// One mission as its number says: a building, a drive, and what goes wrong.
+/// The mission of a number: a building, a simulated drive and its faults.
 struct CampaignMission {
   Site site;
   SimulatedDriveOptions replay;
@@ -45,17 +45,17 @@ MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record);
 struct CampaignOptions {
   std::uint64_t first = 1;  ///< number of the first mission
   int missions = 100;
-  bool resume = false;  ///< go on with what missions.jsonl has
+  bool resume = false;  ///< skip the missions that missions.jsonl already has
 };
 
-/// Runs the missions on all cores. Each outcome is added to `folder`/missions.jsonl as soon as it is there,
-/// so that a campaign that was cut off can be resumed. `done` is called after each, from any thread, with the
-/// share that is done. By ascending number. Throws InputError when the folder cannot be written.
+/// Runs the missions on all cores. Each outcome is appended to `folder`/missions.jsonl at once, so that an
+/// interrupted campaign can be resumed. `done` is called after each, from any thread, with the completed
+/// share. Returns the outcomes by ascending number. Throws InputError when the folder cannot be written.
 std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const CampaignOptions& options,
                                          const std::filesystem::path& folder,
                                          const std::function<void(double)>& done);
 
-/// IDs far apart enough for all markers of a building.
+/// IDs with a minimum code distance of 3, enough for all markers of a building.
 std::vector<int> campaign_ids();
 
 }  // namespace lodestar

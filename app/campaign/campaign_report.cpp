@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr double ms_per_s = 1000.0;
 constexpr double mm_per_m = 1000.0;
 
-/// What is told of all missions, or of those with one kind of fault.
+/// Statistics of all missions, or of those with one kind of fault.
 struct Tally {
   int missions = 0;
   int arrivals = 0;
@@ -43,7 +43,7 @@ struct Tally {
   }
 };
 
-/// By kind of fault; those of several count for each of them, those of none under "none".
+/// By kind of fault. A mission with several counts for each of them, one without a fault under "none".
 std::map<std::string, Tally> by_fault(const std::vector<MissionOutcome>& outcomes) {
   std::map<std::string, Tally> tallies;
   for (const MissionOutcome& outcome : outcomes) {
@@ -126,8 +126,8 @@ std::string campaign_html(const std::vector<MissionOutcome>& outcomes) {
       "<h1>Fault campaign</h1>\n<p class=\"lead\">{} missions: {} arrivals, {} safe stops, {} with contacts, "
       "{} silently wrong.</p>\n<table><tr><th>Fault</th><th>Missions</th><th>Arrived</th><th>Stopped "
       "safely</th><th>Contacts</th><th>Silently wrong</th><th>Noticed after, ms: "
-      "median</th><th>p99</th><th>max</th><th>Stopped within, mm: p99</th><th>Off the goal, mm: "
-      "p99</th><th>max</th></tr>\n",
+      "median</th><th>p99</th><th>max</th><th>Stopped within, mm: p99</th><th>Position error at the goal, "
+      "mm: p99</th><th>max</th></tr>\n",
       all.missions, all.arrivals, all.safe_stops, all.contacts, all.silently_wrong);
   html += row_of("all", all);
   for (const auto& [kind, tally] : by_fault(outcomes)) html += row_of(kind, tally);

@@ -22,10 +22,10 @@ std::optional<Duration> passing(double least_s, double most_s, Random& random) {
   return lasts_to_the_end ? std::nullopt : std::optional(from_seconds(lasts_s));
 }
 
-constexpr double until_it_has_a_pose_s = 1.5;  ///< after the robot sees for the first time
+constexpr double until_it_has_a_pose_s = 1.5;  ///< after the camera first delivers usable frames
 
-/// A marker that misleads a robot which has seen no other yet: what cannot be known stays unknown. Such
-/// faults begin when the robot has a pose.
+/// Faults that cannot be detected before the robot has seen another marker, and that would give it a wrong
+/// first pose. They begin once the robot has a pose.
 bool may_mislead_at_the_start(FaultKind kind) {
   return kind == FaultKind::marker_moved || kind == FaultKind::marker_wrong_id ||
          kind == FaultKind::markers_swapped || kind == FaultKind::marker_duplicated ||
@@ -49,7 +49,7 @@ bool blinds(const Fault& fault) {
   }
 }
 
-/// A mission leaves nothing on a disk.
+/// All but the disk faults: a campaign mission writes no run folder.
 std::vector<FaultKind> kinds_of_faults() {
   std::vector<FaultKind> kinds = all_fault_kinds();
   std::erase_if(kinds,
@@ -57,8 +57,8 @@ std::vector<FaultKind> kinds_of_faults() {
   return kinds;
 }
 
-/// When a robot sees for the first time; nothing when it never does.
-std::optional<Duration> first_sight(std::vector<Fault> faults) {
+/// When the camera first delivers usable frames; nothing when it never does.
+std::optional<Duration> first_usable_frame(std::vector<Fault> faults) {
   std::ranges::sort(faults, {}, &Fault::begin);
   Duration sees{};
   for (const Fault& fault : faults) {
@@ -76,10 +76,10 @@ bool are_on_together(const Fault& one, const Fault& other) {
   return one.begin < end(other) && other.begin < end(one);
 }
 
-/// Nothing on board could tell a blind robot that it was carried off or that its wheels slip, nor one that
-/// has seen nothing yet that its first marker misleads.
-void leave_out_what_nobody_could_see(std::vector<Fault>& faults) {
-  const std::optional<Duration> sees = first_sight(faults);
+/// Removes what no sensor on board could detect: a kidnapping in a mission with a blinding fault, wheel slip
+/// during one, and misleading markers before the first pose.
+void remove_undetectable(std::vector<Fault>& faults) {
+  const std::optional<Duration> sees = first_usable_frame(faults);
   std::vector<Fault> blinding = faults;
   std::erase_if(blinding, std::not_fn(blinds));
   std::erase_if(faults, [&](const Fault& fault) {
@@ -168,7 +168,7 @@ std::vector<Fault> random_faults(std::uint64_t seed) {
   std::uint64_t number = 1;
   for (Fault& fault : faults)
     fault = random_fault(kinds[random.below(kinds.size())], Random(seed).stream(number++));
-  leave_out_what_nobody_could_see(faults);
+  remove_undetectable(faults);
   return faults;
 }
 

@@ -26,7 +26,7 @@ int cells(double length_m) {
   return static_cast<int>(std::lround(length_m / resolution_m));
 }
 
-/// Cells from low to below high.
+/// Cells from low (included) to high (excluded).
 struct Area {
   Cell low;
   Cell high;
@@ -46,10 +46,10 @@ Area transposed(const Area& area) {
   return {{area.low.row, area.low.column}, {area.high.row, area.high.column}};
 }
 
-/// A wall with a door through the longer side, and on in both halves.
+/// Divides the area across its longer side by a wall with a door, then both halves in turn.
 void divide(OccupancyMap& map, const Area& area, Random& random, std::vector<Area>& rooms) {
-  const bool lies = area.width() >= area.height();
-  const Area along = lies ? area : transposed(area);
+  const bool is_wide = area.width() >= area.height();
+  const Area along = is_wide ? area : transposed(area);
   const int least = cells(smallest_room_m);
   if (along.width() < 2 * least + wall_cells || (rooms.size() > 1 && random.uniform() < 0.15)) {
     rooms.push_back(area);
@@ -61,12 +61,12 @@ void divide(OccupancyMap& map, const Area& area, Random& random, std::vector<Are
   const int room_for_door = along.height() - door - 2 * cells(0.15);
   const int door_at = along.low.row + cells(0.15) +
                       static_cast<int>(random.below(static_cast<std::uint64_t>(std::max(1, room_for_door))));
-  const auto as_it_lies = [&](const Area& part) { return lies ? part : transposed(part); };
+  const auto oriented = [&](const Area& part) { return is_wide ? part : transposed(part); };
   const int end = wall + wall_cells;
-  fill(map, as_it_lies({{wall, along.low.row}, {end, along.high.row}}), OccupancyMap::occupied);
-  fill(map, as_it_lies({{wall, door_at}, {end, door_at + door}}), OccupancyMap::free);
-  divide(map, as_it_lies({along.low, {wall, along.high.row}}), random, rooms);
-  divide(map, as_it_lies({{end, along.low.row}, along.high}), random, rooms);
+  fill(map, oriented({{wall, along.low.row}, {end, along.high.row}}), OccupancyMap::occupied);
+  fill(map, oriented({{wall, door_at}, {end, door_at + door}}), OccupancyMap::free);
+  divide(map, oriented({along.low, {wall, along.high.row}}), random, rooms);
+  divide(map, oriented({{end, along.low.row}, along.high}), random, rooms);
 }
 
 OccupancyMap building(Random random, Random of_furniture) {
@@ -111,7 +111,7 @@ MarkerRegistry ceiling_of(const OccupancyMap& map, const std::vector<int>& ids, 
   return registry;
 }
 
-Pose2 somewhere(const OccupancyMap& map, const CollisionChecker& clear, Random& random) {
+Pose2 random_pose(const OccupancyMap& map, const CollisionChecker& clear, Random& random) {
   while (true) {
     const Cell cell{static_cast<int>(random.below(static_cast<std::uint64_t>(map.columns))),
                     static_cast<int>(random.below(static_cast<std::uint64_t>(map.rows)))};
@@ -120,16 +120,16 @@ Pose2 somewhere(const OccupancyMap& map, const CollisionChecker& clear, Random& 
   }
 }
 
-/// A start and a goal; nothing when all tries were too near, too far or walled off.
-bool find_a_way(Site& site, Random random) {
+/// Sets a start and a goal; false when all tries were too near, too far or walled off.
+bool set_start_and_goal(Site& site, Random random) {
   constexpr int tries = 60;
   const OccupancyMap& map = site.map.map;
   const CollisionChecker clear(map, site.robot.radius_m + 0.1);
   if (std::ranges::none_of(map.cells, is_drivable)) return false;
   const MarginPlanner planner(map, navigation_options(site.robot).planner);
   for (int i = 0; i < tries; ++i) {
-    const Pose2 start = somewhere(map, clear, random);
-    const Pose2 goal = somewhere(map, clear, random);
+    const Pose2 start = random_pose(map, clear, random);
+    const Pose2 goal = random_pose(map, clear, random);
     const double apart_m = (goal.position_m - start.position_m).norm();
     if (apart_m < shortest_way_m || apart_m > longest_way_m) continue;
     const PlanResult result = planner.plan(start.position_m, goal.position_m);
@@ -149,7 +149,7 @@ Site random_site(const Site& robot_and_cameras, const std::vector<int>& ids, std
   for (std::uint64_t attempt = 0;; ++attempt) {
     const Random random = Random(seed).stream(attempt);
     site.map.map = building(random.stream(walls), random.stream(furniture));
-    if (find_a_way(site, random.stream(places))) {
+    if (set_start_and_goal(site, random.stream(places))) {
       site.registry = ceiling_of(site.map.map, ids, random.stream(markers));
       return site;
     }

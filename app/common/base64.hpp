@@ -5,7 +5,7 @@
 
 namespace lodestar {
 
-/// Bytes in letters that any text may hold (RFC 4648, with padding).
+/// Base64 text of the bytes (RFC 4648, with padding).
 std::string base64(std::string_view bytes);
 
 }  // namespace lodestar

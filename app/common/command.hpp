@@ -5,11 +5,10 @@
 
 namespace lodestar {
 
-/// What the shell gets back.
+/// Exit status of the process.
 enum ExitCode : int { done = 0, job_failed = 1, unusable_input = 2 };
 
-/// One word of the command line: its options, and what it does once they are read. run() throws InputError
-/// for input that cannot be used.
+/// A subcommand: its options, and what runs once they are parsed. run() throws InputError for unusable input.
 struct Command {
   CLI::App* arguments = nullptr;
   std::function<ExitCode()> run;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-// What a process that shall run for weeks is watched for.
+// Health of a process that is to run for weeks: memory, open descriptors, step times.
 namespace lodestar {
 
 struct ProcessHealth {
@@ -16,14 +16,14 @@ struct ProcessHealth {
 /// Of this process, from /proc; zeros where there is none.
 ProcessHealth process_health();
 
-/// A histogram of times that takes no memory as it fills: eighty steps to the decade, from a microsecond to
-/// ten seconds, hence exact to 3 %.
+/// A histogram of times in constant memory: 80 bins a decade from 1 microsecond to 10 seconds, hence exact to
+/// 3 %.
 class TimeHistogram {
  public:
   void add(std::chrono::nanoseconds time);
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] double max_ms() const { return max_ms_; }
-  /// The time that this share of all did not exceed; nothing when there were none.
+  /// The time that this share of the samples did not exceed; nothing without samples.
   [[nodiscard]] std::optional<double> quantile_ms(double share) const;
 
  private:

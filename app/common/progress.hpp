@@ -6,8 +6,8 @@
 
 namespace lodestar {
 
-/// A progress bar on stderr; draws nothing when stderr is no terminal or when told to be quiet. Safe to call
-/// from several threads.
+/// A progress bar on stderr; draws nothing when stderr is not a terminal or when `quiet`. Safe to call from
+/// several threads.
 class Progress {
  public:
   Progress(std::string what, bool quiet);
@@ -15,7 +15,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// The share that is done, 0..1. Cheap to call often.
+  /// The completed share, 0..1. Cheap to call often.
   void show(double share);
 
  private:

@@ -4,7 +4,7 @@
 
 namespace lodestar {
 
-/// Wall time since it was made, for benches and reports.
+/// Wall time since construction, for benches and reports.
 class Stopwatch {
  public:
   [[nodiscard]] std::chrono::nanoseconds elapsed() const { return std::chrono::steady_clock::now() - start_; }

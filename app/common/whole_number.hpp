@@ -9,7 +9,7 @@
 
 namespace lodestar {
 
-/// What a stranger sent, as a whole number in 0..`most`. Throws InputError for anything else: get<int>()
+/// A JSON value from outside, as a whole number in 0..`most`. Throws InputError for anything else: get<int>()
 /// would make one of true and of 1.5, wrap what does not fit, and has no defined result for 1e20.
 inline std::uint32_t whole_number(const nlohmann::json& value, std::uint32_t most) {
   const double number = value.is_number() ? value.get<double>() : -1.0;

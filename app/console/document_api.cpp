@@ -42,7 +42,7 @@ ordered_json robot_json(const Robot& robot) {
   return {{"name", robot.name}, {"radius_m", robot.radius_m}, {"footprint_m", outline}};
 }
 
-/// Text with its %XX replaced; empty where one is broken or stands for a zero.
+/// Percent-decodes the text; empty when an escape is malformed or decodes to NUL.
 std::string decoded(const std::string& text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -71,7 +71,7 @@ bool matches(const std::string& tags, const std::string& etag) {
   return tags == "*" || tags.find(etag) != std::string::npos;
 }
 
-/// Why a document must not be saved over what is there now, if so.
+/// The refusal to save over `present` when the client has not read it; else nothing.
 std::optional<HttpResponse> conflict_with(const std::string& present, const std::string& if_match) {
   if (if_match.empty()) return refusal(428, "found no If-Match, wanted the tag that was read");
   if (matches(if_match, etag_of(present))) return std::nullopt;
@@ -92,7 +92,7 @@ std::optional<HttpResponse> page_file(const std::string& target) {
 
 HttpResponse exported(const json& request) {
   const auto format = marker_format_named(request.at("format").get<std::string>());
-  if (!format) return refusal(422, "found an unknown format, wanted one of ours");
+  if (!format) return refusal(422, "found an unknown format, wanted one of the formats of /api/site");
   const MarkerRegistry registry = registry_from_json(request.at("registry").dump());
   return {.body = json{{"text", markers_text(registry, *format)}}.dump()};
 }
@@ -126,7 +126,7 @@ DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::fi
       routes_file_(site_.folder / "routes.yaml"),
       history_(registry_file_.parent_path() / ".history"),
       runs_(runs_folder),
-      view_(site_) {}
+      coverage_(site_) {}
 
 HttpResponse DocumentApi::answer(const HttpRequest& request) {
   const std::string& target = request.target;
@@ -160,8 +160,8 @@ HttpResponse DocumentApi::site_document() const {
                    {"robot", robot_json(site_.robot)},
                    {"start", pose_json(site_.start)},
                    {"goals", goals},
-                   {"routes", routes_json(view_.floor().routes)},
-                   {"coverage", coverage_json(site_, view_.floor())},
+                   {"routes", routes_json(coverage_.floor().routes)},
+                   {"coverage", coverage_json(site_, coverage_.floor())},
                    {"formats", marker_format_names()}});
 }
 
@@ -171,11 +171,11 @@ HttpResponse DocumentApi::map() const {
                    {"rows", map.rows},
                    {"resolution_m", map.resolution_m},
                    {"origin", pose_json(map.map_from_grid)},
-                   {"heights", heights_json(view_.floor().heights)}});
+                   {"heights", heights_json(coverage_.floor().heights)}});
 }
 
 std::optional<HttpResponse> DocumentApi::heights() const {
-  const std::optional<HeightBands>& heights = view_.floor().heights;
+  const std::optional<HeightBands>& heights = coverage_.floor().heights;
   if (!heights) return std::nullopt;
   HttpResponse response{.content_type = "application/octet-stream"};
   for (const std::uint32_t bits : heights->cells)
@@ -209,7 +209,7 @@ HttpResponse DocumentApi::save_markers(const HttpRequest& request) const {
     if (text != before) {
       history_.keep(before);
       write_file_atomically(registry_file_, text);
-      if (tell_saved_) tell_saved_(after);
+      if (on_saved_) on_saved_(after);
     }
   } catch (const InputError& error) {
     return refusal(422, error.what());
@@ -266,10 +266,10 @@ HttpResponse DocumentApi::runs(const std::string& target) const {
 HttpResponse DocumentApi::post(const HttpRequest& request) const {
   try {
     if (request.target == "/api/markers/check") {
-      return {.body = view_.issues(registry_from_json(request.body)).dump()};
+      return {.body = coverage_.issues(registry_from_json(request.body)).dump()};
     }
     if (request.target == "/api/markers/deviations") {
-      return {.body = view_.deviations(site_, registry_from_json(request.body)).dump()};
+      return {.body = coverage_.deviations(site_, registry_from_json(request.body)).dump()};
     }
     const json body = json::parse(request.body);
     if (request.target == "/api/markers/export") return exported(body);

@@ -11,19 +11,19 @@
 
 namespace lodestar {
 
-/// The console's documents over HTTP, by fixed names and never by a path of the client's:
+/// The console's documents over HTTP, under fixed names; a client's path never reaches the file system:
 ///
 ///   GET  /, /app.js, ...          the page
 ///   GET  /api/site                 name, robot, start, goals, usual routes, what the camera covers
-///   GET  /api/map                  size, resolution, place
+///   GET  /api/map                  size, resolution, origin
 ///   GET  /api/map/cells            one byte a cell, bottom row first
 ///   GET  /api/map/heights          of an OctoMap: four bytes a cell, little-endian
 ///   GET  /api/markers              the registry
 ///   PUT  /api/markers              saves it, with If-Match: 412 when someone else saved
-///   GET  /api/markers/history      numbers of former states
+///   GET  /api/markers/history      numbers of earlier versions
 ///   GET  /api/markers/history/N    one of them
-///   POST /api/markers/check        what is wrong with a draft
-///   POST /api/markers/deviations   how sure of its pose a robot would be under a draft
+///   POST /api/markers/check        the issues of a draft
+///   POST /api/markers/deviations   expected standard deviation of a fix under a draft
 ///   POST /api/markers/export       {format, registry} -> {text}
 ///   POST /api/markers/import       {name, text} -> a registry
 ///   POST /api/markers/print        {ids, paper} -> a PDF
@@ -31,16 +31,16 @@ namespace lodestar {
 ///   GET  /api/runs                 names of runs;  /api/runs/NAME  one of them
 ///   GET  /api/runs/NAME/pictures/T.jpg
 ///
-/// Documents have an ETag; GET with If-None-Match gives 304. All the rest is 404.
+/// Documents have an ETag; GET with If-None-Match gives 304. Anything else is 404.
 class DocumentApi {
  public:
-  /// Throws InputError for a site that cannot be used. `runs_folder` need not exist.
+  /// Throws InputError for an unusable site. `runs_folder` need not exist.
   DocumentApi(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder);
 
   HttpResponse answer(const HttpRequest& request);
 
-  /// Called with the markers each time that somebody has saved them.
-  void on_saved_markers(std::function<void(const MarkerRegistry&)> tell) { tell_saved_ = std::move(tell); }
+  /// Called with the markers each time a client has saved them.
+  void on_saved_markers(std::function<void(const MarkerRegistry&)> tell) { on_saved_ = std::move(tell); }
 
   [[nodiscard]] const Site& site() const { return site_; }
 
@@ -62,8 +62,8 @@ class DocumentApi {
   std::filesystem::path routes_file_;
   DocumentHistory history_;
   RunArchive runs_;
-  std::function<void(const MarkerRegistry&)> tell_saved_;
-  SiteCoverage view_;
+  std::function<void(const MarkerRegistry&)> on_saved_;
+  SiteCoverage coverage_;
 };
 
 }  // namespace lodestar

@@ -8,27 +8,28 @@
 
 namespace lodestar {
 
-/// A document's tag: the same text, the same tag (64 bits of FNV-1a, in quotation marks as HTTP has it).
+/// ETag of a document: 64-bit FNV-1a of its text, in quotation marks as HTTP requires.
 std::string etag_of(std::string_view text);
 
 /// The whole file. Throws InputError when it cannot be read.
 std::string read_document(const std::filesystem::path& file);
 
-/// What a document was before it was last saved, and before that: numbered files in a folder beside it.
+/// Earlier versions of a document: numbered files in a folder beside it.
 class DocumentHistory {
  public:
   static constexpr std::size_t most_kept = 50;
 
-  /// `folder` is made when something is first kept.
+  /// `folder` is created on the first keep().
   explicit DocumentHistory(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Numbers of what is kept, newest first.
+  /// Numbers of the versions kept, newest first.
   [[nodiscard]] std::vector<int> numbers() const;
 
   /// Nothing for a number that is not kept.
   [[nodiscard]] std::optional<std::string> text(int number) const;
 
-  /// Keeps a text under the next number and drops the oldest beyond 50. Throws InputError when it cannot.
+  /// Keeps a text under the next number and deletes the oldest beyond 50. Throws InputError when it cannot be
+  /// written.
   void keep(const std::string& text) const;
 
  private:

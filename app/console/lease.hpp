@@ -6,12 +6,12 @@
 
 namespace lodestar {
 
-/// Who is at the wheel: one client at a time, and only as long as it says so again and again.
+/// The control lease: one client at a time may drive, and only while it keeps renewing it.
 class Lease {
  public:
   explicit Lease(Duration lasts) : lasts_(lasts) {}
 
-  /// False while somebody else has it.
+  /// False while another client has it.
   bool take(int client, Stamp now) {
     if (holder(now).value_or(client) != client) return false;
     holder_ = client;
@@ -19,7 +19,7 @@ class Lease {
     return true;
   }
 
-  /// False, and nothing changes, for a client that does not have it (any more).
+  /// Renews it. False, and nothing changes, for a client that does not have it (any more).
   bool hold(int client, Stamp now) { return holder(now) == client && take(client, now); }
 
   /// Gives it back, if the client has it.
@@ -28,7 +28,7 @@ class Lease {
   }
 
   [[nodiscard]] std::optional<int> holder(Stamp now) const { return now < until_ ? holder_ : std::nullopt; }
-  /// When it runs out; the past while nobody has it.
+  /// When it expires; in the past while no client has it.
   [[nodiscard]] Stamp until() const { return holder_ ? until_ : Stamp{}; }
 
  private:

@@ -5,7 +5,7 @@
 
 #include "app/live/robot_state.hpp"
 
-// The robot's state as the page gets it, and goals as the page sends them: metres, degrees, seconds.
+// JSON of the page's protocol: the robot's state to the page, goals from it, in metres, degrees and seconds.
 namespace lodestar {
 
 nlohmann::ordered_json state_json(const RobotState& state);
@@ -13,8 +13,8 @@ nlohmann::ordered_json state_json(const RobotState& state);
 /// [[x_m, y_m], ...]
 nlohmann::ordered_json points_json(const Path& path);
 
-/// Reads [[x_m, y_m], [x_m, y_m, yaw_deg], ...]. Throws InputError for anything else, for none and for more
-/// than 100 of them.
+/// Reads [[x_m, y_m], [x_m, y_m, yaw_deg], ...]. Throws InputError for anything else, for an empty list and
+/// for more than 100 goals.
 std::vector<Goal> goals_from_json(const nlohmann::json& goals);
 
 /// Reads [x_m, y_m, yaw_deg]. Throws InputError for anything else.

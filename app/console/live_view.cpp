@@ -25,9 +25,9 @@ class LiveView::Session : public SocketSession {
   Session(LiveView& view, Role role, Outbox& outbox) : view_(view) {
     client_.role = role;
     client_.outbox = &outbox;
-    view_.welcome(client_);
+    view_.add_client(client_);
   }
-  ~Session() override { view_.part(client_); }
+  ~Session() override { view_.remove_client(client_); }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -50,8 +50,8 @@ std::vector<SocketProtocol> LiveView::protocols() {
        }}};
 }
 
-void LiveView::welcome(Client& client) {
-  client.number = ++welcomed_;
+void LiveView::add_client(Client& client) {
+  client.number = ++clients_so_far_;
   clients_.push_back(&client);
   client.outbox->queue(message_of({{"type", "hello"},
                                    {"client", client.number},
@@ -62,7 +62,7 @@ void LiveView::welcome(Client& client) {
   if (state_.bytes) client.outbox->offer(state_slot, state_);
 }
 
-void LiveView::part(const Client& client) {
+void LiveView::remove_client(const Client& client) {
   std::erase(clients_, &client);
   lease_.release(client.number);
   if (link_ != nullptr) link_->hold_until(lease_.until());
@@ -70,15 +70,15 @@ void LiveView::part(const Client& client) {
 
 void LiveView::receive(Client& client, const json& message, Stamp now) {
   const auto type = message.at("type").get<std::string>();
-  if (const std::optional<std::string> why = obey(client, type, message, now)) {
+  if (const std::optional<std::string> why = handle(client, type, message, now)) {
     client.outbox->queue(message_of({{"type", "refused"}, {"what", type}, {"why", *why}}));
   }
   if (link_ != nullptr) link_->hold_until(lease_.until());
 }
 
-std::optional<std::string> LiveView::obey(Client& client, const std::string& type, const json& message,
-                                          Stamp now) {
-  if (link_ == nullptr) return "no robot is here";
+std::optional<std::string> LiveView::handle(Client& client, const std::string& type, const json& message,
+                                            Stamp now) {
+  if (link_ == nullptr) return "no robot is connected";
   if (type == "stop") {
     link_->stop();
     return std::nullopt;
@@ -90,7 +90,7 @@ std::optional<std::string> LiveView::obey(Client& client, const std::string& typ
   if (client.role < Role::drive) return "this needs the token to drive";
   if (type == "take") {
     if (lease_.take(client.number, now)) return std::nullopt;
-    return fmt::format("client {} is at the wheel", *lease_.holder(now));
+    return fmt::format("client {} has control", *lease_.holder(now));
   }
   if (type == "release") {
     lease_.release(client.number);
@@ -101,15 +101,15 @@ std::optional<std::string> LiveView::obey(Client& client, const std::string& typ
       client.preview = goals_from_json(message.at("goals"));
       return std::nullopt;
     }
-    if (!lease_.hold(client.number, now)) return "somebody must be at the wheel: take it first";
-    return steer(client, type, message);
+    if (!lease_.hold(client.number, now)) return "this client does not have control: take it first";
+    return give_order(client, type, message);
   } catch (const InputError& error) {
     return error.what();
   }
 }
 
-std::optional<std::string> LiveView::steer(const Client& client, const std::string& type,
-                                           const json& message) {
+std::optional<std::string> LiveView::give_order(const Client& client, const std::string& type,
+                                                const json& message) {
   Order order{.by = fmt::format("client {}", client.number), .what = PauseOrder{}};
   if (type == "hold") return std::nullopt;
   if (type == "go") {
@@ -121,10 +121,10 @@ std::optional<std::string> LiveView::steer(const Client& client, const std::stri
   } else if (type == "place") {
     order.what = PlaceOrder{pose_from_json(message.at("pose"))};
   } else if (type != "pause") {
-    return "found an unknown word";
+    return "found an unknown message type";
   }
   if (link_->give(std::move(order))) return std::nullopt;
-  return "the robot has not taken the orders before this one yet";
+  return "too many orders are still waiting for the robot";
 }
 
 void LiveView::pump(Stamp now, const RobotState* fresh) {

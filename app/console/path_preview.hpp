@@ -8,7 +8,7 @@
 
 namespace lodestar {
 
-/// What the robot would drive, planned as the navigator plans, before it is told to.
+/// Previews a drive: plans as the navigator would, without driving.
 class PathPreview {
  public:
   explicit PathPreview(const Site& site);

@@ -29,7 +29,7 @@ bool same(const Pose2& a, const Pose2& b) {
          std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)) < same_rad;
 }
 
-/// The line that save_registry would write: 0 alignment, from 1 on the markers.
+/// The lines that save_registry would write: [0] the alignment, from [1] on the markers.
 std::vector<std::string> fresh_lines(const MarkerRegistry& registry) {
   std::vector<std::string> lines = lines_of(registry_text(registry));
   constexpr std::ptrdiff_t head = 2;  // format and version
@@ -38,7 +38,7 @@ std::vector<std::string> fresh_lines(const MarkerRegistry& registry) {
   return lines;
 }
 
-/// Does each marker stand on a line of its own, whole?
+/// Is each marker written on exactly one line of its own?
 bool is_one_a_line(const std::vector<std::string>& lines, const MarkerRegistry& registry) {
   int last = 0;
   for (const RegisteredMarker& marker : registry.markers) {

@@ -7,8 +7,8 @@
 namespace lodestar {
 
 /// The text of a registry file after an edit: a line whose marker has not moved, and every comment, stays as
-/// it is byte for byte, so that a diff shows what moved and nothing else. `before` is what `text` says. Where
-/// markers do not stand one a line the whole is written anew.
+/// it is byte for byte, so that a diff shows what moved and nothing else. `before` is the registry read from
+/// `text`. Unless each marker has a line of its own, the whole file is rewritten.
 std::string edited_registry_text(const std::string& text, const MarkerRegistry& before,
                                  const MarkerRegistry& after);
 

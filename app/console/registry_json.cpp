@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// A JSON object all of whose keys must be numbers that somebody asks for.
+/// A JSON object of numbers; finish() refuses keys that were never read.
 class Numbers {
  public:
   Numbers(const json& object, std::string where) : object_(object), where_(std::move(where)) {

@@ -12,12 +12,12 @@ namespace lodestar {
 
 nlohmann::ordered_json registry_json(const MarkerRegistry& registry);
 
-/// Reads what a page sent. Throws InputError, naming the marker by its place, for an unknown, missing or
-/// ill-typed key, a number beyond 100 km, or an ID outside 0..4095. The same ID twice is let through: a draft
-/// may be wrong.
+/// Reads what a page sent. Throws InputError, naming the marker by its position in the list, for an unknown,
+/// missing or ill-typed key, a number beyond 100 km, or an ID outside 0..4095. A duplicate ID is accepted: a
+/// draft may be wrong.
 MarkerRegistry registry_from_json(const std::string& text);
 
-/// The first ID that stands twice.
+/// The first duplicate ID, if any.
 std::optional<int> repeated_id(const MarkerRegistry& registry);
 
 }  // namespace lodestar

@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 constexpr double far_m = 1e5;
 constexpr std::size_t longest_name = 80;
 
-/// A string that YAML and JSON read alike.
+/// A quoted string that YAML and JSON read alike.
 std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }

@@ -9,13 +9,13 @@
 
 namespace lodestar {
 
-/// A goal that people call by a name.
+/// A named goal.
 struct Place {
   std::string name;
   Goal goal;
 };
 
-/// Places in the order in which they are driven to.
+/// Places in driving order.
 struct NamedRoute {
   std::string name;
   std::vector<std::string> places;
@@ -34,14 +34,14 @@ struct Routes {
   std::vector<NamedRoute> routes;
 };
 
-/// Strict: throws InputError with file and line, also for a name that stands twice or a route over no or an
-/// unknown place. JSON of the same shape is read as well. `file` is only named in complaints.
+/// Strict: throws InputError with file and line, also for a duplicate name, an empty route or an unknown
+/// place. JSON of the same shape is read as well. `file` is used in error messages only.
 Routes parse_routes(const std::string& text, const std::filesystem::path& file);
 
-/// Of a file; none when it is not there.
+/// Routes of a file; none when the file does not exist.
 Routes load_routes(const std::filesystem::path& file);
 
-/// One place or route a line.
+/// YAML with one place or route a line.
 std::string routes_text(const Routes& routes);
 
 nlohmann::ordered_json routes_json(const Routes& routes);

@@ -23,7 +23,7 @@ bool is_run(const fs::directory_entry& entry) {
          fs::is_regular_file(entry.path() / "estimate.tum");
 }
 
-/// Names of a run's pictures, in the order of their stamps. What is larger than any camera's is none.
+/// Names of a run's pictures, in the order of their stamps. Files of more than 4 MiB are ignored.
 std::vector<std::string> pictures_in(const fs::path& folder) {
   constexpr std::uintmax_t most_bytes = 4U << 20U;
   std::vector<std::string> names;
@@ -37,7 +37,7 @@ std::vector<std::string> pictures_in(const fs::path& folder) {
   return names;
 }
 
-/// So that no more than `most` of the lines are kept.
+/// The stride that keeps at most `most` of the lines.
 std::size_t stride_of(const std::string& text, std::size_t most) {
   const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
   return (lines + most - 1) / most;

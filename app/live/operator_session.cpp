@@ -48,7 +48,7 @@ void OperatorSession::obey(Mission& mission, BaseDriver& base, Stamp now, Stamp 
   }
   if (by_console_ && !mission.finished() && !mission.paused() && !link_.is_held(clock)) {
     mission.pause();
-    say(now, "paused: nobody is at the wheel any more");
+    say(now, "paused: no client has control any more");
   }
   if (next_goals_.empty() || !mission.finished()) return;
   mission.start(std::exchange(next_goals_, {}));

@@ -147,7 +147,7 @@ describe('stopping', () => {
     const other = await watch(undefined, undefined, slow.url);
     await begin(page);
     await until(other, () => window.lodestar.console.live.state.driver !== null);
-    assert.equal(await other.locator('#live-pause').isDisabled(), true);  // somebody else is at the wheel
+    assert.equal(await other.locator('#live-pause').isDisabled(), true);  // another client has control
     await page.locator('#live-pause').click();
     await until(page, () => window.lodestar.console.live.state.paused);
     await until(page, isAtRest);
@@ -168,7 +168,7 @@ describe('stopping', () => {
     await begin(page);
     await page.context().close();
     const other = await open(browser, slow.url);
-    await event(other, 'nobody is at the wheel any more');
+    await event(other, 'no client has control any more');
     await until(other, isAtRest);
     assert.equal((await state(other)).paused, true);
     await other.locator('#live-resume').click();

@@ -89,7 +89,7 @@ TEST(LiveView, lets_one_drive_at_a_time_and_everyone_stop) {
   Client viewer(view, Role::view);
 
   first.send({{"type", "go"}, {"goals", a_goal}});
-  EXPECT_THAT(first.newest("refused")["why"], HasSubstr("at the wheel"));
+  EXPECT_THAT(first.newest("refused")["why"], HasSubstr("has control"));
   first.send({{"type", "take"}});
   second.send({{"type", "take"}});
   EXPECT_THAT(second.newest("refused")["why"], HasSubstr("client 1"));
@@ -159,7 +159,7 @@ TEST(LiveView, refuses_what_is_no_order_in_words_and_ends_with_what_is_no_messag
     EXPECT_FALSE(client.newest("refused").is_null()) << goals;
   }
   client.send({{"type", "fly"}});
-  EXPECT_EQ(client.newest("refused")["why"], "found an unknown word");
+  EXPECT_EQ(client.newest("refused")["why"], "found an unknown message type");
   EXPECT_THAT(link.take_orders(), IsEmpty());
   for (const char* text :
        {"", "[", "[]", "7", "{}", "{\"type\": 7}", "{\"type\": \"go\"}", "{\"type\": \"camera\"}"}) {

@@ -149,7 +149,7 @@ TEST(OperatorSession, pauses_when_nobody_is_at_the_wheel_any_more_and_goes_on_wh
     return so_far.kept.empty();
   });
   EXPECT_TRUE(resumed);
-  EXPECT_TRUE(story.said("nobody is at the wheel any more"));
+  EXPECT_TRUE(story.said("no client has control any more"));
   EXPECT_TRUE(story.kept.front().arrived()) << story.kept.front().goals.front().failure;
   expect_gentle(story, site, left_at);
 }
