@@ -7,7 +7,7 @@
 
 namespace lodestar {
 
-/// The camera that the site says is mounted. Throws InputError when it says none that is known.
+/// Opens the camera named in site.yaml. Throws InputError when it names none, or an unknown kind.
 std::unique_ptr<Camera> open_camera(const Site& site, const BaseConnection& base, std::uint64_t seed);
 
 }  // namespace lodestar

@@ -54,7 +54,7 @@ Finding look_at_calibration(const Site& site) {
   const bool is_level = site.robot.camera_mount.roll_rad == 0.0 && site.robot.camera_mount.pitch_rad == 0.0;
   if (!is_level) return finding;
   finding.verdict = Verdict::doubtful;
-  finding.found += "; its mount is said to be exactly level";
+  finding.found += "; its mount is given as exactly level";
   finding.remedy = "calibrate the mount: no mount is";
   return finding;
 }
@@ -65,7 +65,7 @@ std::vector<Finding> look_at_interface(const std::string& name) {
   const bool wants_virtual = name.starts_with("vcan");
   if (!seen.exists || !seen.is_up) {
     interface.verdict = Verdict::bad;
-    interface.found = name + (seen.exists ? " is switched off" : " does not exist");
+    interface.found = name + (seen.exists ? " is down" : " does not exist");
     interface.remedy =
         wants_virtual && !seen.exists ? fmt::format("sudo ip link add dev {} type vcan", name)
         : !seen.exists                ? "plug in the CAN adapter, or name another interface: ip link"
@@ -97,7 +97,7 @@ std::vector<Finding> look_at_interface(const std::string& name) {
   return {interface, rate, controller};
 }
 
-/// What was heard and seen in a second.
+/// CAN frames, images and markers received within a second.
 struct Heard {
   struct Kind {
     int count = 0;
@@ -108,7 +108,7 @@ struct Heard {
   std::optional<SystemState> system;
   int other_masters = 0;
   int odd = 0;
-  std::string no_camera;  ///< why there is none
+  std::string no_camera;  ///< why it could not be opened
   int images = 0;
   std::set<int> markers;
 };

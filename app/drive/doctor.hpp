@@ -14,11 +14,11 @@ struct Finding {
   std::string what;
   Verdict verdict = Verdict::good;
   std::string found;   ///< in words
-  std::string remedy;  ///< what to do about it; empty when nothing is to be done
+  std::string remedy;  ///< what to do about it; empty when there is nothing to do
 };
 
-/// Why does it not move? Looks at a site, its interface, its base and its camera, listening for a second;
-/// sends nothing, so it may be asked while somebody drives.
+/// Diagnoses why a robot does not move: checks the site, the CAN interface, the base and the camera,
+/// listening for one second. Sends nothing, so it may run during a drive.
 std::vector<Finding> examine(const Site& site, const BaseConnection& connection);
 
 }  // namespace lodestar

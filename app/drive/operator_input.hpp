@@ -7,13 +7,13 @@ namespace lodestar {
 
 enum class OperatorWord { resume, stop };
 
-/// Whoever stands at the robot, by lines on standard input: "resume", "stop". Never blocks.
+/// Commands of the operator at the terminal, as lines on standard input: "resume", "stop". Never blocks.
 class OperatorInput {
  public:
-  /// The next word; lines that say something else are skipped.
+  /// The next command; other lines are skipped.
   std::optional<OperatorWord> poll();
 
-  /// False once the input has ended: nobody is there to say anything.
+  /// False once standard input has ended: no operator is there.
   [[nodiscard]] bool is_there() const { return !ended_; }
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Duration control_period = std::chrono::milliseconds(20);
 
-/// Tells people what changes about the base.
+/// Reports changes of the base's state.
 class BaseWatcher {
  public:
   explicit BaseWatcher(const RunOptions& options) : options_(options) {}
@@ -34,20 +34,20 @@ class BaseWatcher {
   std::string said_;
 };
 
-/// Tells people what changes about the camera.
+/// Reports changes of the camera's state.
 class CameraWatcher {
  public:
   explicit CameraWatcher(const RunOptions& options) : options_(options), start_(monotonic_now()) {}
 
   void see(const SensorInput& input, std::optional<CameraFault> fault) {
-    constexpr Duration patience = std::chrono::seconds(2);  // with a camera that starts
+    constexpr Duration patience = std::chrono::seconds(2);  // while the camera starts up
     has_seen_ = has_seen_ || !input.frames.empty();
     const bool is_missed = !has_seen_ && input.now - start_ > patience;
     const std::string_view words = is_missed ? to_string(CameraFault::silent)
                                    : fault   ? to_string(*fault)
                                              : "";
     if (words == said_) return;
-    options_.tell(fmt::format("camera: {}", words.empty() ? "its frames are of use again" : words));
+    options_.tell(fmt::format("camera: {}", words.empty() ? "frames are usable again" : words));
     said_ = words;
   }
 
@@ -58,7 +58,8 @@ class CameraWatcher {
   std::string said_;
 };
 
-/// More frames than a camera sends in a period wait for the next one: to catch up must not hold commands up.
+/// At most two frames a control period; further ones wait for the next, so that catching up does not delay
+/// commands.
 SensorInput sense(Camera& camera, BaseDriver& base) {
   constexpr std::size_t most_frames = 2;
   const Stamp now = monotonic_now();
@@ -127,7 +128,7 @@ class Recording {
   PictureKeeper pictures_{{.pictures_hz = options_.pictures_hz}};
 };
 
-/// What people at the console do to the drive before a step.
+/// Applies the orders of the operator session before a step.
 void attend(const RunOptions& options, Mission& mission, BaseDriver& base, Recording& recording) {
   if (options.session == nullptr) return;
   if (recording.is_on() && mission.finished()) options.keep(recording.end(mission));

@@ -15,7 +15,7 @@ namespace lodestar {
 
 class OperatorSession;
 
-/// What somebody wants of a robot that drives.
+/// What the operator at the terminal asks for during a drive.
 enum class OperatorWish { none, resume, stop };
 
 struct RunOptions {
@@ -24,17 +24,17 @@ struct RunOptions {
   double pictures_hz = 0.0;                      ///< camera frames to keep in the record
   bool hold_on_base_fault = true;                ///< wait for resume; else the goal fails
   std::function<OperatorWish()> operator_wish;   ///< asked at every step
-  std::function<void(const std::string&)> tell;  ///< what happens, in words for people
+  std::function<void(const std::string&)> tell;  ///< reports events, in words
   DriveWatcher watch;                            ///< called at every step of a drive, if there
-  /// People at the console, if any: after the goals the robot waits for more from there, until it is told to
-  /// stop on `operator_wish`.
+  /// The console's operator session, if any: after the goals the robot waits for more from it, until
+  /// `operator_wish` says stop.
   OperatorSession* session = nullptr;
-  std::function<void(RunRecord)> keep;  ///< with an attendant: gets the record of each drive as it ends
+  std::function<void(RunRecord)> keep;  ///< with a session: receives the record of each drive as it ends
 };
 
-/// Drives the real robot through the goals, in real time: the road of replay(), with a bus and a camera that
-/// somebody else has opened. What the base and bus say is recorded; the truth is not known here. With an
-/// attendant the record of a drive that was cut short is returned, and an empty one otherwise.
+/// Drives the real robot through the goals, in real time: the same steps as simulate_drive(), on an opened
+/// bus and camera. Base feedback and bus traffic are recorded; there is no ground truth. With a session the
+/// record of an interrupted drive is returned, and an empty one otherwise.
 RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> protocol, Camera& camera,
               const RunOptions& options);
 

@@ -114,7 +114,7 @@ cv::Mat read_logged_image(const fs::path& file, const CameraModel& camera) {
   try {
     gray = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   } catch (const cv::Exception&) {
-    gray = cv::Mat();  // the decoder's own words tell nothing that the line below does not
+    gray = cv::Mat();  // the decoder's message adds nothing to the one below
   }
   if (gray.empty()) throw InputError(file, 0, "no image that can be decoded", "PNG, PGM, BMP, JPEG or TIFF");
   if (gray.cols != camera.width_px || gray.rows != camera.height_px) {

@@ -17,19 +17,19 @@ struct LoggedImage {
 };
 
 /// A drive as a folder: images named by their stamp in seconds (12.350.png) and wheels.csv with the header
-/// `stamp_s,left_m,right_m`, the travel of each wheel since power-up. Both on the same clock, both in the
-/// order of time.
+/// `stamp_s,left_m,right_m`, the travel of each wheel since power-up. Both on the same clock, both in time
+/// order.
 struct DriveLog {
   std::vector<LoggedImage> images;
   std::vector<WheelTravel> wheels;
 
-  /// The wheels' travel at a time, between two readings in proportion; nothing before the first or after the
-  /// last.
+  /// The wheels' travel at a time, linearly interpolated between readings; nothing before the first or after
+  /// the last.
   [[nodiscard]] std::optional<WheelTravel> travel_at(Stamp stamp) const;
 };
 
-/// Throws InputError with file and line: no images, an image whose name is no number of seconds, an unknown
-/// header, a row that is not three finite numbers or does not follow in time.
+/// Throws InputError with file and line: no images, an image whose name is not a number of seconds, an
+/// unknown header, a row that is not three finite numbers or whose stamp does not increase.
 DriveLog load_drive_log(const std::filesystem::path& folder);
 
 /// The image as 8-bit gray. Throws InputError when it cannot be decoded, or is not of the camera's size.

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* usable_inputs = "an image, a video, a folder of images or a camera device";
 
-/// What the pattern matches, as taken; empty when it matches nothing.
+/// What the pattern matches, in the order taken; empty when it matches nothing.
 std::vector<fs::path> matches_of(const std::string& pattern) {
   glob_t found{};
   std::vector<fs::path> paths;
@@ -34,7 +34,7 @@ std::vector<fs::path> matches_of(const std::string& pattern) {
 FrameInputs::FrameInputs(const std::vector<std::string>& arguments, const FrameInputOptions& options)
     : options_(options) {
   for (const std::string& argument : arguments) {
-    std::error_code ignored;  // what cannot be looked at is not there
+    std::error_code ignored;  // what cannot be accessed counts as missing
     if (fs::exists(argument, ignored)) {
       add(argument);
       continue;

@@ -12,7 +12,7 @@ namespace lodestar {
 
 struct FrameInputOptions {
   std::optional<CameraModel> camera;  ///< every frame must be of its size
-  std::optional<int> most_frames;     ///< stop after so many in all
+  std::optional<int> most_frames;     ///< stop after this many in all
 };
 
 /// All that a command line names, one after another: image files, folders of images, patterns such as
@@ -20,13 +20,13 @@ struct FrameInputOptions {
 class FrameInputs final : public FrameSource {
  public:
   /// Throws InputError for a path that does not exist, a pattern that matches nothing, a folder without
-  /// images, or no argument at all. Videos and devices are opened when their turn comes.
+  /// images, or no argument at all. Videos and devices are opened when they are reached.
   FrameInputs(const std::vector<std::string>& arguments, const FrameInputOptions& options);
 
   /// Throws InputError for a frame that cannot be read or is not of the camera's size.
   std::optional<SourceFrame> next() override;
 
-  /// Is one of the inputs a device, whose results somebody waits for line by line?
+  /// Is one of the inputs a device, so that results must be flushed line by line?
   [[nodiscard]] bool live() const;
 
   /// The folders in which the image files lie: no drawing must be written there.

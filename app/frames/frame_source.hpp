@@ -8,12 +8,12 @@
 
 namespace lodestar {
 
-/// One picture to look at, and what to call it.
+/// One frame of a source, and its name.
 struct SourceFrame {
   std::string name;     ///< in results: `shots/0.5.png`; the 13th frame of a video or device is `clip.avi#12`
   std::string picture;  ///< a file name for a drawing of it, without ending: `0.5`, `clip-000012`
   Stamp stamp;
-  cv::Mat gray;  ///< CV_8UC1, not written to again: whoever keeps it keeps it unchanged
+  cv::Mat gray;  ///< CV_8UC1, never written to again: it may be kept without a copy
 };
 
 /// Image files, a video or a camera: one frame after another, so that any number of them fits in memory.

@@ -85,9 +85,9 @@ std::vector<std::uint8_t> bytes_of(const fs::path& file) {
   return bytes;
 }
 
-/// Of a JPEG file, does it go on to its end marker? The decoder paints what is missing gray and says nothing.
-/// A file is a row of segments with their lengths, and of pixel data in which 0xff is followed by 0 or a
-/// restart marker.
+/// Does a JPEG file end before its end marker? The decoder fills what is missing with gray and reports
+/// nothing. A file is a sequence of segments with their lengths, and of pixel data in which 0xff is followed
+/// by 0 or a restart marker.
 bool is_cut_jpeg(const std::vector<std::uint8_t>& bytes) {
   if (bytes.size() < 2 || bytes[0] != 0xff || bytes[1] != 0xd8) return false;
   std::size_t at = 2;
@@ -112,7 +112,7 @@ cv::Mat decoded(const std::vector<std::uint8_t>& bytes) {
   try {
     return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
   } catch (const cv::Exception&) {
-    return {};  // the decoder's own words tell nothing that the caller's line does not
+    return {};  // the decoder's message adds nothing to the caller's
   }
 }
 

@@ -23,7 +23,7 @@ LiveCamera::LiveCamera(const std::filesystem::path& device, const std::optional<
 
 std::optional<SourceFrame> LiveCamera::next() {
   constexpr Duration patience = std::chrono::milliseconds(100);
-  constexpr int silent_for = 50;  // 5 s: slow exposures and cameras that start slowly are well within
+  constexpr int silent_for = 50;  // 5 s: well above slow exposures and slow camera start-up
   for (int waited = 0; waited <= silent_for; ++waited) {
     if (Interruption::asked()) return std::nullopt;
     if (std::optional<Frame> frame = device_.poll()) {

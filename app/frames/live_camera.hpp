@@ -9,10 +9,10 @@
 
 namespace lodestar {
 
-/// The frames of a V4L2 device as they come, until Ctrl-C. Stamp: the driver's, since the machine started.
+/// The frames of a V4L2 device as they arrive, until Ctrl-C. Stamp: the driver's, since boot.
 class LiveCamera final : public FrameSource {
  public:
-  /// Throws InputError when the device cannot be used, or not at the calibrated camera's size.
+  /// Throws InputError when the device cannot be used, or not at the calibrated camera's resolution.
   LiveCamera(const std::filesystem::path& device, const std::optional<CameraModel>& camera);
 
   /// Waits for a frame. Nothing after Ctrl-C. Throws InputError when the device is gone, or silent for

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int picture_width_px =
-    1280;                         ///< about so wide, so that a person sees where in a dot its centre lies
+/// Approximate width, enough for a person to see where in a dot its centre lies.
+constexpr int picture_width_px = 1280;
 constexpr int fraction_bits = 4;  ///< of OpenCV's fixed-point drawing coordinates
 constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double label_size = 0.8;
@@ -30,7 +30,7 @@ const cv::Scalar accepted_color(90, 200, 90);
 const cv::Scalar refused_color(70, 70, 240);
 const cv::Scalar panel_color(40, 34, 30);
 
-/// A frame's place in the enlarged picture, in fixed-point coordinates.
+/// From frame coordinates to fixed-point coordinates of the enlarged picture.
 class Enlarged {
  public:
   explicit Enlarged(int scale) : scale_(scale) {}
@@ -49,7 +49,8 @@ class Enlarged {
 
 void write_text(cv::Mat& picture, const std::string& text, const cv::Point& at, double size,
                 const cv::Scalar& color) {
-  cv::putText(picture, text, at, font, size, cv::Scalar::all(0), 5, cv::LINE_AA);  // stands out on any gray
+  cv::putText(picture, text, at, font, size, cv::Scalar::all(0), 5,
+              cv::LINE_AA);  // outline, legible on any gray
   cv::putText(picture, text, at, font, size, color, 2, cv::LINE_AA);
 }
 
@@ -70,7 +71,7 @@ void draw_dots(cv::Mat& picture, const DetectedMarker& marker, const Enlarged& e
   }
 }
 
-/// Where the arrow from O through a direction dot ends, most of a pitch beyond it, and its axis' name stands.
+/// Tip of the arrow from O through a direction dot, 0.8 pitches beyond it, and the position of the axis name.
 struct ArrowEnd {
   Vec2 tip_px;
   Vec2 name_px;
@@ -88,7 +89,7 @@ void draw_axis(cv::Mat& picture, const Vec2& from, const Vec2& to, const char* n
   write_text(picture, name, enlarged(end.name_px) / (1 << fraction_bits) + cv::Point(-7, 7), 0.6, color);
 }
 
-/// The marker with the circles about its dots and the names of its axes.
+/// Bounding box of the marker with the circles about its dots and the names of its axes.
 cv::Rect surroundings_of(const DetectedMarker& marker, const Enlarged& enlarged) {
   std::vector<cv::Point> points;
   for (const MarkerDot& dot : marker.dots) points.push_back(enlarged(dot.center_px) / (1 << fraction_bits));

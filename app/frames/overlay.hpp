@@ -11,17 +11,17 @@
 
 namespace lodestar {
 
-/// A marker of the drawing, and why it counts for nothing ("registered twice"), if it does.
+/// A marker of the drawing, and why it is not used ("registered twice"); empty when it is.
 struct OverlayMarker {
   DetectedMarker marker;
   std::string objection;
 };
 
-/// What a person checks a frame by.
+/// The drawing by which a person checks a frame.
 struct Overlay {
   cv::Mat gray;
   std::vector<OverlayMarker> markers;
-  std::vector<std::string> words;  ///< lines below the picture; the first one tells the result
+  std::vector<std::string> words;  ///< lines below the picture; the first one is the result
   bool accepted = true;            ///< a green bar beside the words, else a red one
 };
 
@@ -32,7 +32,7 @@ cv::Mat draw_overlay(const Overlay& overlay);
 /// Where drawings go, as PNG.
 class OverlayFolder {
  public:
-  /// Throws InputError when the folder cannot be made, or is one of those in which the images themselves lie.
+  /// Throws InputError when the folder cannot be created, or is one of those that hold the images themselves.
   OverlayFolder(std::filesystem::path folder, const std::vector<std::filesystem::path>& image_folders);
 
   /// Writes `0.5.png` or `clip-000012.png`; frames of the same name in one run become `0.5-2.png` and so on.

@@ -9,11 +9,11 @@
 
 namespace lodestar {
 
-/// A recorded video in place of a camera: its frames arrive as they did when it was taken, from the first
-/// poll on, stamped with the time at which they arrive. Nothing arrives after its end.
+/// A recorded video in place of a camera: its frames arrive at the recorded rate, from the first poll on,
+/// stamped with their time of arrival. Nothing arrives after its end.
 class VideoCamera final : public Camera {
  public:
-  /// Throws InputError when it is no video.
+  /// Throws InputError when it is not a video.
   explicit VideoCamera(std::filesystem::path file, std::function<Stamp()> now = monotonic_now);
 
   std::optional<Frame> poll() override;
@@ -22,7 +22,7 @@ class VideoCamera final : public Camera {
   VideoFile video_;
   std::function<Stamp()> now_;
   std::optional<SourceFrame> next_;
-  std::optional<Duration> now_from_video_;  ///< what must be added to the video's own stamps
+  std::optional<Duration> now_from_video_;  ///< offset to add to the video's own stamps
 };
 
 }  // namespace lodestar

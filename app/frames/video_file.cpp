@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
                    "an image, a video, a folder of images or a camera device");
 }
 
-/// FFmpeg makes a film of a text too, and follows playlists to other files and hosts: neither is meant. No
-/// video is without a zero byte in its head.
+/// FFmpeg also renders text as a video and follows playlists to other files and hosts; both are refused.
+/// Every video has a zero byte among its first 1024.
 bool is_text(const fs::path& file) {
   std::array<char, 1024> head{};
   std::ifstream stream(file, std::ios::binary);
@@ -32,7 +32,7 @@ bool is_text(const fs::path& file) {
 
 VideoFile::VideoFile(fs::path file) : file_(std::move(file)) {
   if (is_text(file_)) refuse(file_);
-  // Of OpenCV's readers, FFmpeg's is the one whose clock shows the grabbed frame's own time.
+  // Of OpenCV's backends only FFmpeg's CAP_PROP_POS_MSEC is the time of the frame just grabbed.
   if (!video_.open(file_.string(), cv::CAP_FFMPEG)) refuse(file_);
 }
 
@@ -53,7 +53,7 @@ std::optional<SourceFrame> VideoFile::next() {
                      .gray = std::move(gray)};
 }
 
-/// Containers tell the number of frames roughly, so only a large gap is worth a word.
+/// Containers give the number of frames only roughly, so only a large gap is reported.
 void VideoFile::at_the_end() const {
   constexpr double rough = 0.9;
   const double expected = video_.get(cv::CAP_PROP_FRAME_COUNT);

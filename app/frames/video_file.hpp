@@ -11,11 +11,11 @@ namespace lodestar {
 /// frame's time in the container, which begins near zero; a rate that varies is kept.
 class VideoFile final : public FrameSource {
  public:
-  /// Throws InputError when it is no video.
+  /// Throws InputError when it is not a video.
   explicit VideoFile(std::filesystem::path file);
 
-  /// A video that breaks off ends there, with a word to stderr when many frames are missing. Throws
-  /// InputError when not even the first frame can be decoded.
+  /// A truncated video ends there, with a message on stderr when many frames are missing. Throws InputError
+  /// when not even the first frame can be decoded.
   std::optional<SourceFrame> next() override;
 
  private:

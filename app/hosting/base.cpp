@@ -86,8 +86,10 @@ ExitCode base_command(const BaseArguments& arguments) {
   HostedBase base(options_from(arguments));
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
-  fmt::print(stderr, "lodestar: a simulated base lives on {}; Ctrl-C ends it\n", arguments.interface);
-  const HostedDrive drive = base.run([] { return told_to_stop != 0; });
+  fmt::print(stderr, "lodestar: a simulated base runs on {}; Ctrl-C ends it
+", arguments.interface);
+  const HostedDrive drive = base.run([] {
+    return told_to_stop != 0; });
   const Pose2& end = drive.map_from_base;
   fmt::print("at {:.4f} {:.4f} {:.3f} driven {:.3f} contacts {}\n", end.position_m.x(), end.position_m.y(),
              degrees(end.yaw_rad), drive.driven_m, drive.contacts);
@@ -98,9 +100,9 @@ ExitCode base_command(const BaseArguments& arguments) {
 
 std::vector<Command> base_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<BaseArguments>();
-  CLI::App* command = lodestar.add_subcommand("base",
-                                              "The simulated base on a CAN interface in real time, for any "
-                                              "client; says at the end where it truly is");
+  CLI::App* command = lodestar.add_subcommand(
+      "base",
+      "The simulated base on a CAN interface in real time, for any client; prints its true pose at the end");
   command->add_option("site", arguments->site,
                       "Site folder to drive in; an endless empty floor when left out");
   command->add_option("--can", arguments->interface, "CAN interface");
@@ -110,7 +112,7 @@ std::vector<Command> base_commands(CLI::App& lodestar) {
   command->add_flag("--dbc", arguments->dbc, "Print the protocol as a .dbc file, and do nothing else");
   command->add_option("--world", arguments->world,
                       "The CAN interface of the navigator, when the base is at the other end of a cable");
-  command->add_option("--seed", arguments->seed, "Of its slip")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Seed of its wheel noise")->capture_default_str();
   command
       ->add_option(
           "--fault", arguments->faults,

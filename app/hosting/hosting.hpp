@@ -4,7 +4,7 @@
 
 #include "app/common/command.hpp"
 
-// The commands that host parts of the simulated world for other programs. They may hear its judge.
+// Commands that host parts of the simulated world for other programs. They may use its ground truth.
 namespace lodestar {
 
 /// `base`: the simulated base on a CAN interface.

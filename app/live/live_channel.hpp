@@ -5,7 +5,7 @@
 
 namespace lodestar {
 
-/// A subprotocol that shows people, or their tools, what the robot is about. Lives on the console's thread.
+/// A subprotocol that shows the robot's state to people or their tools. Runs on the console's thread.
 class LiveChannel {
  public:
   LiveChannel() = default;
@@ -13,12 +13,12 @@ class LiveChannel {
   LiveChannel& operator=(const LiveChannel&) = delete;
   virtual ~LiveChannel() = default;
 
-  /// One for each name under which it is asked for.
+  /// One for each subprotocol name.
   [[nodiscard]] virtual std::vector<SocketProtocol> protocols() = 0;
   [[nodiscard]] virtual bool is_watched() const = 0;
-  /// About 20 times a second. `fresh`: a state that has been published since the last call; null when none.
+  /// About 20 times a second. `fresh`: the state published since the last call; null when none was.
   virtual void pump(Stamp now, const RobotState* fresh) = 0;
-  /// Somebody has saved the site's markers. A robot that drives goes on by those that it began with.
+  /// Called when a client has saved the site's markers. A running drive keeps those that it started with.
   virtual void take_markers(const MarkerRegistry& saved) = 0;
 };
 

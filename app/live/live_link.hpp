@@ -10,33 +10,31 @@
 
 namespace lodestar {
 
-/// Between the control loop, which must never wait, and the console's thread, which may. The control loop
-/// gives a state only when one is wanted, and passes over whatever the other thread holds at that moment: the
-/// next step is 20 ms away.
+/// Connects the control loop, which must never wait, with the console's thread, which may. The control loop
+/// publishes a state only when one is wanted, and skips the exchange while the other thread holds the lock:
+/// the next step is 20 ms away.
 class LiveLink {
  public:
   // -- the control loop's side: no call waits
-  // ----------------------------------------------------------------
 
-  /// Does anybody wait for a state?
+  /// Is a state wanted?
   [[nodiscard]] bool wants_state() const { return wanted_.load(std::memory_order_acquire); }
   void publish(RobotState state);
-  /// What came in since the last call, oldest first.
+  /// Orders given since the last call, oldest first.
   [[nodiscard]] std::vector<Order> take_orders();
-  /// Has anybody asked to stop since the last call?
+  /// Was a stop requested since the last call?
   [[nodiscard]] bool take_stop() { return stop_.exchange(false); }
-  /// Is somebody at the wheel at this time of monotonic_now()?
+  /// Does a client hold the control lease at this time of monotonic_now()?
   [[nodiscard]] bool is_held(Stamp now) const { return now.time_since_epoch().count() < held_until_.load(); }
 
   // -- the console's side
-  // ------------------------------------------------------------------------------------
 
   void want_state() { wanted_.store(true, std::memory_order_release); }
-  /// The state published last, once.
+  /// The newest state, handed out once.
   [[nodiscard]] std::optional<RobotState> newest();
-  /// False when too many wait already.
+  /// False when the queue is full.
   [[nodiscard]] bool give(Order order);
-  /// Needs no place in a queue, so it is never refused.
+  /// Not queued, so it is never refused.
   void stop() { stop_.store(true); }
   void hold_until(Stamp stamp) { held_until_.store(stamp.time_since_epoch().count()); }
 

@@ -17,7 +17,7 @@ std::string in_words(const std::vector<Goal>& goals) {
   return words;
 }
 
-/// What keeps the robot from moving, or that nothing does.
+/// What keeps the robot from moving, or "ready to drive".
 std::string condition_of(const SensorInput& input, const NavigationStep& step) {
   if (input.base.state != BaseState::ready) {
     std::string words = fmt::format("base: {}", to_string(input.base.state));

@@ -10,18 +10,18 @@
 
 namespace lodestar {
 
-/// The control loop's partner for people at the console: does what they ask for between the steps, and shows
-/// them what comes of it. A drive that was asked for over the console goes on only while somebody is at the
-/// wheel there.
+/// The operators at the console, as seen by the control loop: carries out their orders between the steps and
+/// publishes the robot's state. A drive ordered from the console goes on only while a client holds the
+/// control lease.
 class OperatorSession {
  public:
-  /// `tell`: what happens, in words, for a log.
+  /// `tell`: receives each event, in words, for a log.
   explicit OperatorSession(LiveLink& link, std::function<void(const std::string&)> tell = {});
 
-  /// Before a step. `clock` is monotonic_now(), `now` the step's own time.
+  /// Call before a step. `clock` is monotonic_now(), `now` the step's own time.
   void obey(Mission& mission, BaseDriver& base, Stamp now, Stamp clock);
 
-  /// After it. `error_m` is asked for only when somebody watches.
+  /// Call after it. `error_m` is evaluated only when a state is wanted.
   void show(const SensorInput& input, const MissionStep& step, const Mission& mission,
             const std::function<std::optional<double>()>& error_m = {});
 
@@ -33,8 +33,8 @@ class OperatorSession {
 
   LiveLink& link_;
   std::function<void(const std::string&)> tell_;
-  std::vector<Goal> next_goals_;  ///< when the robot has come to rest
-  bool by_console_ = false;       ///< the present drive was asked for there
+  std::vector<Goal> next_goals_;  ///< to start when the robot has come to rest
+  bool by_console_ = false;       ///< the present drive was ordered from the console
   std::deque<DriveEvent> events_;
   std::uint64_t said_ = 0;
   std::optional<FixAttempt> last_fix_;

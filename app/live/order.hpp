@@ -6,7 +6,7 @@
 
 #include "app/site/goal.hpp"
 
-// What people at the console want of the robot. Who may want it has been settled before.
+// Orders of operators at the console. Their permission has been checked before.
 namespace lodestar {
 
 struct GoOrder {
@@ -14,9 +14,9 @@ struct GoOrder {
 };
 struct PauseOrder {};
 struct ResumeOrder {};
-/// Leave the latched fault of the base, if its cause is gone.
+/// Clears the latched fault of the base, if its cause is gone.
 struct ClearFaultOrder {};
-/// The robot stands about here.
+/// Sets the initial pose (sigma 0.25 m, 10 degrees).
 struct PlaceOrder {
   Pose2 map_from_base;
 };

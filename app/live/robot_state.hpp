@@ -22,7 +22,7 @@ struct DriveEvent {
   std::string words;
 };
 
-/// What a robot that drives is about, at one step: everything that people at the console are shown.
+/// The robot's state at one step: everything that the console shows.
 struct RobotState {
   Stamp now;
   std::optional<PoseEstimate> estimate;
@@ -43,7 +43,7 @@ struct RobotState {
   std::vector<DistrustedMarker> distrusted;
   std::optional<Frame> frame;  ///< the newest
 
-  std::optional<double> error_m;   ///< by the truth, which only a simulation is told
+  std::optional<double> error_m;   ///< true position error; in simulation only
   std::vector<DriveEvent> events;  ///< the latest, oldest first
 };
 

@@ -5,12 +5,13 @@
 namespace lodestar {
 namespace {
 
-/// A robot that has no marker in view may drive on to the next. One whose camera is broken will see none. On
-/// half a metre wheels whose scales nobody has learned (2 % each) turn it by 2 degrees and lead it 9 mm
-/// aside, less than the least margin of a path.
+/// A robot without a marker in view may drive on to the next one; with a broken camera it would never see it.
+/// On half a metre wheels whose scales nobody has learned (2 % each) turn it by 2 degrees and lead it 9 mm
+/// aside, less than the smallest margin of a path.
 constexpr double farthest_with_broken_camera_m = 0.5;
 
-/// Of markers that contradict each other the estimate believes the one that it expected most, if any.
+/// Of markers that contradict each other: the fix with the smallest Mahalanobis distance to the estimate, if
+/// one passes the gate.
 std::optional<FixAttempt> most_expected(const std::vector<FixAttempt>& fixes,
                                         const LocalizationState& known) {
   std::optional<FixAttempt> best;
@@ -24,7 +25,7 @@ std::optional<FixAttempt> most_expected(const std::vector<FixAttempt>& fixes,
   return best;
 }
 
-/// The filter's word on the fix, and what follows from it for the markers.
+/// Fuses the fix, and passes the outcome on to marker trust and integrity monitor.
 void take_in(FixAttempt& used, LocalizationState& known) {
   const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
   if (expected) used.expected = expected->map_from_base;
@@ -115,8 +116,8 @@ std::optional<FixAttempt> MarkerLocalizer::see(const Frame& frame, Stamp now, Lo
   return used;
 }
 
-/// Lays the frame over the picture that is kept. When too little of that one is in view, or another belief
-/// has begun, which knows no picture, this frame is kept instead.
+/// Registers the frame to the keyframe (visual odometry). When too little of the keyframe is in view, or the
+/// belief was restarted since and knows no keyframe, this frame becomes the keyframe.
 void MarkerLocalizer::follow_ceiling(const Frame& frame, LocalizationState& known) {
   if (!ceiling_) return;
   ceiling_->look(frame);
@@ -167,7 +168,7 @@ std::optional<FixAttempt> MarkerLocalizer::fix_by(const Frame& frame,
   return FixAttempt{.fix = *fix, .planar = compensate_mount(*fix, base_from_camera_)};
 }
 
-/// An ID that is seen twice has none.
+/// IDs seen twice in the frame are skipped.
 std::vector<FixAttempt> MarkerLocalizer::fixes_by_each(const Frame& frame,
                                                        std::span<const DetectedMarker> markers) {
   std::vector<FixAttempt> fixes;
@@ -179,7 +180,7 @@ std::vector<FixAttempt> MarkerLocalizer::fixes_by_each(const Frame& frame,
   return fixes;
 }
 
-/// Charges the marker if its fix contradicts the estimate.
+/// Reports the fix of a single marker to marker trust, which counts contradictions to the estimate.
 void MarkerLocalizer::judge(const FixAttempt& single, LocalizationState& known) const {
   const int id = single.fix.ids.front();
   const RegisteredMarker* registered = registry_.find(id);

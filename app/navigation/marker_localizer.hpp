@@ -15,16 +15,16 @@
 
 namespace lodestar {
 
-/// One camera frame that gave a pose, and what the filter made of it.
+/// A pose fix from one camera frame, and its outcome in the filter.
 struct FixAttempt {
   PoseFix fix;
   PlanarFix planar;
-  std::optional<Pose2> expected;  ///< where the estimate had the robot
+  std::optional<Pose2> expected;  ///< by the estimate, before this fix
   FixOutcome outcome = FixOutcome::collecting;
 };
 
-/// What the robot holds true about where it is, which markers tell the truth, and whether its camera and
-/// wheels do.
+/// The localization state: the belief of the pose, the trust in each marker, and the monitors of the camera
+/// and of the estimate's integrity.
 struct LocalizationState {
   PoseFilter filter;
   MarkerTrust trust;
@@ -34,22 +34,22 @@ struct LocalizationState {
   void add_travel(const WheelTravel& reading);
 };
 
-/// Why the robot must not move now, nothing when it may: `reason`, found elsewhere, in clearer words where
-/// the camera is the cause; or else what is doubtful about the estimate.
+/// Why the robot must not move now; nothing when it may. `reason` comes from the safety stop; a camera fault
+/// that causes it, or an integrity alarm, takes its place.
 std::optional<StopReason> with_doubts(const std::optional<StopReason>& reason, const LocalizationState& known,
                                       Stamp now);
 
-/// From a camera frame to a better belief: reads the markers, first where the belief says that they must be,
-/// takes the pose from those that are trusted, and calls a marker to account that contradicts the others or
-/// the estimate. How the ceiling itself moves tells how the robot does, where no marker hangs too.
+/// Updates the belief from camera frames: detects markers, first where the belief predicts them, fixes the
+/// pose by the trusted ones, and reports markers that contradict the others or the estimate to marker trust.
+/// Between markers, visual odometry on the ceiling's texture observes the motion.
 class MarkerLocalizer {
  public:
   MarkerLocalizer(const MarkerRegistry& registry, const CameraModel& camera,
                   const Eigen::Isometry3d& base_from_camera, const DetectorOptions& detector,
                   const PoseFixOptions& fix, const PoseFilterOptions& filter);
 
-  /// A frame that has arrived now. Nothing when no pose came of it; the belief may know more of its markers
-  /// even so. Where the wheels turn out to have been wrong, the belief begins anew.
+  /// Processes a frame that has just arrived. Nothing when it gave no pose fix; visual odometry and marker
+  /// trust may have been updated even so. When wheel slip has corrupted the belief, it is restarted.
   std::optional<FixAttempt> see(const Frame& frame, Stamp now, LocalizationState& known);
 
  private:
@@ -67,7 +67,7 @@ class MarkerLocalizer {
   PoseFixOptions fix_options_;
   MarkerTracker tracker_;
   PoseFixer fixer_;
-  std::optional<CeilingMotion> ceiling_;  ///< where all markers hang on one, and the sway is known
+  std::optional<CeilingMotion> ceiling_;  ///< only with all markers at one height and a known tilt sigma
   PoseFilterOptions filter_options_;
 };
 

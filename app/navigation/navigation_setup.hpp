@@ -5,13 +5,13 @@
 
 namespace lodestar {
 
-/// The world of a site as its robot knows it, seen with one of the site's cameras.
+/// The world model of a site's robot, with one of the site's cameras.
 KnownWorld known_world(const Site& site, const std::string& camera);
 
-/// Flat floor and calibrated mount: the camera's tilt and height are nearly known before looking.
+/// Prior of the camera's tilt and height, from the flat floor and the calibrated mount.
 PosePrior pose_prior(const Robot& robot);
 
-/// The options of every step of the road that follow from the robot's build.
+/// Options of all navigation steps that follow from the robot's geometry and limits.
 NavigationOptions navigation_options(const Robot& robot);
 
 }  // namespace lodestar

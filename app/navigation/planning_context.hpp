@@ -8,21 +8,21 @@
 
 namespace lodestar {
 
-/// How far from everything a path keeps where there is room, so that a robot which must go some way without a
-/// marker may be unsure of its place.
+/// The clearance that a path keeps where there is room, as tolerance for a pose that becomes uncertain
+/// between markers.
 enum class Margins {
   usual,
-  wide  ///< for one that has been too unsure
+  wide  ///< after the pose was too uncertain to go on
 };
 
-/// They, widest first.
+/// The margins to try, widest first.
 std::span<const double> margins_m(Margins margins);
 
-/// What a robot plans and drives on. Made anew for every map.
+/// The map with the planner and the clearance built on it; rebuilt for every map.
 struct PlanningContext {
   PlanningContext(const OccupancyMap& known, const GridPlannerOptions& options, Margins margins);
 
-  /// For a path over this ground: corners are cut only where there is room for it.
+  /// For a path on this map: corners are cut only where there is room for it.
   [[nodiscard]] DriveOptions drive_options(const Path& path, DriveOptions options) const;
 
   OccupancyMap map;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* cookie_name = "lodestar";
 
-/// Digits and dots, or an IPv6 address in brackets: no name that someone else's DNS could answer.
+/// An IPv4 address, or an IPv6 address in brackets: not a name that a foreign DNS server could resolve.
 bool is_address(const std::string& host) {
   if (host.starts_with('[') && host.ends_with(']')) {
     return host.find_first_not_of("0123456789abcdefABCDEF:.", 1) == host.size() - 1;
@@ -24,7 +24,7 @@ bool is_our_host(const std::string& host, unsigned short port) {
   return name == "localhost" || is_address(name);
 }
 
-/// The cookie of ours among those of other ports of the same host.
+/// Our cookie among those that other ports of the same host have set.
 std::string token_in(const std::string& cookies) {
   const std::string key = std::string(cookie_name) + "=";
   std::size_t at = 0;
@@ -39,7 +39,7 @@ std::string token_in(const std::string& cookies) {
   return "";
 }
 
-/// Compares with all tokens, whichever fits.
+/// Compares with all tokens even after a match, so that the time tells nothing.
 std::optional<Role> role_for(const std::string& offered, const AccessRules& rules) {
   if (!rules.asks_for_token()) return Role::drive;
   std::optional<Role> role;

@@ -2,10 +2,10 @@
 
 #include <string>
 
-// A request and its answer, as far as the console cares.
+// The parts of an HTTP request and response that the console uses.
 namespace lodestar {
 
-/// What somebody may do here; each may also do what those before may.
+/// A client's role; each includes those before it.
 enum class Role { view, edit, drive };
 std::string_view to_string(Role role);
 
@@ -20,8 +20,8 @@ struct HttpRequest {
   std::string cookie;
   std::string if_match;
   std::string if_none_match;
-  bool wants_socket = false;  ///< it asks to go on as a WebSocket
-  std::string subprotocols;   ///< that it offers for that, separated by commas
+  bool wants_socket = false;  ///< requests an upgrade to a WebSocket
+  std::string subprotocols;   ///< offered for it, separated by commas
   std::string body;
 };
 
@@ -33,7 +33,7 @@ struct HttpResponse {
   std::string set_cookie;  ///< empty for none
 };
 
-/// An answer that says what is wrong: {"error": words}.
+/// An error response: {"error": words}.
 HttpResponse refusal(int status, const std::string& words);
 
 }  // namespace lodestar

@@ -49,7 +49,8 @@ HttpRequest head_of(const Parser& parser) {
           .body = {}};
 }
 
-/// Nothing from elsewhere, no script but our own file, no frame around us: whatever a document's text holds.
+/// Security headers: nothing from other origins, no script but our own file, no framing, whatever text a
+/// document holds.
 void add_safety(Message& message) {
   message.set("Content-Security-Policy",
               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
@@ -86,7 +87,7 @@ struct SocketClient {
   SocketClient(beast::tcp_stream connected, const OutboxLimits& limits)
       : stream(std::move(connected)), outbox(limits), wake(stream.get_executor()) {}
 
-  void rouse() { wake.cancel(); }
+  void notify() { wake.cancel(); }
   void leave() {
     gone = true;
     wake.cancel();
@@ -96,7 +97,7 @@ struct SocketClient {
   websocket::stream<beast::tcp_stream> stream;
   Outbox outbox;
   asio::steady_timer wake;
-  std::unique_ptr<SocketSession> session;  // knows the outbox, so it goes first
+  std::unique_ptr<SocketSession> session;  // refers to the outbox, so it is destroyed first
   bool gone = false;
 };
 
@@ -116,7 +117,7 @@ asio::awaitable<void> write_all(std::shared_ptr<SocketClient> client) {
   }
 }
 
-/// Hands the session what the client says, until either leaves.
+/// Passes the client's messages to the session, until either side ends.
 asio::awaitable<void> read_all(std::shared_ptr<SocketClient> client) {
   error_code error;
   beast::flat_buffer buffer;
@@ -126,7 +127,7 @@ asio::awaitable<void> read_all(std::shared_ptr<SocketClient> client) {
     try {
       client->session->receive(beast::buffers_to_string(buffer.data()), client->stream.got_binary());
     } catch (const std::exception&) {
-      break;  // what it sends is not of the subprotocol
+      break;  // the message does not follow the subprotocol
     }
     buffer.consume(buffer.size());
   }
@@ -183,14 +184,14 @@ class HttpServer::Impl {
     Next next = Next::another_request;
     while (next == Next::another_request) next = co_await serve_one(stream, buffer);
     --connections_;
-    if (next == Next::went_on) co_return;
-    error_code error;  // of a client that is gone already: no matter
+    if (next == Next::upgraded) co_return;
+    error_code error;  // ignored: the client may be gone already
     error = stream.socket().shutdown(tcp::socket::shutdown_both, error);
   }
 
-  enum class Next { another_request, end, went_on };  ///< went on: as a WebSocket, the stream is moved from
+  enum class Next { another_request, end, upgraded };  ///< upgraded: to a WebSocket, the stream is moved from
 
-  /// One request and its answer.
+  /// One request and its response.
   asio::awaitable<Next> serve_one(beast::tcp_stream& stream, beast::flat_buffer& buffer) {
     Parser parser;
     parser.header_limit(options_.max_header_bytes);
@@ -206,8 +207,8 @@ class HttpServer::Impl {
     if (!response && request.wants_socket) {
       response = no_socket(request);
       if (!response) {
-        asio::co_spawn(context_, converse(std::move(stream), parser.release(), request), asio::detached);
-        co_return Next::went_on;
+        asio::co_spawn(context_, serve_socket(std::move(stream), parser.release(), request), asio::detached);
+        co_return Next::upgraded;
       }
     }
     const bool keep = !response && parser.get().keep_alive();
@@ -221,7 +222,7 @@ class HttpServer::Impl {
     co_return keep&& sent ? Next::another_request : Next::end;
   }
 
-  /// Why the client cannot have a WebSocket, if so.
+  /// The refusal of a WebSocket, if it must be refused.
   [[nodiscard]] std::optional<HttpResponse> no_socket(const HttpRequest& request) const {
     if (chosen_protocol(protocols_, request.subprotocols) == nullptr) {
       return refusal(400, "found no subprotocol of ours in Sec-WebSocket-Protocol");
@@ -230,8 +231,9 @@ class HttpServer::Impl {
     return std::nullopt;
   }
 
-  /// A client from its upgrade until it leaves, or neither reads nor answers pings any more.
-  asio::awaitable<void> converse(beast::tcp_stream stream, Parser::value_type upgrade, HttpRequest head) {
+  /// Serves a WebSocket from its upgrade until the client disconnects, or neither reads nor answers pings any
+  /// more.
+  asio::awaitable<void> serve_socket(beast::tcp_stream stream, Parser::value_type upgrade, HttpRequest head) {
     const SocketProtocol& protocol = *chosen_protocol(protocols_, head.subprotocols);
     stream.expires_never();  // the WebSocket has timers of its own
     const auto client = std::make_shared<SocketClient>(std::move(stream), options_.outbox);
@@ -242,12 +244,12 @@ class HttpServer::Impl {
           response.set(http::field::sec_websocket_protocol, name);
         }));
     client->stream.read_message_max(options_.max_socket_message_bytes);
-    client->stream.auto_fragment(false);  // a message is one write
+    client->stream.auto_fragment(false);  // one write per message
     error_code error;
     co_await client->stream.async_accept(upgrade, asio::redirect_error(asio::use_awaitable, error));
     if (error) co_return;
     ++sockets_;
-    client->outbox.on_work([raw = client.get()] { raw->outbox.overflowed() ? raw->leave() : raw->rouse(); });
+    client->outbox.on_work([raw = client.get()] { raw->outbox.overflowed() ? raw->leave() : raw->notify(); });
     client->session = protocol.open(*role_of(head, options_.access), client->outbox);
     asio::co_spawn(context_, write_all(client), asio::detached);
     co_await read_all(client);
@@ -265,7 +267,7 @@ class HttpServer::Impl {
     }
   }
 
-  /// For what is no request: says so, if the client still listens, and ends the connection.
+  /// Answers a malformed request with an error, if the client is still connected, and ends the connection.
   asio::awaitable<Next> complain(beast::tcp_stream& stream, error_code error) {
     const bool gone = error == http::error::end_of_stream || error == beast::error::timeout ||
                       error.category() == asio::error::get_system_category();

@@ -11,25 +11,25 @@
 namespace lodestar {
 
 struct HttpServerOptions {
-  AccessRules access;  ///< its port 0 takes any free one
+  AccessRules access;  ///< port 0: any free port
   std::size_t max_body_bytes = 4U << 20U;
   unsigned max_header_bytes = 16U << 10U;
   int max_connections = 32;
   int max_sockets = 128;
-  std::size_t max_socket_message_bytes = 64U << 10U;  ///< of what a client sends over a WebSocket
+  std::size_t max_socket_message_bytes = 64U << 10U;  ///< received over a WebSocket
   OutboxLimits outbox;
-  std::chrono::seconds patience{15};  ///< with a client that sends or takes nothing
+  std::chrono::seconds patience{15};  ///< timeout for a client that neither sends nor reads
 };
 
 /// An HTTP/1.1 and WebSocket server on one thread, the caller's. It enforces the access rules and the limits
-/// before the handler or a session sees anything; a handler that throws gives 500, in words. A request for a
-/// WebSocket, on any target, gets the subprotocol that it offers. Boost.Beast stays in its .cpp.
+/// before the handler or a session sees anything; a handler that throws gives 500 with its message. A
+/// WebSocket request, on any target, gets the subprotocol that it offers. Boost.Beast stays in the .cpp.
 class HttpServer {
  public:
   using Handler = std::function<HttpResponse(const HttpRequest&)>;
 
-  /// Listens at once. Throws InputError when the address or the port cannot be had, and for an address other
-  /// than loopback without a token. The sessions of `protocols` end with the server, at the latest.
+  /// Listens at once. Throws InputError when the address or the port cannot be bound, and for an address
+  /// other than loopback without a token. Sessions of `protocols` end with the server at the latest.
   HttpServer(const HttpServerOptions& options, Handler handler, std::vector<SocketProtocol> protocols = {});
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
@@ -37,7 +37,7 @@ class HttpServer {
 
   [[nodiscard]] unsigned short port() const;
 
-  /// Serves all clients for so long.
+  /// Serves all clients for this time.
   void run_for(std::chrono::milliseconds time);
 
  private:

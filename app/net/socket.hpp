@@ -11,11 +11,11 @@
 
 #include "app/net/http.hpp"
 
-// WebSockets as far as the console cares: whoever speaks a subprotocol has a session with each client. All of
-// it lives on the server's thread.
+// WebSockets for the console: each subprotocol opens a session for each client. All of it runs on the
+// server's thread.
 namespace lodestar {
 
-/// The bytes are shared: what many clients get is made once.
+/// The bytes are shared: a message to many clients is built once.
 struct SocketMessage {
   std::shared_ptr<const std::string> bytes;
   bool binary = false;
@@ -28,26 +28,26 @@ struct OutboxLimits {
   std::size_t most_bytes = 16U << 20U;
 };
 
-/// What waits to be sent to one client. A slow client gets fewer values, never older ones.
+/// The send queue of one client. A slow client gets fewer values, never older ones.
 class Outbox {
  public:
   explicit Outbox(const OutboxLimits& limits = {}) : limits_(limits) {}
 
-  /// To be sent once, in order. A client for which too much waits is not worth waiting for: it has
-  /// overflowed, and is turned out.
+  /// Queues a message to be sent once, in order. Beyond the limits the outbox has overflowed and the client
+  /// is disconnected.
   void queue(SocketMessage message);
 
-  /// The newest value of a slot: takes the place of the one that still waits there, if any.
+  /// Queues the newest value of a slot; replaces one that has not been sent yet.
   void offer(int slot, SocketMessage message);
 
-  /// The next to send; nothing when none waits.
+  /// The next message to send; nothing when the queue is empty.
   std::optional<SocketMessage> take();
 
   [[nodiscard]] bool overflowed() const { return overflowed_; }
-  /// Values that a newer one replaced before they were sent.
+  /// Number of values replaced by a newer one before they were sent.
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
-  /// Called whenever something has come in.
+  /// Called whenever a message has been added.
   void on_work(std::function<void()> wake) { wake_ = std::move(wake); }
 
  private:
@@ -66,7 +66,7 @@ class Outbox {
   std::function<void()> wake_;
 };
 
-/// One client's side of a subprotocol. Destroyed when the client has gone.
+/// A subprotocol's session with one client. Destroyed when the client disconnects.
 class SocketSession {
  public:
   SocketSession() = default;
@@ -74,14 +74,13 @@ class SocketSession {
   SocketSession& operator=(const SocketSession&) = delete;
   virtual ~SocketSession() = default;
 
-  /// What the client sent. A session that throws ends the connection.
+  /// Called with each message of the client. A session that throws ends the connection.
   virtual void receive(const std::string& bytes, bool binary) = 0;
 };
 
 struct SocketProtocol {
   std::string name;  ///< as offered in Sec-WebSocket-Protocol
-  /// Called for each client that offers it and has passed the access rules. The outbox lives longer than the
-  /// session.
+  /// Called for each client that offers it and has passed the access rules. The outbox outlives the session.
   std::function<std::unique_ptr<SocketSession>(Role role, Outbox& outbox)> open;
 };
 

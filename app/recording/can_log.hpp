@@ -11,12 +11,12 @@
 
 namespace lodestar {
 
-/// The frames of a drive as a candump log that grows while the robot drives: what was on the bus is known
-/// even when the program dies. It is written on the side, so that no disk holds the wheels' commands up; a
-/// disk that is full or gone ends the log, not the drive.
+/// The CAN frames of a drive as a candump log, written during the drive, so that it survives a crash of the
+/// program. A thread of its own writes it, so that a slow disk never delays wheel commands; a full or missing
+/// disk ends the log, not the drive.
 class CanLog {
  public:
-  /// `tell` hears once, in words for people, that the log cannot go on; from the log's own thread.
+  /// `tell` is called once, from the log's own thread, when the log cannot be written any more.
   CanLog(std::filesystem::path file, std::string interface, std::function<void(const std::string&)> tell);
 
   /// Writes what is left.
@@ -24,7 +24,7 @@ class CanLog {
   CanLog(const CanLog&) = delete;
   CanLog& operator=(const CanLog&) = delete;
 
-  /// Takes a moment only.
+  /// Does not wait for the disk.
   void take(const StampedCanFrame& frame);
 
  private:

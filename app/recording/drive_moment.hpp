@@ -8,7 +8,7 @@
 
 namespace lodestar {
 
-/// One step of a drive, for those who only look on.
+/// One step of a drive, for observers.
 struct DriveMoment {
   const SensorInput& input;
   const MissionStep& step;
@@ -16,10 +16,10 @@ struct DriveMoment {
   std::optional<KeptPicture> picture;  ///< that the record keeps of this step, if any
 };
 
-/// Called after each step, once its command is on the way.
+/// Called after each step, once its command has been sent.
 using DriveWatcher = std::function<void(const DriveMoment&)>;
 
-/// What has come of the present goal, in words; empty when nothing has.
+/// The event of the present goal in words; empty for none.
 std::string in_words(const Mission& mission, MissionEvent event);
 
 }  // namespace lodestar

@@ -13,7 +13,8 @@
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
 
-// What a drive leaves behind in memory, as far as the robot itself can know it.
+// The record of one drive in memory, as far as the robot itself can know it; report/ adds what the judge
+// says.
 namespace lodestar {
 
 /// One step of the navigator, at its steady rate.
@@ -33,10 +34,10 @@ struct FixRecord {
   bool accepted = false;  ///< by the pose filter
 };
 
-/// A camera frame worth keeping.
+/// A camera frame kept in the record.
 struct KeptPicture {
   Stamp stamp;                           ///< capture
-  std::shared_future<std::string> jpeg;  ///< made on the side, see PictureKeeper
+  std::shared_future<std::string> jpeg;  ///< encoded in the background, see PictureKeeper
 };
 
 /// How one goal ended.
@@ -45,12 +46,12 @@ struct GoalRecord {
   Path planned;
   bool arrived = false;
   std::string failure;     ///< in words, when it did not arrive
-  double ideal_s = 0.0;    ///< that the path planned first takes at best
+  double ideal_s = 0.0;    ///< ideal travel time of the path planned first
   Duration travel_time{};  ///< simulated
   Stamp ended;             ///< when the goal was reached or given up
 };
 
-/// From here on something was wrong, in the navigator's words, or nothing any more.
+/// From this stamp on the navigator reported this problem, or none any more.
 struct NoticeRecord {
   Stamp stamp;
   std::string words;  ///< empty: all is well again
@@ -61,7 +62,7 @@ struct DriveRecord {
   std::string site;
   std::string camera;  ///< profile: wide or paper
   std::uint64_t seed = 0;
-  std::string repeat;  ///< the command that gives the same run again
+  std::string repeat;  ///< the command that reproduces the run
   Pose2 start;
   double robot_radius_m = 0.0;
   std::vector<GoalRecord> goals;

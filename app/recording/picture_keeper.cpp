@@ -55,7 +55,7 @@ void PictureKeeper::work() {
     lock.unlock();
     next.jpeg.set_value(options_.jpeg_of(next.gray));
     lock.lock();
-    waiting_.pop_front();  // only now: what is in the making counts as waiting
+    waiting_.pop_front();  // only now: a picture being encoded counts as waiting
     changed_.notify_all();
   }
 }

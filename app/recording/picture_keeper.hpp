@@ -17,24 +17,24 @@
 namespace lodestar {
 
 struct PictureKeeperOptions {
-  double pictures_hz = 0.0;      ///< so many of the camera's frames a second; 0: none
+  double pictures_hz = 0.0;      ///< camera frames to keep per second; 0: none
   std::size_t most_waiting = 8;  ///< frames that have not become a JPEG yet
-  /// Beyond that a drive in real time goes on without the picture; a drive that can wait does.
+  /// When that many wait: true blocks until there is room, false (real time) drops the picture.
   bool can_wait = false;
   std::function<std::string(const cv::Mat&)> jpeg_of = jpeg_bytes;  ///< of a gray frame
 };
 
-/// Keeps some of a drive's camera frames. They are handed over as they are, without a copy, and become JPEGs
-/// on a thread of their own: the control loop has none of that work.
+/// Keeps some of a drive's camera frames. They are handed over without a copy and encoded as JPEG on a thread
+/// of its own, off the control loop.
 class PictureKeeper {
  public:
   explicit PictureKeeper(PictureKeeperOptions options);
   PictureKeeper(const PictureKeeper&) = delete;
   PictureKeeper& operator=(const PictureKeeper&) = delete;
-  /// All that was kept becomes a JPEG.
+  /// Encodes all that was kept.
   ~PictureKeeper();
 
-  /// Adds those that are due to the record. Gives the last of them, if any.
+  /// Adds the frames that are due to the record. Returns the last of them, if any.
   std::optional<KeptPicture> keep(DriveRecord& record, std::span<const Frame> frames);
 
  private:
@@ -51,7 +51,7 @@ class PictureKeeper {
   std::deque<Waiting> waiting_;
   bool ends_ = false;
   std::condition_variable changed_;
-  std::thread worker_;  ///< once there is something to do
+  std::thread worker_;  ///< started with the first picture
 };
 
 }  // namespace lodestar

@@ -5,7 +5,7 @@
 namespace lodestar {
 namespace {
 
-/// What the navigator would say if it were asked now.
+/// The navigator's present problem, if any.
 NoticeRecord notice_of(const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault && input.base.fault)
     return {input.now, std::string(to_string(*input.base.fault)), true};

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Found from wherever the program is started.
+/// The fault library, found from any working directory.
 fs::path library() {
   return is_folder("faults") ? fs::path("faults") : fs::path(LODESTAR_FAULTS_DIR);
 }

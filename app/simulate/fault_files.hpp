@@ -7,7 +7,7 @@
 
 namespace lodestar {
 
-/// The faults of a file, or of one of the library by its name ("wheel-slip"). Throws InputError.
+/// The faults of a file, or of an entry of the fault library by its name ("wheel-slip"). Throws InputError.
 std::vector<Fault> faults_named(const std::string& file_or_name);
 
 }  // namespace lodestar

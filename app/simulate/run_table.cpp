@@ -14,7 +14,7 @@ void print_row(const RunSummary& run) {
              1000.0 * run.path_p95_m, run.contacts, run.drive_s, run.failure);
 }
 
-/// The worst of all runs, sums of times, and the mean NEES.
+/// Worst errors, sums of counts and times, and the mean NEES of all runs.
 RunSummary worst_of(const std::vector<RunSummary>& runs) {
   RunSummary worst;
   for (const RunSummary& run : runs) {

@@ -6,8 +6,8 @@
 
 namespace lodestar {
 
-/// Prints a row for each run, and what all of them come to: the worst errors, the time over the ideal, the
-/// NEES. `cpu_s`: time of all cores that they took.
+/// Prints a row for each run and the totals: worst errors, ratio of driving time to ideal time, NEES.
+/// `cpu_s`: CPU time of all cores.
 void print_run_table(const std::vector<RunSummary>& runs, double cpu_s);
 
 }  // namespace lodestar

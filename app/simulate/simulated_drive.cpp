@@ -37,7 +37,7 @@ NavigationOptions replay_navigation(const Site& site, const SimulatedDriveOption
   return navigation;
 }
 
-MarkerRegistry hanging_markers(const Site& site, const SimulatedDriveOptions& options) {
+MarkerRegistry remaining_markers(const Site& site, const SimulatedDriveOptions& options) {
   std::vector<Vec2> places_m{site.start.position_m};
   for (const Goal& goal : options.goals) places_m.push_back(goal.position_m);
   return with_markers_removed(site.registry, options.disturbances.removed_markers, places_m, options.seed);
@@ -49,7 +49,7 @@ SensorInput sense(Simulation& simulation, BaseDriver& base) {
   return input;
 }
 
-/// Tells the judge what has come of a goal, and records his score.
+/// Reports a goal's outcome to the scorer, and records its score.
 void judge(RunRecord& record, Scorer& scorer, const Mission& mission, MissionEvent event) {
   if (event == MissionEvent::path_planned) scorer.claim_path(mission.path());
   if (event != MissionEvent::goal_arrived) return;
@@ -60,7 +60,7 @@ void judge(RunRecord& record, Scorer& scorer, const Mission& mission, MissionEve
   record.scores.emplace_back(scorer.arrivals().back());
 }
 
-/// The share of the goals done, the present one by the way still to go.
+/// The share of the goals done, the present one by the distance still to go.
 double share_done(const RunRecord& record, const Mission& mission,
                   const std::optional<PoseEstimate>& estimate) {
   const auto total = static_cast<double>(record.goals.size());
@@ -72,14 +72,14 @@ double share_done(const RunRecord& record, const Mission& mission,
   return (done + 1.0 - std::clamp(left_m / std::max(length_m(path), 1e-9), 0.0, 1.0)) / total;
 }
 
-/// The simulated world, the robot in it, and what its drive leaves behind.
+/// The simulated world, the robot in it, and the record of its drive.
 class SimulatedDrive {
  public:
   SimulatedDrive(const Site& site, const SimulatedDriveOptions& options)
       : site_(site),
         options_(options),
         world_(known_world(site, options.camera)),
-        simulation_(world_.map, hanging_markers(site, options), world_.camera,
+        simulation_(world_.map, remaining_markers(site, options), world_.camera,
                     made_harder(simulation_options(site, options), options.disturbances)),
         base_(simulation_.can()),
         mission_(world_, replay_navigation(site, options), options.goals) {
@@ -100,7 +100,7 @@ class SimulatedDrive {
     const std::optional<KeptPicture> picture = pictures_.keep(record_, input.frames);
     record_event(record_, mission_, step.event, simulation_.now());
     judge(record_, simulation_.scorer(), mission_, step.event);
-    judge_way_back(step.navigation.backtracks);
+    score_backtrack(step.navigation.backtracks);
     if (options_.watch)
       options_.watch({.input = input, .step = step, .mission = mission_, .picture = picture});
     if (options_.progress) options_.progress(share_done(record_, mission_, step.navigation.estimate));
@@ -140,8 +140,8 @@ class SimulatedDrive {
   [[nodiscard]] bool recording() const { return recording_; }
 
  private:
-  /// Its track is no error while it goes back: then it does not follow the path.
-  void judge_way_back(bool goes_back) {
+  /// While it backtracks, the track is not scored against the path.
+  void score_backtrack(bool goes_back) {
     if (goes_back) simulation_.scorer().claim_path({});
     if (!goes_back && went_back_) simulation_.scorer().claim_path(mission_.path());
     went_back_ = goes_back;
@@ -174,10 +174,10 @@ class SimulatedDrive {
   bool went_back_ = false;
   Stopwatch watch_;
 };
-/// Keeps the world's time and the clock on the wall together.
+/// Keeps simulated time no faster than wall time.
 class Pace {
  public:
-  /// Until a control period after the last call.
+  /// Sleeps until a control period after the last call.
   void keep() {
     next_ = std::max(next_ + control_period, monotonic_now());
     sleep_until(next_);

@@ -21,24 +21,24 @@ struct SimulatedDriveOptions {
   std::uint64_t seed = 1;
   std::vector<Goal> goals;
   PlannerKind planner = PlannerKind::fastest;
-  std::optional<PoseKeeping> pose_keeping;  ///< that paths must keep to
+  std::optional<PoseKeeping> pose_keeping;  ///< constrains paths by the expected pose uncertainty
   Disturbances disturbances;
   std::vector<Fault> faults;
-  std::shared_ptr<SimulatedDisk> disk;  ///< suffers with the rest of the simulated world, if there
+  std::shared_ptr<SimulatedDisk> disk;  ///< disk faults act on it, if given
   double pictures_hz = 0.0;             ///< camera frames to keep in the record
-  bool realtime = false;                ///< no faster than the world's own time
+  bool realtime = false;                ///< simulated time runs no faster than wall time
   /// Called after each step of the navigator with the wall time that it took.
   std::function<void(std::chrono::nanoseconds)> on_step;
-  std::function<void(double)> progress;  ///< called now and then with the share that is done, 0..1
-  DriveWatcher watch;                    ///< called at every step, if there
+  std::function<void(double)> progress;  ///< called repeatedly with the completed share, 0..1
+  DriveWatcher watch;                    ///< called at every step, if set
 };
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.
 RunRecord simulate_drive(const Site& site, const SimulatedDriveOptions& options);
 
-/// The same with people at the console: after the goals it stands and waits for more, until `goes_on` says
-/// no. `keep` gets the record of each drive as it ends. While the robot stands, time passes no faster than on
-/// the wall.
+/// The same with an operator session: after the goals the robot stands and waits for more, until `goes_on`
+/// returns false. `keep` gets the record of each drive as it ends. While the robot stands, simulated time
+/// runs no faster than wall time.
 void simulate_attended_drive(const Site& site, const SimulatedDriveOptions& options, OperatorSession& session,
                              const std::function<bool()>& goes_on,
                              const std::function<void(RunRecord)>& keep);

@@ -9,7 +9,7 @@
 
 namespace lodestar {
 
-/// What a table of many runs keeps of one.
+/// One run's row in the table of many.
 struct RunSummary {
   std::uint64_t seed = 0;
   int goals = 0;
@@ -19,10 +19,10 @@ struct RunSummary {
   double path_p95_m = 0.0;         ///< 95th percentile of the true track's distance from the planned curve
   int contacts = 0;
   double drive_s = 0.0;   ///< simulated
-  double travel_s = 0.0;  ///< of that, from each path planned to the arrival claimed, of all goals reached
-  double ideal_s = 0.0;   ///< that their paths take at best
+  double travel_s = 0.0;  ///< of that, from path planned to arrival reported, summed over goals reached
+  double ideal_s = 0.0;   ///< ideal travel time of their paths
   std::vector<NeesSample> nees_samples;
-  double nees = 0.0;  ///< mean normalized estimation error squared: 3 for an honest filter
+  double nees = 0.0;  ///< mean normalized estimation error squared: 3 for a consistent filter
   double wall_s = 0.0;
   std::string failure;  ///< the first, in words
 };

@@ -13,7 +13,7 @@ BaseConnection connection_of(const Site& site, const std::string& interface) {
 }
 
 std::unique_ptr<BaseProtocol> make_protocol(const BaseConnection& connection, const Robot& robot) {
-  // Pushed by hand or driven by a remote control it may be faster than the navigator lets it.
+  // Pushed by hand or driven by remote control the base may exceed the navigator's limits.
   const double max_plausible_wheel_mps = 2.0 * robot.max_wheel_mps;
   if (connection.protocol == "agilex") {
     const BaseModel model = connection.model == "hunter"  ? BaseModel::hunter

@@ -8,11 +8,11 @@
 
 namespace lodestar {
 
-/// Where the site's base is; on `interface` instead, unless that is empty. Throws InputError when neither is
-/// given.
+/// The connection to the site's base, over `interface` unless that is empty. Throws InputError when neither
+/// is given.
 BaseConnection connection_of(const Site& site, const std::string& interface);
 
-/// How to talk to that base.
+/// The protocol driver of that base.
 std::unique_ptr<BaseProtocol> make_protocol(const BaseConnection& connection, const Robot& robot);
 
 }  // namespace lodestar

@@ -6,7 +6,7 @@
 
 namespace lodestar {
 
-/// A place to drive to; the heading only when one is wanted.
+/// A position to drive to, with an optional final heading.
 struct Goal {
   Vec2 position_m = Vec2::Zero();
   std::optional<double> heading_rad;

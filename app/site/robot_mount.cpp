@@ -13,7 +13,8 @@ std::string with_camera_mount(const std::filesystem::path& robot_file,
   std::ifstream stream(robot_file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
   const YAML::Node mount = YAML::Load(text)["camera_mount"];
-  std::map<std::size_t, std::pair<std::string, std::string>> pieces;  // by place: found, wanted
+  std::map<std::size_t, std::pair<std::string, std::string>>
+      pieces;  // by position in the text: old value, new value
   for (const auto& [key, value] : values) {
     const YAML::Node node = mount[key];
     const auto line = node ? node.Mark().line + 1 : 0;
@@ -23,7 +24,8 @@ std::string with_camera_mount(const std::filesystem::path& robot_file,
     }
     pieces.emplace(at, std::pair(node.Scalar(), value));
   }
-  for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) {  // from the end: places stay true
+  for (auto piece = pieces.rbegin(); piece != pieces.rend();
+       ++piece) {  // from the end, so that earlier positions stay valid
     text.replace(piece->first, piece->second.first.size(), piece->second.second);
   }
   return text;

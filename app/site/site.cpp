@@ -14,7 +14,7 @@ void expect_format(StrictYaml& yaml, const std::string& format) {
   (void)yaml.integer("version", 1, 1);
 }
 
-constexpr double far_m = 1e5;  ///< no indoor site reaches this far; a longer way is a slip of units
+constexpr double far_m = 1e5;  ///< no indoor site is this large; a larger number is a mistake of units
 
 Vec2 read_position(StrictYaml& yaml) {
   const double x_m = yaml.number("x_m", -far_m, far_m);
@@ -53,7 +53,7 @@ void read_mount(StrictYaml yaml, Robot& robot) {
   yaml.finish();
 }
 
-/// Pairs of x and y; complaints about the polygon name the line where it stands.
+/// Pairs of x and y; errors of the polygon name its line.
 Footprint read_footprint(StrictYaml& yaml) {
   const std::string key = "footprint_m";
   const std::vector<Vec2> corners_m = yaml.points(key, 10.0);

@@ -15,21 +15,22 @@
 
 namespace lodestar {
 
-/// What robot.yaml says of the robot.
+/// The robot, as robot.yaml describes it.
 struct Robot {
   std::string name;
   double radius_m = 0.0;
-  std::optional<Footprint> footprint;  ///< the outline, when paths shall be planned for it and not for a disc
+  std::optional<Footprint> footprint;  ///< the outline, when paths are planned for it and not for a disc
   double track_width_m = 0.0;
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   RollPitchYaw camera_mount;          ///< the rotation of base_from_camera, Rz(yaw) Ry(pitch) Rx(roll)
-  double mount_tilt_sigma_rad = 0.0;  ///< how well roll and pitch of the camera hold while driving
+  double mount_tilt_sigma_rad = 0.0;  ///< standard deviation of the camera's roll and pitch while driving
   double mount_height_sigma_m = 0.0;
-  // What neighbouring fixes err by alike: survey, mount and floor. Nothing: the filter's own.
+  // Error that neighbouring fixes share: survey, mount and floor. Nothing: the filter's default.
   std::optional<double> shared_fix_sigma_m;
   std::optional<double> shared_fix_sigma_rad;
   double preferred_clearance_m = 0.0;
-  double pass_corners_within_m = 0.0;  ///< gentle corners are passed without stopping, so near to the path
+  double pass_corners_within_m =
+      0.0;  ///< gentle corners are blended without stopping, within this distance of the path
   double max_forward_mps = 0.0;
   double max_turn_radps = 0.0;
   double max_acceleration_mps2 = 0.0;
@@ -45,7 +46,7 @@ struct Robot {
   std::optional<double> wheel_noise_m_per_sqrt_m;
 };
 
-/// Where the real base is.
+/// How the real base is connected.
 struct BaseConnection {
   std::string interface;            ///< of CAN
   std::string protocol = "agilex";  ///< or "odrive"
@@ -54,7 +55,7 @@ struct BaseConnection {
   double wheel_diameter_m = 0.17;
   int left_node = 0;
   int right_node = 1;
-  bool right_is_mirrored = true;  ///< turns backwards to drive ahead
+  bool right_is_mirrored = true;  ///< turns backwards when the robot drives forward
 };
 
 /// A site folder: the map, the markers above it, the cameras, the robot and the usual drive.
@@ -62,7 +63,7 @@ struct Site {
   std::string name;
   std::filesystem::path folder;
   LoadedMap map;
-  std::optional<std::filesystem::path> octomap_file;  ///< of the same place, where there is one
+  std::optional<std::filesystem::path> octomap_file;  ///< of the same site, where there is one
   MarkerRegistry registry;
   std::filesystem::path registry_file;
   std::map<std::string, CameraModel> cameras;
@@ -71,8 +72,8 @@ struct Site {
   Robot robot;
   Pose2 start;
   std::vector<Goal> goals;
-  std::string camera;                  ///< that is mounted: "simulated"; empty when the site has none
-  std::optional<BaseConnection> base;  ///< nothing when the site is for replays only
+  std::string camera;                  ///< the camera device, or "simulated"; empty when the site names none
+  std::optional<BaseConnection> base;  ///< nothing when the site is for simulation only
 };
 
 /// Reads `folder`/site.yaml and all files that it names. Throws InputError with file and line.

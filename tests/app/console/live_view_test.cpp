@@ -89,7 +89,7 @@ TEST(LiveView, lets_one_drive_at_a_time_and_everyone_stop) {
   Client viewer(view, Role::view);
 
   first.send({{"type", "go"}, {"goals", a_goal}});
-  EXPECT_THAT(first.newest("refused")["why"], HasSubstr("has control"));
+  EXPECT_THAT(first.newest("refused")["why"], HasSubstr("does not have control"));
   first.send({{"type", "take"}});
   second.send({{"type", "take"}});
   EXPECT_THAT(second.newest("refused")["why"], HasSubstr("client 1"));
