@@ -82,7 +82,7 @@ std::string complaint(CameraFlaw flaw, const CameraSet& set, const CameraCalibra
   return "";
 }
 
-/// NaN and infinity have no place in JSON.
+/// JSON has no NaN and no infinity.
 nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

@@ -13,23 +13,23 @@ namespace lodestar {
 struct CameraSet {
   int width_px = 0;
   int height_px = 0;
-  std::vector<std::string> files;  ///< with the board, as the views
+  std::vector<std::string> files;  ///< images with the board, in the order of the views
   std::vector<BoardView> views;
   std::vector<std::string> files_without_board;
 };
 
-/// Looks for the board in each image (or each of a folder), one at a time. Throws InputError for what is no
-/// image, and for images of different sizes.
+/// Looks for the board in each image (or each of a folder), one at a time. Throws InputError for a file that
+/// is not an image, and for images of different sizes.
 CameraSet read_camera_set(const std::vector<std::string>& images, const CalibrationBoard& board);
 
-/// What came of it, for people: errors of all images, coverage as a small picture, intrinsics with standard
-/// deviations.
+/// The result as text: reprojection errors of all images, coverage as a character map, intrinsics with
+/// standard deviations.
 std::string text_report(const CameraSet& set, const CameraCalibration& calibration);
 
-/// The same for programs.
+/// The same as JSON.
 nlohmann::ordered_json json_report(const CameraSet& set, const CameraCalibration& calibration);
 
-/// Why the set cannot be used, one line a flaw, with what was found and what is wanted; empty when it can.
+/// Why the set cannot be used, one line per flaw, with what was found and what is wanted; empty when it can.
 std::vector<std::string> complaints(const CameraSet& set, const CameraCalibration& calibration,
                                     const CameraCalibrationOptions& options);
 

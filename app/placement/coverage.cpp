@@ -10,10 +10,10 @@
 namespace lodestar {
 namespace {
 
-constexpr double most_blind_m = 1.0;  ///< that the wheels may carry the robot along a route
+constexpr double most_blind_m = 1.0;  ///< of a route to drive by odometry alone
 constexpr double least_gap_m2 = 0.1;
 
-/// Sight lines between places in units of cells from the grid's corner.
+/// Lines of sight between points given in cells from the grid's corner.
 class Sight {
  public:
   explicit Sight(const CoveredFloor& floor)
@@ -29,7 +29,7 @@ class Sight {
   }
 
  private:
-  /// What the marker itself hangs over leaves it in sight: it does not reach the ceiling.
+  /// Occupied cells directly below the marker do not hide it: they do not reach the ceiling.
   [[nodiscard]] bool is_free_on_map(const Vec2& at, const Vec2& marker) const {
     const auto steps = static_cast<int>(std::ceil((at - marker).norm()));
     bool is_over = true;
@@ -43,7 +43,8 @@ class Sight {
     return true;
   }
 
-  /// What touches the camera or the marker, as the ceiling does, is not in between.
+  /// Cells within touch_m of the camera or of the marker, such as the ceiling, do not count as obstacles
+  /// between them.
   [[nodiscard]] bool is_free_in_height(const HeightBands& heights, const Vec2& at, const Vec2& marker,
                                        double marker_z_m) const {
     const OccupancyMap& map = floor_.map;
@@ -68,15 +69,16 @@ class Sight {
   Pose2 grid_from_map_;
 };
 
-/// A marker's middle, in cells, and how many cells away a robot is sure to see it.
-struct Hanging {
+/// A marker's centre, in cells, and the radius in cells within which a robot sees it at every heading.
+struct MarkerDisc {
   Vec2 middle = Vec2::Zero();
   double z_m = 0.0;
   double reach = 0.0;
 };
 
-std::vector<Hanging> hanging(const MarkerRegistry& registry, const CoveredFloor& floor, const Sight& sight) {
-  std::vector<Hanging> all;
+std::vector<MarkerDisc> marker_discs(const MarkerRegistry& registry, const CoveredFloor& floor,
+                                     const Sight& sight) {
+  std::vector<MarkerDisc> all;
   for (const RegisteredMarker& marker : registry.markers) {
     const Vec3 middle = middle_of(registry, marker);
     all.push_back({sight.in_cells(middle.head<2>()), middle.z(),
@@ -85,7 +87,7 @@ std::vector<Hanging> hanging(const MarkerRegistry& registry, const CoveredFloor&
   return all;
 }
 
-/// For each cell: can the robot be there, and does it see no marker?
+/// For each cell: true where the robot can be but sees no marker.
 std::vector<bool> blind_cells(const MarkerRegistry& registry, const CoveredFloor& floor) {
   const OccupancyMap& map = floor.map;
   const DistanceField distances(map);
@@ -96,7 +98,7 @@ std::vector<bool> blind_cells(const MarkerRegistry& registry, const CoveredFloor
       blind[map.index({column, row})] = distances.squared_cells({column, row}) > room * room;
 
   const Sight sight(floor);
-  for (const Hanging& marker : hanging(registry, floor, sight)) {
+  for (const MarkerDisc& marker : marker_discs(registry, floor, sight)) {
     const Vec2 low = (marker.middle.array() - marker.reach).floor().max(0.0);
     const Vec2 high = marker.middle.array() + marker.reach;
     for (int row = static_cast<int>(low.y()); row < std::min<double>(map.rows, high.y()); ++row) {
@@ -112,7 +114,7 @@ std::vector<bool> blind_cells(const MarkerRegistry& registry, const CoveredFloor
   return blind;
 }
 
-/// The cells that hang together with this one; they are blind no more.
+/// The blind cells connected to this one (flood fill); clears them in `blind`.
 std::vector<Cell> taken_from(std::vector<bool>& blind, const OccupancyMap& map, Cell first) {
   std::vector<Cell> cells{first};
   blind[map.index(first)] = false;
@@ -128,7 +130,7 @@ std::vector<Cell> taken_from(std::vector<bool>& blind, const OccupancyMap& map, 
   return cells;
 }
 
-/// Its places are the corners of its box, for a view to go there.
+/// Its places are the corners of its bounding box, for a view to zoom to.
 RegistryIssue gap_issue(const OccupancyMap& map, const std::vector<Cell>& cells, double area_m2) {
   Vec2 low = Vec2::Constant(1e300);
   Vec2 high = -low;
@@ -153,13 +155,13 @@ struct Stretch {
   double length_m = 0.0;
 };
 
-/// The same stretch, there or back?
-bool alike(const Stretch& a, const Stretch& b) {
+/// Is it the same stretch, in either direction?
+bool is_same_stretch(const Stretch& a, const Stretch& b) {
   const auto near = [](const Vec2& p, const Vec2& q) { return (p - q).norm() < 0.3; };
   return (near(a.from, b.from) && near(a.to, b.to)) || (near(a.from, b.to) && near(a.to, b.from));
 }
 
-/// Places along a route, no more than 5 cm apart.
+/// Points along a route, at most 5 cm apart.
 std::vector<Vec2> places_along(const Path& route) {
   constexpr double step_m = 0.05;
   std::vector<Vec2> places;
@@ -173,12 +175,12 @@ std::vector<Vec2> places_along(const Path& route) {
 }
 
 std::vector<Stretch> blind_stretches(const Path& route, const Sight& sight,
-                                     const std::vector<Hanging>& markers) {
+                                     const std::vector<MarkerDisc>& markers) {
   std::vector<Stretch> stretches;
   bool was_blind = false;
   for (const Vec2& place : places_along(route)) {
     const Vec2 at = sight.in_cells(place);
-    const bool is_blind = std::ranges::none_of(markers, [&](const Hanging& marker) {
+    const bool is_blind = std::ranges::none_of(markers, [&](const MarkerDisc& marker) {
       return (at - marker.middle).norm() <= marker.reach && sight.is_free(at, marker.middle, marker.z_m);
     });
     if (is_blind && was_blind) {
@@ -219,11 +221,11 @@ std::vector<RegistryIssue> find_gaps(const MarkerRegistry& registry, const Cover
 
 std::vector<RegistryIssue> find_blind_stretches(const MarkerRegistry& registry, const CoveredFloor& floor) {
   const Sight sight(floor);
-  const std::vector<Hanging> markers = hanging(registry, floor, sight);
+  const std::vector<MarkerDisc> markers = marker_discs(registry, floor, sight);
   std::vector<Stretch> found;
   for (const Path& route : floor.routes) {
     for (const Stretch& stretch : blind_stretches(route, sight, markers)) {
-      const auto is_same = [&](const Stretch& other) { return alike(stretch, other); };
+      const auto is_same = [&](const Stretch& other) { return is_same_stretch(stretch, other); };
       if (stretch.length_m > most_blind_m && std::ranges::none_of(found, is_same)) found.push_back(stretch);
     }
   }

@@ -12,14 +12,14 @@
 #include "maps/marker.hpp"
 #include "maps/registry_text.hpp"
 
-// The readers of marker_formats.hpp.
+// The readers of formats.hpp.
 namespace lodestar {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Collects markers and refuses those that cannot be.
+/// Collects markers and refuses invalid ones.
 class Intake {
  public:
   explicit Intake(fs::path file) : file_(std::move(file)) {}
@@ -83,7 +83,7 @@ std::vector<std::string> cells_of(const std::string& row) {
   return cells;
 }
 
-/// The columns by name, with or without their unit; size, name and dots may be there and say nothing to us.
+/// The columns by name, with or without their unit; size, name and dots are ignored.
 std::map<std::string, std::size_t> columns_of(const std::string& header, const fs::path& file) {
   std::map<std::string, std::size_t> columns;
   const std::vector<std::string> names = cells_of(header);

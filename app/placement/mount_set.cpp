@@ -10,7 +10,7 @@
 namespace lodestar {
 namespace {
 
-/// The dots of the markers that the fix was made of.
+/// The dots of the markers used in the fix.
 std::vector<SurveyedDot> dots_of_fix(const PoseFix& fix, std::span<const DetectedMarker> markers,
                                      const MarkerRegistry& registry) {
   std::vector<SurveyedDot> dots;
@@ -25,7 +25,7 @@ std::vector<SurveyedDot> dots_of_fix(const PoseFix& fix, std::span<const Detecte
   return dots;
 }
 
-/// The mount is what is looked for: the fix that starts the search leans on it but loosely.
+/// The mount is what is estimated, so the initial fix has only a weak prior on it.
 PoseFixOptions loose_options(const Robot& robot) {
   constexpr double loose_deg = 3.0;
   PoseFixOptions options;
@@ -117,7 +117,8 @@ std::string text_report(const MountSet& set, const MountCalibration& calibration
   for (const Part& part : parts_of(mount)) {
     text += part.measured
                 ? fmt::format("{:<9} {:>9.{}f}  +- {:.2g}\n", part.key, part.value, part.decimals, part.sigma)
-                : fmt::format("{:<9} not told by this log: stays as the robot file has it\n", part.key);
+                : fmt::format("{:<9} not observable in this log: stays as in the robot file
+", part.key);
   }
   text += fmt::format("wheels    left x {:.4f}, right x {:.4f}, track width {:.4f} m (not written)\n",
                       mount.left_scale, mount.right_scale, mount.track_width_m);

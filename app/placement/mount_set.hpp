@@ -21,18 +21,18 @@ struct MountSet {
 MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, const CameraModel& camera,
                         const Robot& robot);
 
-/// What the robot file says.
+/// The mount as the robot file has it.
 MountBelief belief_of(const Robot& robot);
 
-/// What came of it, for people and for programs.
+/// The result as text and as JSON.
 std::string text_report(const MountSet& set, const MountCalibration& calibration);
 nlohmann::ordered_json json_report(const MountSet& set, const MountCalibration& calibration);
 
-/// Why the log cannot be used, one line a flaw; empty when it can.
+/// Why the log cannot be used, one line per flaw; empty when it can.
 std::vector<std::string> complaints(const MountSet& set, const MountCalibration& calibration,
                                     const MountCalibrationOptions& options);
 
-/// The keys of `camera_mount` that were measured, as they are to stand in the robot file.
+/// The measured keys of `camera_mount`, formatted for the robot file.
 std::map<std::string, std::string> measured_keys(const MountEstimate& estimate);
 
 }  // namespace lodestar

@@ -20,7 +20,8 @@ Visibility view_on_drives(const OccupancyMap& map, const MarkerRegistry& registr
   return visibility_of(map, registry, camera, nullptr, options);
 }
 
-/// Markers in view are a deviation too: 0 where there are enough, and elsewhere the way since then.
+/// A number of markers in view is expressed as a deviation too: 0 where there are enough, elsewhere the
+/// distance driven since.
 PoseKeeping pose_keeping(const Visibility& visibility, const PoseKeepingOptions& options) {
   PoseKeeping keeping{.fix_sigma_m = {},
                       .drift_m_per_m = options.max_sigma_m ? options.drift_m_per_m : 1.0,

@@ -14,12 +14,12 @@ enum class MarkerFrame {
   out_of_the_center,  ///< at the centre, x out of the face, y to the right, z to the top (WPILib)
 };
 
-/// The pose on the map of that frame.
+/// The pose of that frame in the map.
 Eigen::Isometry3d map_from_frame(const MarkerRegistry& registry, const RegisteredMarker& marker,
                                  MarkerFrame frame);
 
-/// The marker whose frame has this pose; nothing when its face does not look down within 5 degrees. What is
-/// left of the tilt is dropped.
+/// The marker whose frame has this pose; nothing when its face is not downward within 5 degrees. Smaller
+/// tilts are dropped.
 std::optional<RegisteredMarker> marker_at(int id, const Eigen::Isometry3d& map_from_frame, MarkerFrame frame);
 
 }  // namespace lodestar

@@ -11,7 +11,7 @@
 namespace lodestar {
 namespace {
 
-/// Of the printed square: the outermost dots with their radius.
+/// Of the printed square: to the outer edge of the outermost dots.
 constexpr double half_side_m = 0.5 * (marker_grid_size - 1) * marker_pitch_m + marker_dot_radius_m;
 
 /// The marker's square on the ceiling, its frame at the centre.
@@ -19,7 +19,7 @@ Pose2 center_of(const MarkerRegistry& registry, const RegisteredMarker& marker) 
   return {middle_of(registry, marker).head<2>(), flattened(map_from_marker(registry, marker)).yaw_rad};
 }
 
-/// Each ID once, though it stand there many times.
+/// One issue per ID, however often it is repeated.
 void find_repeated_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>& issues) {
   std::map<int, int> times;
   for (const RegisteredMarker& marker : registry.markers) {
@@ -105,7 +105,7 @@ void find_similar_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>
     for (std::size_t j = i + 1; j < markers.size(); ++j) {
       const RegisteredMarker& a = markers[i];
       const RegisteredMarker& b = markers[j];
-      if (a.id == b.id) continue;  // that is another mistake
+      if (a.id == b.id) continue;  // reported as a repeated ID
       if (id_distance(a.id, b.id) == 1) {
         issues.push_back(
             {IssueKind::similar_ids,
@@ -130,7 +130,7 @@ void find_similar_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>
   }
 }
 
-/// The places of the markers that each issue names.
+/// Adds the positions of the markers that each issue names.
 void find_places(const MarkerRegistry& registry, std::vector<RegistryIssue>& issues) {
   std::multimap<int, Vec2> places;
   for (const RegisteredMarker& marker : registry.markers)

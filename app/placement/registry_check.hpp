@@ -21,10 +21,10 @@ enum class IssueKind {
   gap
 };
 
-/// As reports name it: `outside-map`.
+/// The name in reports: `outside-map`.
 std::string_view to_string(IssueKind kind);
 
-/// Something wrong (error) or doubtful with a registry.
+/// An error or a warning about a registry.
 struct RegistryIssue {
   IssueKind kind = IssueKind::overlapping;
   bool error = false;
@@ -34,14 +34,13 @@ struct RegistryIssue {
   std::vector<Vec2> places_m;  ///< on the map, for a view to go there
 };
 
-/// {"kind", "severity", "ids", "line" where there is one, "words", "places_m"}: the same for everyone who is
-/// told.
+/// {"kind", "severity", "ids", "line" where there is one, "words", "places_m"}, as in all reports.
 nlohmann::ordered_json issue_json(const RegistryIssue& issue);
 
-/// The middle of a marker's square, on the map.
+/// The centre of a marker's square, in the map.
 Vec3 middle_of(const MarkerRegistry& registry, const RegisteredMarker& marker);
 
-/// Two markers; `first` may be `second` where a marker is compared with its own turned views.
+/// Two markers; `first` equals `second` where a marker is compared with its own rotations.
 struct MarkerPair {
   int first = 0;
   int second = 0;
@@ -49,8 +48,8 @@ struct MarkerPair {
   friend bool operator==(const MarkerPair&, const MarkerPair&) = default;
 };
 
-/// How far apart the IDs of a registry are: the number of cells, dots lost or glints won, that must be
-/// misread to take one for another.
+/// Hamming distances between the IDs of a registry: the number of cells (dots missed or glints added) that
+/// must be misread to take one for another.
 struct DistanceReport {
   int smallest = 0;  ///< 0 when nothing was compared
   std::vector<MarkerPair> closest_pairs;
@@ -59,11 +58,11 @@ struct DistanceReport {
 /// Read upright: the IDs' Hamming distance. Needs two markers.
 DistanceReport upright_distances(const MarkerRegistry& registry);
 
-/// One of them turned by quarters or mirrored, each marker with itself too.
+/// One of them rotated by quarter turns or mirrored; each marker is also compared with itself.
 DistanceReport turned_distances(const MarkerRegistry& registry);
 
-/// IDs that stand twice, markers whose printed squares overlap, markers outside the map (where one is given),
-/// IDs one dot apart, markers that are each other's mirror image.
+/// Duplicate IDs, markers whose printed squares overlap, markers outside the map (where one is given), IDs
+/// one dot apart, markers that are each other's mirror image.
 std::vector<RegistryIssue> check_registry(const MarkerRegistry& registry,
                                           const std::optional<OccupancyMap>& map);
 

@@ -11,13 +11,13 @@ constexpr double mm_per_m = 1000.0;
 constexpr double pitch_mm = marker_pitch_m * mm_per_m;
 constexpr double dot_radius_mm = marker_dot_radius_m * mm_per_m;
 constexpr double side_mm = (marker_grid_size - 1) * pitch_mm;
-constexpr double margin_mm = 20.0;  ///< from the middles of the outer dots to the cut
+constexpr double margin_mm = 20.0;  ///< from the centres of the outer dots to the cut
 
 class Drawing {
  public:
   Drawing(PaperSize paper, Vec2 o_mm) : page_{paper, {}}, o_mm_(std::move(o_mm)) {}
 
-  /// From here on all places are from the middle of dot O.
+  /// From here on all coordinates are relative to the centre of dot O.
   void line(const Vec2& from_mm, const Vec2& to_mm, double width_mm = 0.2) {
     page_.marks.emplace_back(SheetLine{o_mm_ + from_mm, o_mm_ + to_mm, width_mm});
   }

@@ -8,8 +8,8 @@
 
 #include "maps/geometry.hpp"
 
-// Sheets to make markers from, in true scale: dots, cut marks, a ruler to check the print by, the arrow O to
-// X, and crosses to drill or to stick by. A sheet shows the face that looks down, as the camera sees it.
+// Sheets to make markers from, in true scale: dots, cut marks, a ruler to check the print, the arrow O to X,
+// and crosses to drill or glue by. A sheet shows the downward face, as the camera sees it.
 namespace lodestar {
 
 struct PaperSize {
@@ -44,10 +44,10 @@ struct SheetPage {
   std::vector<SheetMark> marks;
 };
 
-/// One marker in the middle of a page.
+/// One marker, centred on a page.
 SheetPage draw_marker_sheet(int id, PaperSize paper);
 
-/// All pages, one below the other, in one drawing of its true size.
+/// All pages, one below the other, in one drawing in true scale.
 std::string svg_text(const std::vector<SheetPage>& pages);
 
 /// A PDF 1.4 file, its drawing commands uncompressed and in millimetres.

@@ -18,7 +18,7 @@ class PdfMarks {
                          line.from_mm.y(), line.to_mm.x(), line.to_mm.y());
   }
 
-  /// Four Bezier curves; they leave the circle by 0.03 % of its radius.
+  /// Four Bezier curves, within 0.03 % of the radius.
   void operator()(const SheetCircle& circle) const {
     constexpr double handle = 0.5522847498;
     const double r = circle.radius_mm;
@@ -58,7 +58,7 @@ std::string content_of(const SheetPage& page) {
   return content;
 }
 
-/// Objects in order, their places, and the table of them at the end.
+/// Objects in order, their byte offsets, and the cross-reference table at the end.
 class PdfFile {
  public:
   void add(const std::string& object) {

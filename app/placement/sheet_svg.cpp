@@ -5,7 +5,7 @@
 namespace lodestar {
 namespace {
 
-/// Writes marks with y down from the top of a page that begins `top_mm` below the drawing's top.
+/// Writes the marks of a page whose lower edge is `bottom_mm` below the drawing's top, with y down.
 class SvgWriter {
  public:
   SvgWriter(std::string& text, double bottom_mm) : text_(text), bottom_mm_(bottom_mm) {}

@@ -10,8 +10,8 @@
 namespace lodestar {
 namespace {
 
-/// How far from its axis the camera sees on all sides, per metre of height: what it covers however the robot
-/// has turned.
+/// Radius per metre of height that the camera sees around its axis on all sides, and so covers at every
+/// heading.
 double narrowest_view(const CameraModel& camera) {
   double narrowest = 1e9;
   const double right = camera.width_px - 1.0;
@@ -44,7 +44,7 @@ std::vector<Path> usual_routes(const Site& site) {
   return routes;
 }
 
-/// So high may markers hang, for all that is known.
+/// Upper bound of the marker height: 0.5 m above the highest registered marker, or above 3 m.
 double ceiling_m(const Site& site) {
   constexpr double usual_m = 3.0;
   constexpr double more_m = 0.5;  // assumed, for a part of the ceiling that is higher

@@ -19,16 +19,16 @@ namespace lodestar {
 namespace {
 
 /// A marker's dots in the map frame.
-struct HungMarker {
+struct MarkerInMap {
   Vec3 middle = Vec3::Zero();
   std::vector<Vec3> dots;
 };
 
-std::vector<HungMarker> hung_markers(const MarkerRegistry& registry) {
-  std::vector<HungMarker> markers;
+std::vector<MarkerInMap> markers_in_map(const MarkerRegistry& registry) {
+  std::vector<MarkerInMap> markers;
   for (const RegisteredMarker& registered : registry.markers) {
     const Eigen::Isometry3d pose = map_from_marker(registry, registered);
-    HungMarker marker{.middle = pose * Vec3(1.5 * marker_pitch_m, 1.5 * marker_pitch_m, 0.0), .dots = {}};
+    MarkerInMap marker{.middle = pose * Vec3(1.5 * marker_pitch_m, 1.5 * marker_pitch_m, 0.0), .dots = {}};
     for (const GridCell cell : dots_of(registered.id)) {
       const Vec2 at = cell_in_marker(cell);
       marker.dots.push_back(pose * Vec3(at.x(), at.y(), 0.0));
@@ -42,7 +42,7 @@ class Viewer {
  public:
   Viewer(const MarkerRegistry& registry, const CameraModel& camera, const SightLines* sight_lines,
          const VisibilityOptions& options)
-      : markers_(hung_markers(registry)), camera_(camera), sight_lines_(sight_lines), options_(options) {}
+      : markers_(markers_in_map(registry)), camera_(camera), sight_lines_(sight_lines), options_(options) {}
 
   [[nodiscard]] CellView view_from(const Vec2& position_m) const {
     CellView view{.least = std::numeric_limits<int>::max(),
@@ -61,7 +61,7 @@ class Viewer {
     const Eigen::Isometry3d map_from_camera = lifted(map_from_base) * options_.base_from_camera;
     int seen = 0;
     std::vector<SurveyedDot> dots;
-    for (const HungMarker& marker : markers_)
+    for (const MarkerInMap& marker : markers_)
       if (add_marker(marker, map_from_camera, dots)) ++seen;
     view.least = std::min(view.least, seen);
     view.most = std::max(view.most, seen);
@@ -77,8 +77,8 @@ class Viewer {
     view.heading_sigma_rad = std::max(*view.heading_sigma_rad, std::sqrt(fix->covariance(2, 2)));
   }
 
-  /// Where the marker's dots are seen; none are added when any of them is not.
-  bool add_marker(const HungMarker& marker, const Eigen::Isometry3d& map_from_camera,
+  /// Adds the marker's dots with their pixels; none when any of them is not visible.
+  bool add_marker(const MarkerInMap& marker, const Eigen::Isometry3d& map_from_camera,
                   std::vector<SurveyedDot>& dots) const {
     const std::size_t before = dots.size();
     const Eigen::Isometry3d camera_from_map = map_from_camera.inverse();
@@ -96,7 +96,7 @@ class Viewer {
     return false;
   }
 
-  /// The fix that such dots would give, with the covariance that the pose estimate itself would claim.
+  /// The fix that such dots would give, with the covariance of the pose estimate.
   [[nodiscard]] std::optional<PlanarFix> expected_fix(const Eigen::Isometry3d& map_from_camera,
                                                       const std::vector<SurveyedDot>& dots) const {
     if (dots.empty()) return std::nullopt;
@@ -109,14 +109,14 @@ class Viewer {
     return compensate_mount(fix, options_.base_from_camera);
   }
 
-  std::vector<HungMarker> markers_;
+  std::vector<MarkerInMap> markers_;
   const CameraModel& camera_;
   const SightLines* sight_lines_;
   VisibilityOptions options_;
 };
 
-/// For each cell the way in metres over neighbouring cells to the nearest that sees a marker at every heading
-/// (Dijkstra 1959, from all of these at once); infinity where there is none.
+/// For each cell the path length in metres over neighbouring cells to the nearest one that sees a marker at
+/// every heading (Dijkstra 1959, from all of these at once); infinity where there is none.
 std::vector<double> ways_to_a_view_m(const Visibility& visibility) {
   const OccupancyMap& map = visibility.map;
   std::vector<double> ways(map.cells.size(), std::numeric_limits<double>::infinity());

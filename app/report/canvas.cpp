@@ -63,7 +63,7 @@ Vec2 Canvas::point_m(const Vec2& pixel) const {
           high_m_.y() - (pixel.y() - margins_.top_px) / pixels_per_m_};
 }
 
-/// Pixel by pixel, so that a map that lies turned in its frame is drawn turned.
+/// Pixel by pixel, so that a map rotated in its frame is drawn rotated.
 void Canvas::draw_map(const OccupancyMap& map) {
   const cv::Point top_left = fine(pixel({low_m_.x(), high_m_.y()})) / (1 << fraction_bits);
   const cv::Point bottom_right = fine(pixel({high_m_.x(), low_m_.y()})) / (1 << fraction_bits);

@@ -29,13 +29,12 @@ class Canvas {
   void draw_ring(const Vec2& center_m, double radius_px, const cv::Scalar& color, double width_px);
   void draw_text(const Vec2& at_m, const std::string& text, double height_px, const cv::Scalar& color);
 
-  // The same by pixel of the finished picture, for what stands in the margins.
+  // The same in pixels of the finished picture, for text and marks in the margins.
   void draw_line_px(const Vec2& from_px, const Vec2& to_px, const cv::Scalar& color, double width_px);
   void draw_disc_px(const Vec2& center_px, double radius_px, const cv::Scalar& color);
   void draw_ring_px(const Vec2& center_px, double radius_px, const cv::Scalar& color, double width_px);
   void draw_box_px(const Vec2& low_px, const Vec2& high_px, const cv::Scalar& fill);
-  /// `align` 0 begins at the point, 0.5 centres on it, 1 ends there; the middle of the letters is at its
-  /// height.
+  /// `align` 0 begins at the point, 0.5 centres on it, 1 ends there; vertically the text is centred on it.
   void draw_text_px(const Vec2& at_px, const std::string& text, double height_px, const cv::Scalar& color,
                     double align = 0.0);
 

@@ -30,7 +30,7 @@ constexpr double track_radius_px = 5.0;
 constexpr double track_spacing_m = 0.2;
 const Vec3 middle_of_marker(1.5 * marker_pitch_m, 1.5 * marker_pitch_m, 0.0);
 
-/// The smallest upright rectangle around a map, which may lie turned in its frame.
+/// The axis-aligned bounding box of a map, which may be rotated in its frame.
 Canvas canvas_for(const OccupancyMap& map) {
   Vec2 low = Vec2::Constant(1e300);
   Vec2 high = -low;
@@ -82,7 +82,7 @@ void draw_axes(Canvas& canvas) {
   canvas.draw_text_px({canvas.pixel(canvas.high_m()).x(), low.y() + 56.0}, "x (m)", text_px * 0.85, ink, 1.0);
 }
 
-/// A disc at the middle of each marker and a stroke in the direction O to X.
+/// A disc at the centre of each marker and a stroke in the direction O to X.
 void draw_markers(Canvas& canvas, const MarkerRegistry& registry) {
   for (const RegisteredMarker& marker : registry.markers) {
     const Eigen::Isometry3d pose = map_from_marker(registry, marker);
@@ -94,7 +94,7 @@ void draw_markers(Canvas& canvas, const MarkerRegistry& registry) {
   }
 }
 
-/// Beside a marker, what a label there would cover: its own stroke, an obstacle, a planned curve.
+/// How much a label at this offset would cover: the marker's own stroke, an obstacle, a planned curve.
 int covered_by_label(const Canvas& canvas, const OccupancyMap& map, const std::vector<Path>& paths,
                      const Vec2& ahead_px, const Vec2& marker_px, const Vec2& offset_px) {
   int covered = offset_px.normalized().dot(ahead_px) > 0.7 ? 1 : 0;
@@ -109,7 +109,7 @@ int covered_by_label(const Canvas& canvas, const OccupancyMap& map, const std::v
   return covered;
 }
 
-/// Each below its disc, or where it covers less.
+/// Labels each marker below its disc, or where the label covers less.
 void draw_marker_ids(Canvas& canvas, const OccupancyMap& map, const MarkerRegistry& registry,
                      const std::vector<Path>& paths) {
   const std::array<Vec2, 4> offsets_px{Vec2(0.0, 24.0), Vec2(0.0, -24.0), Vec2(38.0, 0.0), Vec2(-38.0, 0.0)};
@@ -155,7 +155,7 @@ void draw_scale_bar(Canvas& canvas, double right_px, double y_px) {
   canvas.draw_text_px(0.5 * (from + to) + Vec2(0.0, 24.0), "1 m", text_px, ink, 0.5);
 }
 
-/// Sample and words for one kind of line or mark; returns where the next begins.
+/// Adds a sample and its text for each kind of line or mark, left to right.
 class Legend {
  public:
   Legend(Canvas& canvas, const Vec2& at) : canvas_(canvas), at_(at) {}

@@ -20,8 +20,7 @@ struct Sum {
 constexpr double below = 0.025;  // 95 % lie between
 constexpr double above = 0.975;
 
-/// Below which the mean over so many independent runs, each with 3 degrees of freedom, lies with this
-/// probability.
+/// Quantile of the mean over so many independent runs, each with 3 degrees of freedom.
 double bound_of_mean(int runs, double probability) {
   return chi_square_quantile(probability, 3.0 * runs) / runs;
 }

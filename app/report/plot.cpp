@@ -29,7 +29,7 @@ double round_step(double extent, double count) {
   return 10.0 * power;
 }
 
-/// Values as they are laid on the sheet: themselves, or their decimal logarithms.
+/// Values as plotted: unchanged, or as decimal logarithms.
 std::vector<PlotSeries> scaled(std::vector<PlotSeries> series, bool logarithmic) {
   if (!logarithmic) return series;
   for (PlotSeries& one : series) {
@@ -39,8 +39,8 @@ std::vector<PlotSeries> scaled(std::vector<PlotSeries> series, bool logarithmic)
   return series;
 }
 
-/// Linear ones always with zero on it, for an error's size means something only beside none; logarithmic ones
-/// in whole decades.
+/// Linear axes always include zero, so that sizes of errors can be compared; logarithmic ones span whole
+/// decades.
 Extent extent_of(const std::vector<PlotSeries>& series, bool logarithmic) {
   Extent extent;
   for (const PlotSeries& one : series) {
@@ -61,7 +61,7 @@ Extent extent_of(const std::vector<PlotSeries>& series, bool logarithmic) {
   return extent;
 }
 
-/// The least and the greatest of each stretch of points, in their order.
+/// The minimum and the maximum of each group of points, in order.
 std::vector<Vec2> thinned(const std::vector<Vec2>& points) {
   if (points.size() <= most_points) return points;
   const std::size_t stretch = 2 * points.size() / most_points + 1;

@@ -63,7 +63,7 @@ std::string estimate_plots(const RunRecord& record) {
          plot_svg("Heading error of the estimate", "degrees", {heading_band, heading});
 }
 
-/// What the filter makes of itself: how sure it is, and what it has learned of the wheels.
+/// The filter's own output: standard deviations, and the estimated wheel scales.
 std::string filter_plots(const RunRecord& record) {
   PlotSeries sigma_x{"sigma x", "a", {}, false};
   PlotSeries sigma_y{"sigma y", "b", {}, false};

@@ -6,8 +6,8 @@
 
 namespace lodestar {
 
-/// One page that tells the run: facts, goals, the figure (`map_png`, its bytes), and plots over time.
-/// Self-contained.
+/// A self-contained page on a run: key figures, goals, the figure (`map_png`, its bytes), and plots over
+/// time.
 std::string report_html(const RunRecord& record, const std::string& map_png);
 
 }  // namespace lodestar

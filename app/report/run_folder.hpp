@@ -8,17 +8,17 @@
 
 namespace lodestar {
 
-/// Makes the folder, and those above it. Throws InputError when it cannot be made.
+/// Creates the folder and its parents. Throws InputError when it cannot.
 void make_run_folder(const std::filesystem::path& folder);
 
-/// Leaves a run in a folder: summary.json, map.png, estimate.tum, truth.tum, steps.csv, fixes.csv, can.log,
+/// Writes a run to a folder: summary.json, map.png, estimate.tum, truth.tum, steps.csv, fixes.csv, can.log,
 /// report.html, and in pictures/ the kept frames, named by their stamp in seconds (12.350.jpg). The same
 /// record gives the same bytes. Throws InputError when the folder cannot be written.
 void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
                       const MarkerRegistry& registry);
 
-/// The same at the end of a drive, which has happened whether or not there is room to record it: one warning
-/// on stderr and false when the folder cannot be written. What was written until then is whole.
+/// The same at the end of a drive, where a failed write must not fail the drive: one warning on stderr and
+/// false when the folder cannot be written. Files written until then are complete.
 bool leave_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
                       const MarkerRegistry& registry);
 

@@ -6,18 +6,18 @@
 
 #include "maps/stamp.hpp"
 
-// What a viewer is shown, whether it reads a file or listens: channels of JSON messages with a schema each.
+// What viewers receive, from a file or live: channels of JSON messages, each with a schema.
 namespace lodestar {
 
 struct Channel {
   std::string topic;
   std::string schema_name;
   std::string schema;          ///< JSON Schema
-  bool every_message = false;  ///< not only the newest counts: they are events
+  bool every_message = false;  ///< events: every one is delivered, not only the newest
 };
 
 struct Message {
-  std::size_t channel = 0;  ///< its place in the list of channels
+  std::size_t channel = 0;  ///< index in the list of channels
   Stamp stamp;
   std::string json;
 };

@@ -34,7 +34,7 @@ Message message(DriveChannel channel, Stamp stamp, const MessageJson& json) {
   return {.channel = channel, .stamp = stamp, .json = json.dump()};
 }
 
-/// Six digits behind the point tell all that a plot can show.
+/// Six decimals are enough for plots.
 double short_number(double value) {
   constexpr double per_unit = 1e6;
   return std::round(value * per_unit) / per_unit + 0.0;

@@ -14,19 +14,19 @@ namespace lodestar {
 /// The channels of a drive:
 ///
 ///   /tf, /tf_static   base_link in map by the estimate; camera in base_link
-///   /map, /markers    the floor and the ceiling as known; a marker no longer trusted turns red
+///   /map, /markers    occupancy grid and marker registry; a distrusted marker turns red
 ///   /path             planned
-///   /robot, /pose     footprint and the ellipse of its uncertainty; the estimate
-///   /drive, /fix      numbers for plots: velocities, deviations, state; every pose that came of a frame
-///   /log              what happens, in words
+///   /robot, /pose     footprint and uncertainty ellipse; the estimate
+///   /drive, /fix      numbers for plots: velocities, deviations, state; every pose fix
+///   /log              events, in words
 ///   /camera           pictures and calibration
-///   /truth, /error    in simulation: where the robot really was, and how far the estimate was off
+///   /truth, /error    in simulation: the true pose, and the error of the estimate
 const std::vector<Channel>& drive_channels();
 
-/// The place of /camera among them: pictures cost more than all else, so it is asked first who wants them.
+/// Index of /camera among them: pictures are the most expensive, so they are encoded only for subscribers.
 extern const std::size_t camera_channel;
 
-/// What is known of the drive together with an estimate.
+/// The state of a drive at an estimate.
 struct EstimateMoment {
   const PoseEstimate& estimate;
   BodyVelocity commanded;
@@ -38,7 +38,7 @@ struct EstimateMoment {
 
 RobotBody body_of(const Robot& robot);
 
-/// All that does not change during a drive.
+/// Everything that does not change during a drive.
 std::vector<Message> scene_messages(const KnownWorld& world, Stamp stamp);
 /// /tf, /pose, /robot and /drive.
 std::vector<Message> estimate_messages(const EstimateMoment& moment, const RobotBody& body);
@@ -47,20 +47,20 @@ Message ceiling_message(Stamp stamp, const MarkerRegistry& registry, const std::
 Message words_message(Stamp stamp, LogLevel level, const std::string& words);
 /// `jpeg`: the picture, encoded.
 Message camera_message(Stamp stamp, const std::string& jpeg);
-/// How far the estimate is off in place; the heading's error is not known.
+/// Position error of the estimate; the heading's error is not known.
 Message error_message(const PoseEstimate& estimate, double error_m);
 
-/// What only the judge of a simulated drive knows, after the drive.
+/// Ground truth of a simulated drive, after the drive.
 std::vector<Message> truth_messages(const RunRecord& record);
 
 std::vector<int> ids_of(const std::vector<DistrustedMarker>& distrusted);
 
-/// Puts a drive into messages, moment by moment.
+/// Converts a drive to messages, step by step.
 class DriveMessages {
  public:
   DriveMessages(const KnownWorld& world, RobotBody body);
 
-  /// What there is to say of this moment but for its picture; of the first one also all that does not change.
+  /// The messages of this step without its picture; at the first step also everything that does not change.
   std::vector<Message> of(const DriveMoment& moment);
 
  private:

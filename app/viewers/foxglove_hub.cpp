@@ -35,7 +35,7 @@ SocketMessage data_frame(std::uint32_t subscription, const Message& message) {
 
 }  // namespace
 
-/// One client: to what it has subscribed, by channel. A client may give a channel one number only.
+/// One client and its subscriptions, by channel: at most one per channel.
 class FoxgloveHub::Viewer : public SocketSession {
  public:
   Viewer(FoxgloveHub& hub, Outbox& outbox) : hub_(hub), outbox_(outbox) {
@@ -107,7 +107,7 @@ FoxgloveHub::FoxgloveHub(std::string name, std::vector<Channel> channels)
 std::vector<SocketProtocol> FoxgloveHub::protocols() {
   std::vector<SocketProtocol> protocols;
   for (const char* name : {"foxglove.sdk.v1", "foxglove.websocket.v1"}) {
-    protocols.push_back({.name = name, .open = [this](Role /*all may look*/, Outbox& outbox) {
+    protocols.push_back({.name = name, .open = [this](Role /*any may view*/, Outbox& outbox) {
                            return std::unique_ptr<SocketSession>(std::make_unique<Viewer>(*this, outbox));
                          }});
   }

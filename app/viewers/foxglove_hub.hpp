@@ -11,10 +11,10 @@
 
 namespace lodestar {
 
-/// Shows channels to Foxglove, Lichtblick and whoever else speaks its WebSocket protocol, under both of its
-/// names, `foxglove.websocket.v1` and `foxglove.sdk.v1`. Viewers only look: they may subscribe and nothing
-/// else. Each gets the newest message of a channel when it subscribes, and then what comes; one that is slow
-/// gets fewer, except of channels where every message counts. Lives on the server's thread.
+/// Serves channels to Foxglove, Lichtblick and other clients of the Foxglove WebSocket protocol, under both
+/// of its names, `foxglove.websocket.v1` and `foxglove.sdk.v1`. Viewers may only subscribe. Each gets the
+/// newest message of a channel when it subscribes, then new ones; a slow viewer gets fewer, except on
+/// channels with `every_message`. Runs on the server's thread.
 class FoxgloveHub {
  public:
   FoxgloveHub(std::string name, std::vector<Channel> channels);
@@ -26,9 +26,9 @@ class FoxgloveHub {
 
   void publish(const Message& message);
 
-  /// Does anybody look?
+  /// Is any viewer connected?
   [[nodiscard]] bool has_viewers() const { return !viewers_.empty(); }
-  /// Does anybody listen to this channel?
+  /// Is any viewer subscribed to this channel?
   [[nodiscard]] bool is_heard(std::size_t channel) const;
 
  private:
@@ -38,7 +38,7 @@ class FoxgloveHub {
   [[nodiscard]] std::string advertisement() const;
 
   std::string name_;
-  std::string session_;  ///< another one after each start, so that viewers forget what they know
+  std::string session_;  ///< new at each start, so that viewers discard their state
   std::vector<Channel> channels_;
   std::vector<std::optional<Message>> newest_;  ///< by channel
   std::set<Viewer*> viewers_;

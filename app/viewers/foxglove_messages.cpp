@@ -38,7 +38,7 @@ Json color_json(double r, double g, double b, double a) {
   return {{"r", r}, {"g", g}, {"b", b}, {"a", a}};
 }
 
-/// A thing in the scene without any shape yet; it stays until another with its name replaces it.
+/// A scene entity without shapes yet; it stays until one with the same ID replaces it.
 Json entity_json(Stamp stamp, const char* frame, const std::string& id) {
   return {{"timestamp", time_json(stamp)},  {"frame_id", frame},      {"id", id},
           {"lifetime", time_json(Stamp())}, {"frame_locked", true},   {"metadata", Json::array()},
@@ -183,11 +183,11 @@ Json robot_message(const PoseEstimate& estimate, const RobotBody& robot) {
   const Vec2 sigma_m = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   const Vec2 axis = solver.eigenvectors().col(0);
   const Pose2 ellipse{estimate.map_from_base.position_m, heading_of(axis)};
-  Json doubt = entity_json(stamp, map_frame, "three standard deviations");
-  doubt["cylinders"].push_back(disc_json(lifted(ellipse, height_m),
-                                         {2.0 * sigmas * sigma_m.x(), 2.0 * sigmas * sigma_m.y(), 0.01},
-                                         color_json(0.9, 0.4, 0.1, 0.6)));
-  return scene_json(Json::array({std::move(body), std::move(doubt)}));
+  Json uncertainty = entity_json(stamp, map_frame, "three standard deviations");
+  uncertainty["cylinders"].push_back(disc_json(lifted(ellipse, height_m),
+                                               {2.0 * sigmas * sigma_m.x(), 2.0 * sigmas * sigma_m.y(), 0.01},
+                                               color_json(0.9, 0.4, 0.1, 0.6)));
+  return scene_json(Json::array({std::move(body), std::move(uncertainty)}));
 }
 
 Json calibration_message(Stamp stamp, const CameraModel& camera) {

@@ -10,7 +10,7 @@
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
 
-// Messages as Foxglove's schemas want them. Frames by name: map, base_link, camera, in our conventions.
+// Messages by Foxglove's schemas. Frames: map, base_link, camera, in our conventions (docs/frames.md).
 namespace lodestar {
 
 using MessageJson = nlohmann::ordered_json;
@@ -24,15 +24,15 @@ MessageJson transform_message(Stamp stamp, const char* parent, const char* child
 MessageJson pose_message(Stamp stamp, const Eigen::Isometry3d& map_from_base);
 MessageJson path_message(Stamp stamp, const Path& path);
 MessageJson grid_message(Stamp stamp, const OccupancyMap& map);
-/// A plate and its ID for each marker, in place of all that were there before; `distrusted` ones in red.
+/// A plate and its ID for each marker, replacing all previous ones; `distrusted` ones in red.
 MessageJson markers_message(Stamp stamp, const MarkerRegistry& registry, const std::vector<int>& distrusted);
-/// What of the robot stands on the floor: a disc, or an outline where it has one.
+/// The robot's shape on the floor: a disc, or an outline where it has one.
 struct RobotBody {
   double radius_m = 0.0;
   std::vector<Vec2> outline_m;  ///< corners in the robot frame
 };
 
-/// The footprint, and the ellipse of three standard deviations about the estimated place.
+/// The footprint, and the ellipse of three standard deviations about the estimated position.
 MessageJson robot_message(const PoseEstimate& estimate, const RobotBody& robot);
 MessageJson calibration_message(Stamp stamp, const CameraModel& camera);
 MessageJson picture_message(Stamp stamp, const std::string& jpeg);

@@ -5,8 +5,8 @@
 
 namespace lodestar {
 
-/// The JSON Schema of a message: those of Foxglove that we send ("foxglove.Grid"), as its viewers know them
-/// by name, and our own ("lodestar.Drive"). Throws std::out_of_range for another name.
+/// The JSON Schema of a message: those of Foxglove that we send ("foxglove.Grid"), known to its viewers by
+/// name, and our own ("lodestar.Drive"). Throws std::out_of_range for an unknown name.
 std::string viewer_schema(std::string_view name);
 
 }  // namespace lodestar

@@ -9,8 +9,8 @@
 
 namespace lodestar {
 
-/// The robot of the console, for Foxglove and other viewers: the channels of drive_channels(), but for /fix,
-/// which only run.mcap has.
+/// The console's live robot state for Foxglove and other viewers: the channels of drive_channels() except
+/// /fix, which only run.mcap has.
 class FoxgloveView : public LiveChannel {
  public:
   explicit FoxgloveView(const Site& site);

@@ -27,7 +27,7 @@ enum class Op : std::uint8_t {
   data_end = 0x0F,
 };
 
-/// The format's words: little-endian numbers, strings and lists with their length before them.
+/// Serialization of the format: little-endian numbers; strings and lists prefixed with their length.
 class Bytes {
  public:
   template <std::unsigned_integral T>
@@ -126,7 +126,7 @@ void McapFile::write(const Message& message) {
 
 void McapFile::put(const std::string& bytes) {
   file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file_.flush();  // to the system: what was written survives the end of this program
+  file_.flush();  // to the operating system: survives a crash of this program
   written_ += bytes.size();
 }
 

@@ -13,16 +13,16 @@ namespace lodestar {
 
 struct McapOptions {
   std::size_t chunk_bytes = 256 * 1024;  ///< of messages, before compression; a chunk is written when full
-  Duration chunk_time = std::chrono::seconds(2);  ///< or when its messages span so much time
+  Duration chunk_time = std::chrono::seconds(2);  ///< or when its messages span this time
   int compression_level = 3;                      ///< of zstd
 };
 
-/// Writes messages to an MCAP file (version 0 of the format) as they come: chunks, each compressed, checked
-/// by a CRC and with an index by time; at the end the indexes of all. A file that was cut before its end can
-/// still be read chunk by chunk. The same channels and messages give the same bytes.
+/// Writes messages to an MCAP file (version 0 of the format) as they arrive: in chunks, each compressed, with
+/// a CRC and an index by time; at the end a summary of all indexes. A truncated file can still be read chunk
+/// by chunk. The same channels and messages give the same bytes.
 class McapFile {
  public:
-  /// Throws InputError when the file cannot be made.
+  /// Throws InputError when the file cannot be created.
   McapFile(const std::filesystem::path& file, const std::vector<Channel>& channels,
            const McapOptions& options = {});
   /// Finishes the file.
@@ -30,10 +30,10 @@ class McapFile {
   McapFile(const McapFile&) = delete;
   McapFile& operator=(const McapFile&) = delete;
 
-  /// Stamps need not ascend. What the disk does not take is lost; healthy() tells.
+  /// Stamps need not ascend. A failed write loses data; healthy() reports it.
   void write(const Message& message);
 
-  /// The last bytes of the file; nothing can be written after that.
+  /// Writes the end of the file; nothing can be written after it.
   void finish();
 
   [[nodiscard]] bool healthy() const { return file_.good(); }
@@ -65,7 +65,7 @@ class McapFile {
   Chunk chunk_;
   std::string chunk_indexes_;
   std::uint32_t chunk_count_ = 0;
-  std::map<std::uint16_t, std::uint64_t> messages_;  ///< how many, by channel
+  std::map<std::uint16_t, std::uint64_t> messages_;  ///< count, by channel
   std::uint64_t first_ns_ = UINT64_MAX;
   std::uint64_t last_ns_ = 0;
 };

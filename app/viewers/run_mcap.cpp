@@ -31,7 +31,7 @@ void RunMcap::take(Portion portion) {
     has_skipped_ = true;
     return;
   }
-  constexpr std::size_t bytes_of_picture = 64U << 10U;  // about: it may not have been made yet
+  constexpr std::size_t bytes_of_picture = 64U << 10U;  // estimate: it may not have been encoded yet
   std::size_t bytes = portion.picture ? bytes_of_picture : 0;
   for (const Message& message : portion.messages) bytes += message.json.size();
   {

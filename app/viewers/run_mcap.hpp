@@ -15,25 +15,24 @@
 namespace lodestar {
 
 struct RunMcapOptions {
-  /// What may wait for a slow disk. Beyond it a drive in real time goes on without a gap and the file has
-  /// one; a drive that can wait does.
+  /// Limit of the queue for a slow disk. When it is full: `can_wait` blocks the drive until there is room;
+  /// otherwise (real time) data is skipped and the file has a gap.
   std::size_t most_waiting_bytes = std::size_t{64} << 20U;
   bool can_wait = false;
-  /// How a disk fares that is known to be full or slow, as that of a simulated world; else the real one
-  /// tells.
+  /// State of a simulated disk that is full or slow; unset for the real disk.
   std::function<bool()> is_full;
   std::function<Duration()> delay;
 };
 
-/// Writes run.mcap into a run folder while the robot drives: open it in Foxglove, Lichtblick or any other
-/// reader of MCAP files. It is compressed and written on the side, so that no disk holds the wheels' commands
-/// up.
+/// Writes run.mcap into a run folder during the drive, for Foxglove, Lichtblick or any other reader of MCAP
+/// files. It is compressed and written on a thread of its own, so that a slow disk never delays wheel
+/// commands.
 class RunMcap {
  public:
-  /// What people are told when finish() says no.
+  /// The message when finish() returns false.
   static constexpr const char* words_of_loss = "the disk did not take all of run.mcap";
 
-  /// Makes the folder. Throws InputError when that or the file cannot be made.
+  /// Creates the folder. Throws InputError when it or the file cannot be created.
   RunMcap(const std::filesystem::path& folder, const KnownWorld& world, RobotBody body,
           const RunMcapOptions& options = {});
   RunMcap(const RunMcap&) = delete;
@@ -43,14 +42,14 @@ class RunMcap {
 
   void watch(const DriveMoment& moment);
 
-  /// After the drive: what only its judge knows.
+  /// After a simulated drive: adds ground truth.
   void add_truth(const RunRecord& record);
 
-  /// Waits until all is written. Has the disk taken it?
+  /// Waits until everything is written. False when data was lost.
   [[nodiscard]] bool finish();
 
  private:
-  /// What is to be written next. A picture may still be in the making.
+  /// An item to be written. Its picture may not have been encoded yet.
   struct Portion {
     std::vector<Message> messages;
     std::optional<KeptPicture> picture;
