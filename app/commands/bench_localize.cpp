@@ -42,12 +42,13 @@ ExitCode run(const BenchLocalizeArguments& arguments) {
   const BenchLocalizeResult result =
       bench_localize(options, [&progress](double share) { progress.show(share); });
   for (const std::string& peer : result.left_out)
-    fmt::print(stderr, "bench: {} is left out, this program was built without it\n", peer);
+    fmt::print(stderr, "bench: {} is skipped, this program was built without it
+", peer);
   const std::string json = bench_localize_json(result).dump(2) + "\n";
   if (!folder.empty()) {
-    write_file_atomically(folder / "localize.json", json);
-    write_file_atomically(folder / "localize.html", bench_localize_html(result));
-    if (!arguments.quiet) fmt::print(stderr, "bench: wrote {}\n", (folder / "localize.html").string());
+      write_file_atomically(folder / "localize.json", json);
+      write_file_atomically(folder / "localize.html", bench_localize_html(result));
+      if (!arguments.quiet) fmt::print(stderr, "bench: wrote {}\n", (folder / "localize.html").string());
   }
   fmt::print("{}", arguments.json ? json : bench_localize_text(result));
   return done;
@@ -69,7 +70,7 @@ Command bench_localize_command(CLI::App& bench) {
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
   command->add_option("--seed", options.seed, "Seed of views, light and noise")->capture_default_str();
-  command->add_option("--peers", options.peers, "Whom to compare with")
+  command->add_option("--peers", options.peers, "Detectors to compare with")
       ->delimiter(',')
       ->check(CLI::IsMember({"apriltag", "aruco", "none"}))
       ->capture_default_str();

@@ -108,9 +108,9 @@ Command bench_plan_command(CLI::App& bench) {
   command->add_option("--queries", arguments->bench.queries, "Random queries over the site")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--seed", arguments->bench.seed, "Of the queries")->capture_default_str();
+  command->add_option("--seed", arguments->bench.seed, "Seed of the queries")->capture_default_str();
   add_sampling_options(*command, arguments->bench.sampling);
-  command->add_option("--planner", arguments->planners, "Only these; all when left out")
+  command->add_option("--planner", arguments->planners, "Only these planners; default: all")
       ->check(CLI::IsMember(planner_names()));
   command->add_flag("--json", arguments->json, "The site's table as JSON");
   return {command, [arguments] {

@@ -4,7 +4,7 @@
 
 namespace lodestar {
 
-/// `lodestar bench plan`, a word under `bench`.
+/// The subcommand `lodestar bench plan`.
 Command bench_plan_command(CLI::App& bench);
 
 }  // namespace lodestar

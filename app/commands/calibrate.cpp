@@ -96,17 +96,17 @@ struct MountArguments {
   std::string robot;
   std::string output;
   bool json = false;
-  std::vector<std::string> inputs;  ///< the log, and before it the site when there is one
+  std::vector<std::string> inputs;  ///< the log, preceded by the site if given
 };
 
-/// What a log is read with.
+/// The files needed to evaluate a log.
 struct MountInput {
   MarkerRegistry registry;
   CameraModel camera;
   std::filesystem::path robot_file;
 };
 
-/// The site's files, or those named by options, which go before.
+/// The site's files, each overridden by its option.
 MountInput input_of(const MountArguments& arguments) {
   std::optional<Site> site;
   if (arguments.inputs.size() == 2) site = load_site(arguments.inputs.front());
@@ -140,14 +140,14 @@ ExitCode calibrate_mount_from_log(const MountArguments& arguments) {
 
 Command mount_command(CLI::App* calibrate) {
   const auto arguments = std::make_shared<MountArguments>();
-  CLI::App* command = calibrate->add_subcommand(
-      "mount",
-      "Where the camera sits on the robot, from a log of five turns on the spot and a straight drive; "
-      "exit 1, and no file, for a log that does not tell");
+  CLI::App* command =
+      calibrate->add_subcommand("mount",
+                                "The camera's mount on the robot, from a log of five turns on the spot and a "
+                                "straight drive; exit 1, and no file, for a log that does not determine it");
   command->add_option("--markers", arguments->markers, "Marker registry, instead of the site's");
   command->add_option("--camera", arguments->camera, "Calibrated camera, instead of the site's default");
   command->add_option("--robot", arguments->robot,
-                      "robot.yaml: what is believed so far, instead of the site's");
+                      "robot.yaml with the mount known so far, instead of the site's");
   command->add_flag("--json", arguments->json, "Report as JSON");
   command->add_option("-o,--output", arguments->output, "Robot file to write")->required();
   command
@@ -163,8 +163,7 @@ Command mount_command(CLI::App* calibrate) {
 }  // namespace
 
 std::vector<Command> calibrate_commands(CLI::App& lodestar) {
-  CLI::App* calibrate =
-      lodestar.add_subcommand("calibrate", "Measure a camera, or where it sits on the robot");
+  CLI::App* calibrate = lodestar.add_subcommand("calibrate", "Calibrate a camera, or its mount on the robot");
   calibrate->require_subcommand(1);
   return {camera_command(calibrate), mount_command(calibrate)};
 }

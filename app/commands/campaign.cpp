@@ -80,14 +80,14 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
 std::vector<Command> campaign_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<CampaignArguments>();
   CLI::App* command = lodestar.add_subcommand(
-      "campaign", "Missions through made-up buildings with faults; exit 1 on a contact or a wrong arrival");
-  command->add_option("missions", arguments->missions, "How many")
+      "campaign", "Missions through random buildings with faults; exit 1 on a contact or a wrong arrival");
+  command->add_option("missions", arguments->missions, "Number of missions")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
-  command->add_option("--site", arguments->site, "Whose robot and cameras to take; the lab's when left out");
+  command->add_option("--site", arguments->site, "Site folder for robot and cameras; default: the lab");
   command->add_option("--first", arguments->first, "Number of the first mission")->capture_default_str();
-  command->add_option("--mission", arguments->mission, "Only this one, and leave its run folder");
-  command->add_flag("--resume", arguments->resume, "Go on with a campaign that was cut off");
+  command->add_option("--mission", arguments->mission, "Run this mission only, and write its run folder");
+  command->add_flag("--resume", arguments->resume, "Continue an interrupted campaign");
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_option("-o,--output", arguments->output, "Folder of the report")->capture_default_str();
   return {{command, [arguments] { return campaign_command(*arguments); }}};

@@ -6,7 +6,7 @@
 
 namespace lodestar {
 
-// The words of the command line, each beside the file that it stands in.
+// The subcommands of the command line, each in a file of its own.
 std::vector<Command> replay_commands(CLI::App& lodestar);
 std::vector<Command> campaign_commands(CLI::App& lodestar);
 std::vector<Command> localize_commands(CLI::App& lodestar);
@@ -14,7 +14,7 @@ std::vector<Command> detect_commands(CLI::App& lodestar);
 std::vector<Command> plan_commands(CLI::App& lodestar);
 std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
-std::vector<Command> marker_file_commands(CLI::App& markers);  ///< convert, print: words of `markers`
+std::vector<Command> marker_file_commands(CLI::App& markers);  ///< convert, print: subcommands of `markers`
 std::vector<Command> serve_commands(CLI::App& lodestar);
 std::vector<Command> soak_commands(CLI::App& lodestar);
 std::vector<Command> calibrate_commands(CLI::App& lodestar);

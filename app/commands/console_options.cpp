@@ -20,13 +20,14 @@ void check_token(const char* option, const std::string& token) {
 
 void add_console_options(CLI::App& command, AccessRules& access) {
   access.port = usual_port;
-  command.add_option("--port", access.port, "Of the console; 0 takes any free one")->capture_default_str();
+  command.add_option("--port", access.port, "Port of the console; 0: any free one")->capture_default_str();
   command.add_option("--bind", access.bind, "Address to listen on; any other than loopback needs a token")
       ->capture_default_str();
-  command.add_option("--token", access.token, "Who has it may edit and drive")->envname("LODESTAR_TOKEN");
-  command.add_option("--edit-token", access.edit_token, "Who has it may view and edit")
+  command.add_option("--token", access.token, "Token that permits everything: view, edit and drive")
+      ->envname("LODESTAR_TOKEN");
+  command.add_option("--edit-token", access.edit_token, "Token that permits to view and edit")
       ->envname("LODESTAR_EDIT_TOKEN");
-  command.add_option("--view-token", access.view_token, "Who has it may view, and stop the robot")
+  command.add_option("--view-token", access.view_token, "Token that permits to view, and to stop the robot")
       ->envname("LODESTAR_VIEW_TOKEN");
 }
 
@@ -34,7 +35,7 @@ void add_lease_option(CLI::App& command, Duration& lease) {
   command
       .add_option_function<double>(
           "--lease", [&lease](double lease_s) { lease = from_seconds(lease_s); },
-          "Seconds after which the robot pauses when its driver is silent; 1 when left out")
+          "Seconds after which the robot pauses when its driver is silent; default: 1")
       ->check(CLI::Range(0.3, 60.0));
 }
 

@@ -7,16 +7,16 @@
 
 namespace lodestar {
 
-/// --port, --bind and the tokens of whoever serves the console.
+/// Adds --port, --bind and the token options of commands that serve the console.
 void add_console_options(CLI::App& command, AccessRules& access);
 
-/// --lease of whoever serves a robot.
+/// Adds --lease of commands that serve a robot.
 void add_lease_option(CLI::App& command, Duration& lease);
 
-/// Throws InputError for a token so short that it can be guessed.
+/// Throws InputError for a token of fewer than 16 characters, which could be guessed.
 void check_tokens(const AccessRules& access);
 
-/// Tells the console's address on standard output, and on standard error what to do with a token.
+/// Prints the console's address on standard output, and how to use a token on standard error.
 void tell_address(const AccessRules& access, unsigned short port);
 
 }  // namespace lodestar

@@ -21,15 +21,15 @@ std::vector<SocketProtocol> protocols_of(const std::vector<std::unique_ptr<LiveC
 }  // namespace
 
 ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* link)
-    : console_(options.site, options.runs), link_(link) {
-  channels_.push_back(std::make_unique<LiveView>(console_.site(), link, options.live));
-  channels_.push_back(std::make_unique<FoxgloveView>(console_.site()));
-  console_.on_saved_markers([this](const MarkerRegistry& saved) {
+    : documents_(options.site, options.runs), link_(link) {
+  channels_.push_back(std::make_unique<LiveView>(documents_.site(), link, options.live));
+  channels_.push_back(std::make_unique<FoxgloveView>(documents_.site()));
+  documents_.on_saved_markers([this](const MarkerRegistry& saved) {
     for (const auto& channel : channels_) channel->take_markers(saved);
   });
   server_ = std::make_unique<HttpServer>(
       HttpServerOptions{.access = options.access},
-      [this](const HttpRequest& request) { return console_.answer(request); }, protocols_of(channels_));
+      [this](const HttpRequest& request) { return documents_.answer(request); }, protocols_of(channels_));
 }
 
 void ConsoleService::serve_a_turn() {

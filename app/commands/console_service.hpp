@@ -18,26 +18,26 @@ struct ConsoleServiceOptions {
   LiveViewOptions live;
 };
 
-/// The whole console: documents, and live channels beside them.
+/// The console service: the document API and the live channels.
 class ConsoleService {
  public:
-  /// `link`: the robot that is shown; null when none is there. Throws InputError for a site or an address
-  /// that cannot be used.
+  /// `link`: the robot to show; null when there is none. Throws InputError for an unusable site or address.
   ConsoleService(const ConsoleServiceOptions& options, LiveLink* link);
 
   [[nodiscard]] unsigned short port() const { return server_->port(); }
 
-  /// One turn, about a twentieth of a second: serves all clients, then shows them what is new.
+  /// One turn of about 50 ms: serves all clients, then sends them what is new.
   void serve_a_turn();
 
  private:
-  DocumentApi console_;
+  DocumentApi documents_;
   LiveLink* link_;
-  std::vector<std::unique_ptr<LiveChannel>> channels_;  ///< before the server, whose sessions know them
+  std::vector<std::unique_ptr<LiveChannel>>
+      channels_;  ///< declared before the server, whose sessions refer to them
   std::unique_ptr<HttpServer> server_;
 };
 
-/// Serves on a thread of its own, one that yields to the control loop's, as long as this lives.
+/// Serves on a thread of its own, with lower priority than the control loop, for the lifetime of this object.
 class ConsoleThread {
  public:
   explicit ConsoleThread(ConsoleService& service);

@@ -65,12 +65,11 @@ ExitCode doctor_command(const DoctorArguments& arguments) {
 
 std::vector<Command> doctor_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<DoctorArguments>();
-  CLI::App* command = lodestar.add_subcommand(
-      "doctor",
-      "Why does it not move? A line for each thing that must be right, with what to do; exit 1 when one is "
-      "not. Sends nothing");
+  CLI::App* command = lodestar.add_subcommand("doctor",
+                                              "Diagnose why a robot does not move: a line for each check, "
+                                              "with a remedy; exit 1 when one fails. Sends nothing");
   command->add_option("site", arguments->site, "Site folder")->required();
-  command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
+  command->add_option("--can", arguments->interface, "CAN interface; default: the site's");
   command->add_flag("--json", arguments->json, "As JSON");
   return {{command, [arguments] { return doctor_command(*arguments); }}};
 }

@@ -4,14 +4,13 @@ namespace lodestar {
 
 void add_frame_arguments(CLI::App& command, FrameArguments& arguments) {
   command
-      .add_option(
-          "--method", arguments.method,
-          "How markers are found: lodestar, or paper (fixed threshold, binary centres) to compare with")
+      .add_option("--method", arguments.method,
+                  "Detection method: lodestar, or paper (fixed threshold, binary centres) for comparison")
       ->check(CLI::IsMember({"lodestar", "paper"}))
       ->capture_default_str();
-  command.add_option("--draw", arguments.draw, "Folder for a PNG of each frame with all that was seen in it")
+  command.add_option("--draw", arguments.draw, "Folder for a PNG of each frame with its detections")
       ->type_name("FOLDER");
-  command.add_option("--frames", arguments.most_frames, "Stop after so many frames")
+  command.add_option("--frames", arguments.most_frames, "Stop after N frames")
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000'000));
   command.add_flag("-q,--quiet", arguments.quiet, "No summary on stderr");

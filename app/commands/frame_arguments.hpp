@@ -10,7 +10,7 @@
 
 namespace lodestar {
 
-/// What every command that looks at frames takes.
+/// Arguments of every command that reads frames.
 struct FrameArguments {
   std::vector<std::string> inputs;
   std::string draw;
@@ -23,13 +23,13 @@ void add_frame_arguments(CLI::App& command, FrameArguments& arguments);
 
 FrameInputs open_inputs(const FrameArguments& arguments, const std::optional<CameraModel>& camera);
 
-/// As --method says: the paper's own way, or all that has been learned since.
+/// Options for --method: the paper's own detector, or this project's.
 DetectorOptions detector_options(const FrameArguments& arguments);
 
-/// Nothing when no drawings are wanted.
+/// Nothing without --draw.
 std::optional<OverlayFolder> open_overlays(const FrameArguments& arguments, const FrameInputs& inputs);
 
-/// A name as one cell of a CSV row: in quotes when it holds a comma, a quote or a line's end (RFC 4180).
+/// A name as one cell of a CSV row: in quotes when it contains a comma, a quote or a line break (RFC 4180).
 std::string csv_cell(const std::string& name);
 
 }  // namespace lodestar

@@ -9,25 +9,25 @@
 
 namespace lodestar {
 
-/// Writes run folders while the robot goes on: the first as asked for, those of the drives after it as
-/// NAME-2, NAME-3 beside it, whichever name is still free.
+/// Writes run folders in the background: the first under the given name, those of later drives beside it as
+/// NAME-2, NAME-3, the first free name.
 class KeptRuns {
  public:
-  /// `replaces_first`: the first folder is written over when it is there; else it too gets a free name.
+  /// `replaces_first`: an existing first folder is overwritten; else it too gets a free name.
   KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site, const std::string& camera,
            const RunMcapOptions& mcap = {});
   ~KeptRuns();
   KeptRuns(const KeptRuns&) = delete;
   KeptRuns& operator=(const KeptRuns&) = delete;
 
-  /// At each step of a drive, for its run.mcap.
+  /// Call at each step of a drive, for its run.mcap.
   void watch(const DriveMoment& moment);
 
-  /// At its end. Waits for the one before, if that is still being written; then returns at once. What cannot
-  /// be written is told on standard error, and the drive goes on.
+  /// Call at its end. Waits while the previous run is still being written, then returns at once. A failure to
+  /// write is reported on standard error and does not stop the program.
   void keep(RunRecord record);
 
-  /// How many have been kept.
+  /// Number of runs kept.
   [[nodiscard]] int count() const { return count_; }
 
  private:

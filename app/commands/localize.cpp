@@ -114,7 +114,7 @@ void print_row(const std::string& format, const Row& row) {
   if (format == "json") print_json(row);
 }
 
-/// Why a marker that was read says nothing of the pose; empty when it does.
+/// Why a detected marker is not used in the fix; empty when it is.
 std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry, const PoseFix* fix) {
   if (registry.find(marker.id) == nullptr) return "registered twice";
   if (fix != nullptr && !std::ranges::count(fix->ids, marker.id)) return "contradicts the others";
@@ -202,8 +202,7 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<LocalizeArguments>();
   CLI::App* command = lodestar.add_subcommand(
       "localize",
-      "Where the camera (with --mount: the robot) was when it took these frames; exit 1 "
-      "when none of them tells");
+      "Pose of the camera (with --mount: of the robot) for each frame; exit 1 when no frame gives one");
   command->add_option("--markers", arguments->markers, "Marker registry")->required();
   command->add_option("--camera", arguments->camera, "Calibrated camera, camera_info YAML")->required();
   command->add_option("--mount", arguments->mount, "robot.yaml: gives the robot's pose, on a flat floor");
@@ -211,22 +210,23 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
       command->add_flag("--upright", arguments->upright, "The tilt is exactly that of the mount");
   command
       ->add_option("--tilt-sigma-deg", arguments->tilt_sigma_deg,
-                   "The tilt is that of the mount, within so much")
+                   "Standard deviation of the tilt about that of the mount, in degrees")
       ->check(CLI::Range(0.0, 45.0))
       ->excludes(upright);
   command->add_flag("--track", arguments->track,
-                    "The frames are a sequence: look first where the last pose has the markers");
+                    "The frames are a sequence: search first where the last pose predicts the markers");
   command
       ->add_option("--format", arguments->format,
-                   "One line a frame with a pose. csv; json; tum: stamp x y z qx qy qz qw")
+                   "One line per frame with a pose. csv; json; tum: stamp x y z qx qy qz qw")
       ->check(CLI::IsMember({"csv", "tum", "json"}))
       ->capture_default_str();
   add_frame_arguments(*command, arguments->frames);
   command->footer(
       command->get_footer() +
-      "\nStamps are in seconds: a video's own time, a camera's since the machine started; an image's "
-      "is its\nname when that is a number (12.40.png), else its place in the list, from 0.");
-  return {{command, [arguments] { return localize(*arguments); }}};
+      "\nStamps are in seconds: a video's own time, a camera's since boot; an image's is its
+name when that is a number (12.40.png), else its position in the list, from 0.");
+  return {{command, [arguments] {
+    return localize(*arguments); }}};
 }
 
 }  // namespace lodestar

@@ -92,7 +92,7 @@ ExitCode info(const MapArguments& arguments) {
   return done;
 }
 
-/// The slab's heights as given, or above the floor that the OctoMap shows.
+/// The slab's heights as given, or relative to the floor detected in the OctoMap.
 std::pair<double, double> slab_m(const Octomap& octomap, const MapArguments& arguments) {
   const std::optional<double> floor_m = octomap.floor_m();
   if (arguments.z_min_m) {
@@ -196,25 +196,26 @@ ExitCode convert(const MapArguments& arguments) {
 
 std::vector<Command> map_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<MapArguments>();
-  CLI::App* map = lodestar.add_subcommand("map", "Look at maps, and make floor maps of OctoMaps");
+  CLI::App* map =
+      lodestar.add_subcommand("map", "Inspect and convert maps, and slice OctoMaps into floor maps");
   map->require_subcommand(1);
 
-  CLI::App* info_command = map->add_subcommand("info", "What a map file holds");
+  CLI::App* info_command = map->add_subcommand("info", "Summary of a map file");
   info_command->add_option("file", arguments->file, "map_server YAML, OctoMap .bt or .ot")->required();
   info_command->add_flag("--json", arguments->json, "As JSON");
 
   CLI::App* slice_command =
-      map->add_subcommand("slice", "Make a floor map of the voxels between two heights");
+      map->add_subcommand("slice", "Project the voxels between two heights to a floor map");
   slice_command->add_option("file", arguments->file, "OctoMap .bt or .ot")->required();
   CLI::Option* z_min = slice_command->add_option("--z-min", arguments->z_min_m,
-                                                 "Lower height in metres, as the OctoMap has it");
+                                                 "Lower height in metres, in the OctoMap's frame");
   CLI::Option* z_max =
       slice_command->add_option("--z-max", arguments->z_max_m, "Upper height in metres")->needs(z_min);
   z_min->needs(z_max);
   CLI::Option* clearance =
       slice_command
           ->add_option("--clearance", arguments->clearance_m,
-                       "Instead: metres above the floor, which is found, that the robot passes over")
+                       "Instead: height in metres above the detected floor that the robot drives over")
           ->excludes(z_min);
   CLI::Option* height =
       slice_command
@@ -230,33 +231,30 @@ std::vector<Command> map_commands(CLI::App& lodestar) {
                    "map_server YAML file to write; its image goes beside it")
       ->required();
 
-  CLI::App* convert_command =
-      map->add_subcommand("convert", "Write a map anew as YAML and PGM, losing nothing");
+  CLI::App* convert_command = map->add_subcommand("convert", "Rewrite a map as YAML and PGM without loss");
   convert_command->add_option("file", arguments->file, "map_server YAML")->required();
   convert_command->add_option("-o,--output", arguments->output, "map_server YAML file to write")->required();
 
   const auto seen = std::make_shared<VisibilityArguments>();
   CLI::App* visibility_command = map->add_subcommand(
-      "visibility",
-      "How many markers the robot sees from each free cell, and how sure of its pose it is there");
+      "visibility", "Markers in view from each free cell, and the standard deviations of a fix there");
   visibility_command->add_option("--map", seen->map, "map_server YAML")->required();
   visibility_command->add_option("--markers", seen->markers, "Marker registry")->required();
   visibility_command->add_option("--camera", seen->camera, "Camera file")->required();
   CLI::Option* mount = visibility_command->add_option(
       "--mount", seen->mount,
-      "robot.yaml: where the camera sits and how well its tilt is known; upright when left out");
+      "robot.yaml with the camera's mount and its tilt sigma; default: exactly upright");
   visibility_command
       ->add_option("--camera-height", seen->camera_height_m, "Metres above the floor, without --mount")
       ->check(CLI::PositiveNumber)
       ->excludes(mount)
       ->capture_default_str();
   visibility_command->add_option("--octomap", seen->octomap,
-                                 "OctoMap .bt or .ot: what it shows hides markers");
+                                 "OctoMap .bt or .ot: its occupied voxels hide markers");
   visibility_command
-      ->add_option("--radius", seen->radius_m,
-                   "Robot's radius in metres: leaves out cells where it has no room")
+      ->add_option("--radius", seen->radius_m, "Robot's radius in metres: skips cells where it has no room")
       ->check(CLI::NonNegativeNumber);
-  visibility_command->add_option("--headings", seen->headings, "Tried in each cell")
+  visibility_command->add_option("--headings", seen->headings, "Headings evaluated in each cell")
       ->check(CLI::Range(1, 360))
       ->capture_default_str();
   visibility_command->add_option("-o,--output", seen->output, "PNG file for a picture of the map");

@@ -11,7 +11,7 @@
 #include "maps/marker.hpp"
 #include "maps/path_kind.hpp"
 
-// The words of `lodestar markers` that write files for others: convert and print.
+// The subcommands of `lodestar markers` that write files for other programs and people: convert and print.
 namespace lodestar {
 namespace {
 
@@ -84,11 +84,12 @@ ExitCode print_sheets(const PrintArguments& arguments) {
 std::vector<Command> marker_file_commands(CLI::App& markers) {
   const auto converted = std::make_shared<ConvertArguments>();
   CLI::App* convert_command = markers.add_subcommand(
-      "convert", "Markers between our registry and other programs' formats; poses as they are on the map");
-  convert_command->add_option("input", converted->input, "What to read")->required();
-  convert_command->add_option("-o,--output", converted->output, "Where to write; else to standard output");
+      "convert",
+      "Convert markers between our registry and other programs' formats; poses are in the map frame");
+  convert_command->add_option("input", converted->input, "Marker file to read")->required();
+  convert_command->add_option("-o,--output", converted->output, "File to write; default: standard output");
   for (const auto& [name, format] : {std::pair{"--from", &converted->from}, {"--to", &converted->to}}) {
-    convert_command->add_option(name, *format, "The format, where the file's name does not tell")
+    convert_command->add_option(name, *format, "The format, where the file name does not imply it")
         ->check(CLI::IsMember(marker_format_names()));
   }
 

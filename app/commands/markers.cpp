@@ -50,7 +50,7 @@ void print_marker(const std::string& format, const nlohmann::ordered_json& m) {
              m["z_m"].get<double>(), m["yaw_deg"].get<double>(), m["dots"].get<int>());
 }
 
-/// Poses are those on the map: the registry's own, through its alignment.
+/// Poses are in the map frame: the registry's alignment is applied.
 ExitCode list(const MarkersArguments& arguments) {
   const MarkerRegistry registry = load_registry(arguments.registry);
   if (arguments.format == "csv") fmt::print("id,x_m,y_m,z_m,yaw_deg,dots\n");
@@ -111,7 +111,7 @@ void print_text(const std::string& file, const MarkerRegistry& registry,
   print_distances("turned or mirrored", turned_distances(registry));
 }
 
-/// What is to be checked, against what: the site's own registry where none is named.
+/// Checks the named registry, or else the site's own.
 ExitCode check(const MarkersArguments& arguments) {
   if (arguments.registry.empty() && arguments.site.empty())
     throw InputError("found neither a registry nor --site, wanted one of them at least");
@@ -131,7 +131,7 @@ ExitCode check(const MarkersArguments& arguments) {
   return std::ranges::any_of(issues, &RegistryIssue::error) ? job_failed : done;
 }
 
-/// A registry to start a survey with: the places are a grid that nothing overlaps in.
+/// A registry to start a survey with: placeholder positions on a grid without overlaps.
 void print_yaml(const std::vector<int>& ids, const MarkerCodeOptions& code) {
   constexpr int columns = 10;
   constexpr double spacing_m = 0.5;
@@ -169,34 +169,34 @@ ExitCode generate(const GenerateArguments& arguments) {
 
 CLI::App* add_generate(CLI::App& markers, GenerateArguments& arguments) {
   CLI::App* command = markers.add_subcommand(
-      "generate", "Choose IDs that are not mistaken for each other; exit 1 when there are not so many");
-  command->add_option("--count", arguments.count, "How many IDs")
+      "generate", "Choose IDs with a minimum Hamming distance; exit 1 when there are not enough");
+  command->add_option("--count", arguments.count, "Number of IDs")
       ->required()
       ->type_name("N")
       ->check(CLI::Range(1, marker_id_count));
   command
       ->add_option("--min-hamming", arguments.code.min_distance,
-                   "Any two differ in so many cells. 1: nothing is gained; 2: a lost dot or a glint is "
-                   "noticed; 3: it is "
-                   "corrected; 4: and two are noticed")
+                   "Number of cells in which any two differ. 1: no protection; 2: detects one missed dot or "
+                   "glint; 3: corrects one; 4: corrects one and detects two")
       ->check(CLI::Range(1, 12))
       ->capture_default_str();
   command
       ->add_option("--min-dots", arguments.code.min_dots,
-                   "Of each marker, O, X and Y among them; fewer say little of whether it is a marker")
+                   "Least number of dots per marker, O, X and Y included; fewer dots are more easily "
+                   "confused with clutter")
       ->check(CLI::Range(3, 15))
       ->capture_default_str();
   command->add_flag("--plain", arguments.plain,
-                    "Compare upright markers only. Else they differ as much however one of them is turned or "
-                    "mirrored, and each from itself");
+                    "Compare upright markers only. By default the distance also holds with one of them "
+                    "rotated or mirrored, and between a marker and its own rotations");
   command
-      ->add_option("--avoid", arguments.avoid, "Registry from whose markers the new ones must differ as much")
+      ->add_option("--avoid", arguments.avoid, "Registry whose markers the new ones must differ from as well")
       ->type_name("FILE");
-  command->add_option("--seed", arguments.code.seed, "Of the choice; the same seed gives the same IDs")
+  command->add_option("--seed", arguments.code.seed, "Seed of the choice; the same seed gives the same IDs")
       ->capture_default_str();
   command
       ->add_option("--format", arguments.format,
-                   "ids: one a line; yaml: a registry with places yet to be surveyed")
+                   "ids: one per line; yaml: a registry with placeholder positions, to be surveyed")
       ->check(CLI::IsMember({"ids", "yaml"}))
       ->capture_default_str();
   return command;
@@ -207,11 +207,11 @@ CLI::App* add_generate(CLI::App& markers, GenerateArguments& arguments) {
 std::vector<Command> markers_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<MarkersArguments>();
   CLI::App* markers = lodestar.add_subcommand(
-      "markers", "Look at a marker registry, choose IDs for a new one, print markers");
+      "markers", "Inspect and check marker registries, choose IDs, convert and print markers");
   markers->require_subcommand(1);
 
-  CLI::App* list_command =
-      markers->add_subcommand("list", "The markers as they lie on the map, through the registry's alignment");
+  CLI::App* list_command = markers->add_subcommand(
+      "list", "List the markers in the map frame, with the registry's alignment applied");
   list_command->add_option("registry", arguments->registry, "Marker registry")->required();
   list_command->add_option("--format", arguments->format, "text, csv or json")
       ->check(CLI::IsMember({"text", "csv", "json"}))
@@ -219,14 +219,14 @@ std::vector<Command> markers_commands(CLI::App& lodestar) {
 
   CLI::App* check_command = markers->add_subcommand(
       "check",
-      "Look for mistakes, and for markers that may be mistaken for each other; exit 1 "
-      "when there are errors");
+      "Check for errors, and for markers that may be mistaken for each other; exit 1 when there are errors");
   check_command->add_option("registry", arguments->registry, "Marker registry; by default that of --site");
   CLI::Option* map =
-      check_command->add_option("--map", arguments->map, "Occupancy map: markers must hang above it");
+      check_command->add_option("--map", arguments->map, "Occupancy map: markers must lie within it");
   check_command
-      ->add_option("--site", arguments->site,
-                   "Site folder: also name places and stretches of its usual route that see no marker")
+      ->add_option(
+          "--site", arguments->site,
+          "Site folder: also report areas and stretches of its usual routes without a marker in view")
       ->excludes(map);
   check_command->add_option("--format", arguments->format, "text or json")
       ->check(CLI::IsMember({"text", "json"}))

@@ -90,7 +90,7 @@ void warn(const LoadedMap& map) {
   for (const std::string& warning : map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
 }
 
-/// To choose from, not a plan.
+/// A suggestion for the operator; nothing is planned to it.
 void offer_nearest(const GridPlanner& planner, const Goal& start, const Goal& goal) {
   const std::optional<Vec2> nearest = planner.nearest_reachable(start.position_m, goal.position_m);
   if (!nearest) return;
@@ -99,7 +99,7 @@ void offer_nearest(const GridPlanner& planner, const Goal& start, const Goal& go
              nearest->x(), nearest->y(), (*nearest - goal.position_m).norm());
 }
 
-/// What the robot sees from each cell, when the drive shall depend on it.
+/// Visibility from each cell, when the plan is constrained by it.
 std::optional<Visibility> visibility_for(const PlanArguments& arguments, const OccupancyMap& map,
                                          const MarkerRegistry& registry) {
   if (!arguments.pose_keeping.wanted()) return std::nullopt;
@@ -149,12 +149,11 @@ ExitCode plan(PlanArguments arguments) {
 
 std::vector<Command> plan_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<PlanArguments>();
-  CLI::App* command = lodestar.add_subcommand("plan", "Plan a drive over a map; exit 1 when there is no way");
+  CLI::App* command = lodestar.add_subcommand("plan", "Plan a path on a map; exit 1 when there is none");
   command->add_option("--map", arguments->map, "Occupancy map, ROS map_server YAML")->required();
-  command->add_option("--markers", arguments->markers,
-                      "Marker registry, for the picture and what is in view");
-  command->add_option("--camera", arguments->camera, "Camera file, for what is in view");
-  command->add_option("--mount", arguments->mount, "robot.yaml: where the camera sits, for what is in view");
+  command->add_option("--markers", arguments->markers, "Marker registry, for the picture and for visibility");
+  command->add_option("--camera", arguments->camera, "Camera file, for visibility");
+  command->add_option("--mount", arguments->mount, "robot.yaml with the camera's mount, for visibility");
   add_pose_keeping_options(*command, arguments->pose_keeping);
   for (const char* option : {"--max-sigma", "--keep-markers"}) {
     for (const char* needed : {"--markers", "--camera", "--mount"})
@@ -170,7 +169,7 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
           "fastest (turns counted), anyangle (shortest), astar (8-connected, shortened), or one of OMPL's")
       ->check(CLI::IsMember(planner_names()))
       ->capture_default_str();
-  command->add_option("--seed", arguments->options.sampling.seed, "Of sampling planners")
+  command->add_option("--seed", arguments->options.sampling.seed, "Seed of sampling planners")
       ->check(CLI::Range(1, 2147483647))
       ->capture_default_str();
   add_sampling_options(*command, arguments->options.sampling);
@@ -183,12 +182,12 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
       ->excludes(radius);
   command
       ->add_option("--clearance-weight", arguments->options.clearance_weight,
-                   "How much more a way close to obstacles costs; 0 finds the shortest")
+                   "Extra cost of driving close to obstacles; 0: shortest path")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   command
       ->add_option("--clearance", arguments->options.preferred_clearance_m,
-                   "What counts as close, metres beyond the radius")
+                   "Distance that counts as close, metres beyond the radius")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command->add_option("--format", arguments->format, "text or json")

@@ -11,23 +11,23 @@ std::vector<std::string> planner_names() {
 }
 
 void add_pose_keeping_options(CLI::App& command, PoseKeepingOptions& keeping) {
-  CLI::Option* sigma = command.add_option("--max-sigma", keeping.max_sigma_m,
-                                          "Only ways on which the predicted standard deviation of the "
-                                          "position stays below this, in metres");
+  CLI::Option* sigma = command.add_option(
+      "--max-sigma", keeping.max_sigma_m,
+      "Only paths on which the predicted standard deviation of the position stays below this, in metres");
   sigma->check(CLI::Range(1e-4, 10.0));
   command
       .add_option("--drift", keeping.drift_m_per_m,
-                  "With --max-sigma: metres by which it grows with every metre between fixes")
+                  "With --max-sigma: its growth between fixes, metres per metre")
       ->check(CLI::Range(0.0, 1.0))
       ->needs(sigma)
       ->capture_default_str();
   CLI::Option* markers = command.add_option(
       "--keep-markers", keeping.markers_in_view,
-      "Instead: only ways on which at least so many markers are in view, whatever the heading");
+      "Instead: only paths on which at least this many markers are in view, at every heading");
   markers->check(CLI::Range(1, 100))->excludes(sigma);
   command
       .add_option("--blind-way", keeping.blind_way_m,
-                  "With --keep-markers: but for stretches no longer than this, in metres")
+                  "With --keep-markers: except for stretches up to this length, in metres")
       ->check(CLI::Range(0.0, 1000.0))
       ->needs(markers)
       ->capture_default_str();
@@ -44,15 +44,15 @@ std::string words_of(const PoseKeepingOptions& keeping) {
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {
   command
       .add_option("--time-limit", sampling.time_limit_s,
-                  "Of sampling planners, in seconds; what it ends cannot be repeated to the byte")
+                  "Time limit of sampling planners, in seconds; a plan that it cut off is not reproducible")
       ->check(CLI::Range(1e-3, 3600.0))
       ->capture_default_str();
-  command.add_option("--iterations", sampling.max_iterations, "Of sampling planners; 0 for no limit")
+  command.add_option("--iterations", sampling.max_iterations, "Iterations of sampling planners; 0: no limit")
       ->check(CLI::Range(0, 1000000000))
       ->capture_default_str();
   command
       .add_option("--enough", sampling.enough_length_m,
-                  "Sampling planners take a path no longer than this at once, in metres")
+                  "Sampling planners stop at a path no longer than this, in metres")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
 }

@@ -7,16 +7,16 @@
 #include "app/placement/pose_keeping.hpp"
 #include "planning/grid_planner.hpp"
 
-// The options of planners that several commands share.
+// Planner options shared by several commands.
 namespace lodestar {
 
-/// What --planner may be.
+/// The values of --planner.
 std::vector<std::string> planner_names();
 
 /// Adds --max-sigma, --drift, --keep-markers and --blind-way.
 void add_pose_keeping_options(CLI::App& command, PoseKeepingOptions& keeping);
 
-/// The same options as words of a command line, each after a space; empty when none is wanted.
+/// The same options as command-line arguments, each after a space; empty when none is set.
 std::string words_of(const PoseKeepingOptions& keeping);
 
 /// Adds --time-limit, --iterations and --enough; the seed is the command's own.

@@ -31,8 +31,9 @@ ExitCode run_chosen(const std::vector<Command>& commands) {
 }  // namespace
 
 int program(int argc, char** argv) {
-  cv::setNumThreads(1);  // no hidden threads: runs side by side are ours to arrange
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we say ourselves what is wrong
+  cv::setNumThreads(1);  // no hidden threads: parallelism is arranged by in_parallel()
+  cv::utils::logging::setLogLevel(
+      cv::utils::logging::LOG_LEVEL_SILENT);  // errors are reported by this program
   CLI::App app{"Indoor navigation for mobile robots under a ceiling of infrared dot markers", "lodestar"};
   app.set_version_flag("--version", LODESTAR_VERSION);
   app.require_subcommand(1);

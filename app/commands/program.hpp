@@ -2,7 +2,7 @@
 
 namespace lodestar {
 
-/// All of the program `lodestar`: does what its arguments ask for and returns the process's exit code.
+/// The program `lodestar`: runs the subcommand of its arguments and returns the exit status.
 int program(int argc, char** argv);
 
 }  // namespace lodestar

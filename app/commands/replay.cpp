@@ -47,7 +47,7 @@ struct ReplayArguments {
   ConsoleServiceOptions console;
 };
 
-/// The lab, wherever the program is started from.
+/// The lab site, from any working directory.
 fs::path default_site() {
   const fs::path here = fs::path("sites") / "lab";
   return fs::exists(here / "site.yaml") ? here : fs::path(LODESTAR_SITES_DIR) / "lab";
@@ -89,7 +89,7 @@ std::string disturbance_flags(const Disturbances& disturbances) {
   return flags;
 }
 
-/// The command line that gives the same run, and so the same bytes.
+/// The command line that reproduces the run, byte for byte.
 std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriveOptions& options) {
   const std::string& site = arguments.site;
   std::string command =
@@ -123,7 +123,7 @@ bool succeeded(const RunSummary& run) {
   return run.arrivals == run.goals && run.contacts == 0;
 }
 
-/// That the program has used so far, of all cores.
+/// CPU time used so far, of all cores.
 double cpu_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -210,7 +210,7 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
   return succeeded(summary) && written && streamed ? done : job_failed;
 }
 
-/// In a browser too, until Ctrl-C: what it drives, and where to next.
+/// Simulates with the console in a browser, until Ctrl-C.
 ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
   check_tokens(arguments.console.access);
   const fs::path folder = output_folder(site, arguments);
@@ -250,14 +250,16 @@ ExitCode replay_command(const ReplayArguments& arguments) {
 std::vector<Command> replay_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command =
-      lodestar.add_subcommand("replay", "Drive the simulated robot through a site; exit 1 unless it arrives");
-  command->add_option("site", arguments->site, "Site folder; the lab when left out");
-  command->add_option("--seed", arguments->seed, "Of all randomness; the same seed gives the same bytes")
+      lodestar.add_subcommand("replay", "Simulate a drive through a site; exit 1 unless the robot arrives");
+  command->add_option("site", arguments->site, "Site folder; default: the lab");
+  command->add_option("--seed", arguments->seed, "Seed of all randomness; the same seed gives the same bytes")
       ->capture_default_str();
-  command->add_option("--runs", arguments->runs, "So many runs, with this seed and the following, as a table")
+  command
+      ->add_option("--runs", arguments->runs,
+                   "Number of runs, with this seed and the following ones, as a table")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--camera", arguments->camera, "wide or paper; the site's default when left out")
+  command->add_option("--camera", arguments->camera, "wide or paper; default: the site's")
       ->check(CLI::IsMember({"wide", "paper"}));
   command
       ->add_option("--planner", arguments->planner,
@@ -266,12 +268,12 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->capture_default_str();
   command
       ->add_option("--goal", arguments->goals,
-                   "X,Y[,DEG] in metres and degrees; repeat for more; the site's when left out")
+                   "X,Y[,DEG] in metres and degrees; repeat for more; default: the site's")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       ->add_option("--pictures", arguments->pictures_hz,
-                   "Camera pictures a second to keep in the run folder; 2 with --serve, else none")
+                   "Camera pictures per second to keep in the run folder; default: 2 with --serve, else none")
       ->check(CLI::Range(0.0, 100.0));
   add_pose_keeping_options(*command, arguments->pose_keeping);
   const auto share = CLI::Range(0.0, 1.0);
@@ -279,27 +281,28 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->add_option("--lose-frames", arguments->disturbances.lost_frames, "Share of frames that never arrive")
       ->check(share);
   command
-      ->add_option("--unequal-wheels", arguments->disturbances.unequal_wheels,
-                   "By this share the left wheel rolls farther than the right one for the same reading")
+      ->add_option(
+          "--unequal-wheels", arguments->disturbances.unequal_wheels,
+          "Share by which the left wheel rolls farther than the right one for the same encoder reading")
       ->check(CLI::Range(-0.2, 0.2));
   command
-      ->add_option(
-          "--remove-markers", arguments->disturbances.removed_markers,
-          "Share of markers that no longer hang, drawn from the seed; those nearest to start and goals stay")
+      ->add_option("--remove-markers", arguments->disturbances.removed_markers,
+                   "Share of markers missing from the ceiling, drawn from the seed; those nearest to start "
+                   "and goals stay")
       ->check(share);
   command->add_flag("--plain-ceiling", arguments->disturbances.plain_ceiling,
                     "Nothing on the ceiling but markers: no joints, stains or lamps");
   command->add_option("--faults", arguments->faults,
-                      "What goes wrong: a file, or a name of the library as wheel-slip");
-  command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
-  CLI::Option* serve = command->add_flag("--serve", arguments->serve,
-                                         "Show it in a browser, and wait there for more goals until Ctrl-C");
+                      "Faults to inject: a file, or a name in the fault library such as wheel-slip");
+  command->add_flag("--realtime", arguments->realtime, "Simulate no faster than real time");
+  CLI::Option* serve = command->add_flag(
+      "--serve", arguments->serve, "Serve the console in a browser, and wait for goals from it until Ctrl-C");
   serve->excludes(command->get_option("--runs"));
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_flag("--json", arguments->json, "Results as JSON");
-  command->add_option("-o,--output", arguments->output, "Run folder; runs/SITE-SEED when left out");
+  command->add_option("-o,--output", arguments->output, "Run folder; default: runs/SITE-SEED");
   return {{command, [arguments] { return replay_command(*arguments); }}};
 }
 

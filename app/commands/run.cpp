@@ -74,7 +74,7 @@ void print_ends(const RunRecord& record) {
   }
 }
 
-/// The console beside a robot that drives, and where its drives are kept.
+/// The console of a driving robot, and the run folders of its drives.
 class ServedRun {
  public:
   ServedRun(const Site& site, const RunArguments& arguments, RunOptions& options)
@@ -111,14 +111,14 @@ class ServedRun {
   ConsoleService service_;
   KeptRuns runs_;
   bool all_arrived_ = true;
-  std::optional<ConsoleThread> thread_;  // ends before what it serves
+  std::optional<ConsoleThread> thread_;  // destroyed before what it serves
 };
 
 void say(const std::string& words) {
   fmt::print(stderr, "{}\n", words);
 }
 
-/// Where the disk does not take what a drive leaves, one word is enough; the drive goes on.
+/// Warns once when the run cannot be recorded; the drive goes on.
 class DiskWarning {
  public:
   void operator()(const std::string& words) {
@@ -129,14 +129,14 @@ class DiskWarning {
   std::atomic<bool> said_ = false;
 };
 
-/// The folder that this drive leaves.
+/// The run folder of this drive.
 fs::path run_folder(const RunArguments& arguments, const Site& site) {
   if (!arguments.output.empty()) return arguments.output;
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   return fs::path("runs") / fmt::format("{}-{:%Y%m%dT%H%M%SZ}", site.name, now);
 }
 
-/// What a drive needs besides its options.
+/// Everything a drive needs besides its options.
 struct DriveParts {
   const Site& site;
   CanBus& bus;
@@ -144,8 +144,7 @@ struct DriveParts {
   Camera& camera;
 };
 
-/// run.mcap of a drive, in a folder made for it: what the disk does not take is known before the drive, which
-/// goes on without.
+/// run.mcap of a drive. When it cannot be created, warns before the drive, which goes on without it.
 class RunViewersFile {
  public:
   RunViewersFile(const fs::path& folder, const Site& site, RunOptions& options, DiskWarning& warn)
@@ -187,7 +186,7 @@ ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> proto
   return record.arrived() ? done : job_failed;
 }
 
-/// With a console beside it, until it is told to stop.
+/// Drives with the console, until it is told to stop.
 ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
                       const RunArguments& arguments) {
   ServedRun served(parts.site, arguments, options);
@@ -224,28 +223,28 @@ ExitCode run_command(const RunArguments& arguments) {
 
 std::vector<Command> run_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command =
-      lodestar.add_subcommand("run",
-                              "Drive the robot of a site to one goal after the other; exit 1 unless it "
-                              "arrives. After a fault it waits "
-                              "for the line 'resume' (or 'stop') on standard input, if that is open");
+  CLI::App* command = lodestar.add_subcommand(
+      "run",
+      "Drive a site's robot to its goals in turn; exit 1 unless it arrives. After a fault it waits for the "
+      "line 'resume' (or 'stop') on standard input, if that is open");
   command->add_option("site", arguments->site, "Site folder")->required();
   command->add_option("--goal", arguments->goals, "X,Y[,DEG] in metres and degrees; repeat for more")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--serve", arguments->serve,
-                    "Show it in a browser, and wait there for goals until it is stopped");
+                    "Serve the console in a browser, and wait for goals from it until stopped");
   command->add_option("--runs", arguments->runs, "With --serve: folder for run folders, unless -o names one")
       ->capture_default_str();
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
-  command->add_option("--can", arguments->interface, "CAN interface; the site's when left out");
-  command->add_option("--seed", arguments->seed, "Of a simulated camera")->capture_default_str();
+  command->add_option("--can", arguments->interface, "CAN interface; default: the site's");
+  command->add_option("--seed", arguments->seed, "Seed of a simulated camera")->capture_default_str();
   command
-      ->add_option("--pictures", arguments->pictures_hz, "Camera pictures a second to keep in the run folder")
+      ->add_option("--pictures", arguments->pictures_hz,
+                   "Camera pictures per second to keep in the run folder")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Run folder; runs/SITE-TIME when left out");
+  command->add_option("-o,--output", arguments->output, "Run folder; default: runs/SITE-TIME");
   return {{command, [arguments] { return run_command(*arguments); }}};
 }
 

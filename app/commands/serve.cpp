@@ -21,11 +21,11 @@ ExitCode serve(const ConsoleServiceOptions& options) {
 
 std::vector<Command> serve_commands(CLI::App& lodestar) {
   const auto options = std::make_shared<ConsoleServiceOptions>();
-  CLI::App* command = lodestar.add_subcommand(
-      "serve",
-      "The console in a browser: edit markers on the map, see what they cover, print them, scrub runs");
+  CLI::App* command = lodestar.add_subcommand("serve",
+                                              "Serve the console in a browser: edit markers on the map, see "
+                                              "their coverage, print them, play back runs");
   command->add_option("site", options->site, "Site folder")->required();
-  command->add_option("--runs", options->runs, "Folder with run folders, as replay -o leaves them")
+  command->add_option("--runs", options->runs, "Folder with run folders, as written by replay -o")
       ->capture_default_str();
   add_console_options(*command, options->access);
   return {{command, [options] { return serve(*options); }}};

@@ -36,13 +36,13 @@ struct SoakResult {
   TimeHistogram period;     ///< from one step to the next, in real time only
 };
 
-/// A server that answers clients from a thread of its own as long as it lives.
+/// An HTTP server on a thread of its own, for the lifetime of this object.
 class BackgroundConsole {
  public:
   BackgroundConsole(const fs::path& site, const fs::path& runs, unsigned short port)
-      : console_(site, runs),
+      : documents_(site, runs),
         server_({.access = {.bind = "127.0.0.1", .port = port}},
-                [this](const HttpRequest& request) { return console_.answer(request); }),
+                [this](const HttpRequest& request) { return documents_.answer(request); }),
         thread_([this] {
           while (!stopping_) server_.run_for(std::chrono::milliseconds(100));
         }) {}
@@ -56,7 +56,7 @@ class BackgroundConsole {
   [[nodiscard]] unsigned short port() const { return server_.port(); }
 
  private:
-  DocumentApi console_;
+  DocumentApi documents_;
   HttpServer server_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
@@ -129,7 +129,7 @@ ExitCode soak(const SoakArguments& arguments) {
   }
   fmt::print("{}\n", as_json(result, watch.seconds() / seconds_per_minute).dump(2));
   constexpr double most_growth_percent = 1.0;
-  constexpr int descriptors_of_clients = 32;  // those that are connected at the moment
+  constexpr int descriptors_of_clients = 32;  // connected clients
   const bool is_fine = result.failed == 0 && growth_percent(result) < most_growth_percent &&
                        result.last.descriptors <= result.warm.descriptors + descriptors_of_clients;
   return is_fine ? done : job_failed;
@@ -139,14 +139,15 @@ ExitCode soak(const SoakArguments& arguments) {
 
 std::vector<Command> soak_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<SoakArguments>();
-  CLI::App* command = lodestar.add_subcommand(
-      "soak", "Drive for hours beside the console; exit 1 when memory or descriptors grow, or a drive fails");
-  command->add_option("site", arguments->site, "Site folder; the lab when left out");
-  command->add_option("--minutes", arguments->minutes, "How long")
+  CLI::App* command = lodestar.add_subcommand("soak",
+                                              "Simulate drives for hours with the console served; exit 1 "
+                                              "when memory or descriptors grow, or a drive fails");
+  command->add_option("site", arguments->site, "Site folder; default: the lab");
+  command->add_option("--minutes", arguments->minutes, "Duration in minutes")
       ->check(CLI::Range(0.01, 1e6))
       ->capture_default_str();
-  command->add_flag("--realtime", arguments->realtime, "No faster than the world's own time");
-  command->add_option("--port", arguments->port, "Of the console; 0 takes any free one")
+  command->add_flag("--realtime", arguments->realtime, "Simulate no faster than real time");
+  command->add_option("--port", arguments->port, "Port of the console; 0: any free one")
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Folder of soak.json")->capture_default_str();
   return {{command, [arguments] { return soak(*arguments); }}};

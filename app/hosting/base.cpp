@@ -103,8 +103,7 @@ std::vector<Command> base_commands(CLI::App& lodestar) {
   CLI::App* command = lodestar.add_subcommand(
       "base",
       "The simulated base on a CAN interface in real time, for any client; prints its true pose at the end");
-  command->add_option("site", arguments->site,
-                      "Site folder to drive in; an endless empty floor when left out");
+  command->add_option("site", arguments->site, "Site folder to drive in; default: an unbounded empty floor");
   command->add_option("--can", arguments->interface, "CAN interface");
   command->add_option("--protocol", arguments->protocol, "agilex (V2) or odrive (CANSimple, nodes 0 and 1)")
       ->check(CLI::IsMember({"agilex", "odrive"}))
