@@ -9,7 +9,7 @@
 namespace lodestar {
 namespace {
 
-/// The library counts a pixel's centre as half a pixel.
+/// In the library, pixel centres are at half-integer coordinates.
 constexpr double half_pixel = 0.5;
 
 struct Settings {
@@ -34,7 +34,7 @@ class AprilTag final : public SquareTags {
     void operator()(apriltag_detector_t* detector) const { apriltag_detector_destroy(detector); }
     void operator()(image_u8_t* image) const { image_u8_destroy(image); }
     void operator()(zarray_t* detections) const { apriltag_detections_destroy(detections); }
-    /// One block of memory; Debian's library keeps its own matd_destroy to itself.
+    /// A single allocation; Debian's library does not export matd_destroy.
     void operator()(matd_t* matrix) const { std::free(matrix); }
   };
 
@@ -48,10 +48,10 @@ class AprilTag final : public SquareTags {
   }
 
   std::vector<TagSighting> find(const cv::Mat& gray) override {
-    // With a sigma and without decimation the library blurs the very image that it is given.
-    const bool is_spoilt = detector_->quad_sigma != 0.0F && detector_->quad_decimate <= 1.0F;
-    if (is_spoilt) gray.copyTo(copy_);
-    const cv::Mat& pixels = is_spoilt ? copy_ : gray;
+    // With a sigma and without decimation the library blurs its input image in place.
+    const bool is_modified = detector_->quad_sigma != 0.0F && detector_->quad_decimate <= 1.0F;
+    if (is_modified) gray.copyTo(copy_);
+    const cv::Mat& pixels = is_modified ? copy_ : gray;
     image_u8_t image{pixels.cols, pixels.rows, static_cast<int>(pixels.step), pixels.data};
     found_.reset(apriltag_detector_detect(detector_.get(), &image));
     std::vector<TagSighting> tags;
@@ -60,7 +60,7 @@ class AprilTag final : public SquareTags {
       zarray_get(found_.get(), i, static_cast<void*>(&detection));
       TagSighting& tag =
           tags.emplace_back(TagSighting{.id = detection->id, .index = static_cast<std::size_t>(i)});
-      // Theirs begin at the bottom left and go on to the bottom right.
+      // AprilTag's corners start at the bottom left and go on to the bottom right.
       for (std::size_t k = 0; k < 4; ++k) {
         const auto& corner = detection->p[3 - k];
         tag.corners_px[k] = Vec2(corner[0] - half_pixel, corner[1] - half_pixel);
@@ -89,7 +89,7 @@ class AprilTag final : public SquareTags {
       for (int j = 0; j < 3; ++j) camera_from_tag.linear()(i, j) = MATD_EL(rotation, i, j);
       camera_from_tag.translation()[i] = MATD_EL(translation, i, 0);
     }
-    // Their y points down on the printed face, and z into it.
+    // AprilTag's y points down on the printed face, and z into it.
     camera_from_tag.linear() = camera_from_tag.linear() * Vec3(1.0, -1.0, -1.0).asDiagonal();
     return camera_from_tag;
   }

@@ -84,7 +84,7 @@ class Aruco final : public SquareTags {
 
   cv::Ptr<aruco::Dictionary> dictionary_;
   cv::Ptr<aruco::DetectorParameters> parameters_;
-  /// AprilTag's lines keep AprilTag's pixels, whose centres count as a half.
+  /// Corners refined by AprilTag's lines keep its convention of half-integer pixel centres.
   double offset_px_;
 };
 

@@ -15,7 +15,7 @@ namespace lodestar {
 namespace {
 
 constexpr int frames_at_once = 500;
-constexpr int frames_to_learn = 1000;  ///< before those that count: the light's noise, the variance factor
+constexpr int frames_to_learn = 1000;  ///< run-in: image noise and variance factor are estimated
 constexpr std::uint64_t frames_for_consistency = 71;
 
 enum class TiltKnown { exactly, about, not_at_all };
@@ -27,7 +27,7 @@ struct Conditions {
   TiltKnown tilt = TiltKnown::exactly;
 };
 
-/// A ceiling without texture: the covariance speaks of noise.
+/// All on a ceiling without texture: the covariance models image noise only.
 const std::vector<Conditions>& conditions() {
   static const std::vector<Conditions> all{
       {"above the camera, tilt known", {.texture_gray = 0.0}},
@@ -45,8 +45,8 @@ const std::vector<Conditions>& conditions() {
   return all;
 }
 
-/// As the prior has it: turned by some small angle about the map's horizontal axes.
-Eigen::Matrix3d doubted(const Eigen::Matrix3d& map_from_camera, Random& random) {
+/// Perturbed as by the prior: rotated by a random small angle about the map's horizontal axes.
+Eigen::Matrix3d perturbed(const Eigen::Matrix3d& map_from_camera, Random& random) {
   const Vec3 turn(tilt_sigma_rad * random.normal(), tilt_sigma_rad * random.normal(), 0.0);
   return Eigen::AngleAxisd(turn.norm(), turn.normalized()) * map_from_camera;
 }
@@ -84,7 +84,7 @@ NeesSum sum_of_frames(const Conditions& conditions, int frames, Random random) {
   for (int i = -frames_to_learn; i < frames; ++i) {
     BenchView view = some_view(conditions.scene, registry, random);
     if (conditions.tilt == TiltKnown::about)
-      view.map_from_camera.linear() = doubted(view.map_from_camera.linear(), random);
+      view.map_from_camera.linear() = perturbed(view.map_from_camera.linear(), random);
     const cv::Mat gray =
         former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(i));
     const std::span<const DetectedMarker> markers = detector.detect(gray);

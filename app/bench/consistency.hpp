@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-// Whether the errors of our poses are as large as their covariances say.
+// Consistency of our pose fixes: whether their errors match their covariances.
 namespace lodestar {
 
-/// Normalized squared errors e^T P^-1 e of the poses from many rendered frames. Where P is true their mean is
-/// the number of degrees of freedom, and lies within these bounds in 95 of 100 campaigns (chi-square).
+/// Normalized squared errors e^T P^-1 e of the poses from many rendered frames. For a correct P their mean is
+/// the number of degrees of freedom, within these bounds with 95 % probability (chi-square).
 struct Consistency {
   std::string conditions;
   int frames = 0;
@@ -21,12 +21,12 @@ struct Consistency {
   [[nodiscard]] double half_band_per_degree() const;  ///< about 1
 };
 
-/// One for each of several conditions, of so many frames each, in all cores. Equal seeds give equal results.
-/// `done` hears of frames done, from any thread.
+/// One result per condition, from `frames` frames each, on all cores. Equal seeds give equal results. `done`
+/// is called with the number of frames done, from any thread.
 std::vector<Consistency> measure_consistency(int frames, std::uint64_t seed,
                                              const std::function<void(int frames)>& done);
 
-/// How many conditions there are.
+/// Number of conditions.
 std::size_t consistency_conditions();
 
 }  // namespace lodestar

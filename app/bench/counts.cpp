@@ -11,7 +11,7 @@ namespace {
 
 constexpr int frames_per_scene = 25;
 
-/// Does the whole marker, all 16 cells, lie in the picture and clear of all covers?
+/// Is the whole marker, all 16 cells, inside the image and not occluded?
 bool is_in_full_view(const TrueMarker& marker, double pitch_px, const BenchView& view,
                      const CameraModel& camera) {
   const double reach_px = 2.5 * pitch_px;

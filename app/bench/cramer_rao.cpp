@@ -13,7 +13,7 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::array upright_motions{0, 1, 2, 5};  // position and yaw
 
-/// Metres and radians are of one size here, so that no scaling is needed.
+/// Metres and radians are of similar magnitude here, so no scaling is needed.
 template <int N>
 std::optional<Eigen::Matrix<double, N, N>> inverse_of(const Eigen::Matrix<double, N, N>& information) {
   const Eigen::LDLT<Eigen::Matrix<double, N, N>> factors(information);

@@ -6,11 +6,11 @@
 
 #include "maps/camera_model.hpp"
 
-// How well a pose can be told from dots at all: the bound of Cramér and Rao, by which estimates are judged.
+// The Cramér-Rao lower bound of a pose estimated from dots, as the reference for estimators.
 namespace lodestar {
 
-/// A dot whose place on the ceiling is known, and what a frame tells of its centre: Fisher's information,
-/// which is 1 / sigma^2 for a centre with noise sigma in each coordinate.
+/// A dot at a known point, and the Fisher information of a frame on its centre: 1 / sigma^2 for noise sigma
+/// in each coordinate.
 struct InformativeDot {
   Vec3 point_in_map = Vec3::Zero();
   Eigen::Matrix2d information_per_px2 = Eigen::Matrix2d::Zero();
@@ -28,8 +28,8 @@ struct PoseBound {
 
 enum class Tilt { known, free };
 
-/// The inverse of the information that the dots have on the pose, each through the derivative of its
-/// projection. Nothing when they do not determine the pose, or when one lies behind the camera.
+/// The inverse of the dots' Fisher information on the pose, by the Jacobian of each projection. Nothing when
+/// they do not determine the pose, or when one lies behind the camera.
 std::optional<PoseBound> cramer_rao_bound(const Eigen::Isometry3d& map_from_camera,
                                           std::span<const InformativeDot> dots, const CameraModel& camera,
                                           Tilt tilt);

@@ -6,7 +6,7 @@
 namespace lodestar {
 namespace {
 
-/// A marker's direction dot, as the marker frame has it.
+/// One of the direction dots O, X and Y, in the marker frame.
 Vec3 some_direction_dot(Random& random) {
   constexpr std::array cells{cell_of_o, cell_of_x, cell_of_y};
   const Vec2 place = cell_in_marker(cells.at(random.below(cells.size())));
@@ -17,7 +17,7 @@ double some_angle(Random& random) {
   return random.uniform(-std::numbers::pi, std::numbers::pi);
 }
 
-/// Markers on a grid, each with some ID that no other has, shifted and turned anyhow.
+/// Markers on a grid with random distinct IDs, shifts and yaws.
 MarkerRegistry some_markers(int aside, double spacing_m, double ceiling_m, Random& random) {
   MarkerRegistry registry;
   constexpr int id_step = 797;  // coprime to 4096: no ID comes twice
@@ -34,7 +34,7 @@ MarkerRegistry some_markers(int aside, double spacing_m, double ceiling_m, Rando
   return registry;
 }
 
-/// Light that falls in and makes a part of the ceiling as bright as a dot, or brighter.
+/// A patch of sunlight on the ceiling, as bright as a dot or brighter.
 PrintedSquare some_patch_of_sun(const HardScene& scene, Random& random) {
   PrintedSquare patch{
       .side_m = random.uniform(0.05, 0.8), .modules = 1, .gray = {random.uniform(120.0, 400.0)}};
@@ -46,7 +46,7 @@ PrintedSquare some_patch_of_sun(const HardScene& scene, Random& random) {
   return patch;
 }
 
-/// A sheet of this side about a place of a marker.
+/// A sheet with this side length, centred at a point of a marker.
 PrintedSquare sheet_at(const Eigen::Isometry3d& map_from_marker, const Vec3& place, double side_m,
                        Random& random) {
   PrintedSquare sheet{.side_m = side_m, .modules = 1, .gray = {random.uniform(0.0, 60.0)}};
@@ -66,8 +66,8 @@ Eigen::Isometry3d camera_that_sees(const Vec3& point, const Vec2& at_px, const E
   return map_from_camera;
 }
 
-/// Hidden wholly or in part by a sheet, or cut by the picture's border, which runs within a dot's radius of
-/// its middle.
+/// A direction dot occluded wholly or in part by a sheet, or cut by the image border, within 1.5 dot radii of
+/// its centre.
 BenchView view_without_a_direction_dot(const HardScene& scene, const Eigen::Matrix3d& rotation,
                                        Random& random) {
   const std::size_t marker = random.below(scene.registry.markers.size());

@@ -5,13 +5,13 @@
 
 namespace lodestar {
 
-/// A ceiling in some light, from which a batch of hard frames is taken.
+/// A ceiling and its light, for a batch of hard frames.
 struct HardScene {
   MarkerRegistry registry;
   SimulatedCameraOptions light;
   std::vector<PrintedSquare> sun;
   double ceiling_m = 2.6;  ///< above the camera
-  double reach_m = 1.5;    ///< views are taken within so much of the origin, along x and y
+  double reach_m = 1.5;    ///< the camera looks within this distance of the origin, along x and y
 };
 
 HardScene some_hard_scene(HardFrames kind, Random& random);

@@ -17,7 +17,7 @@ namespace {
 
 enum Purpose : std::uint64_t { markers_of_scene = 61, views_of_scene, ceiling_of_scene };
 
-/// Sums of squares that become root mean squares.
+/// Accumulates squares for root mean squares.
 class SpreadSum {
  public:
   void add(double lateral_m, double height_m, double yaw_rad) {
@@ -40,8 +40,7 @@ class SpreadSum {
 
 constexpr int runs_of_a_frame = 5;
 
-/// The least of a few runs: neither the first, which finds nothing in the cache, nor one that was
-/// interrupted.
+/// The minimum of several runs, to exclude cold caches and interrupted runs.
 double microseconds_of_threshold(const cv::Mat& gray, cv::Mat& binary) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < runs_of_a_frame; ++i) {
@@ -51,7 +50,7 @@ double microseconds_of_threshold(const cv::Mat& gray, cv::Mat& binary) {
   return least;
 }
 
-/// The same of a method that is quick; what it finds is what it found at first.
+/// The same for quick methods; the result is that of the first run.
 MethodResult run_method(BenchMethod& method, const cv::Mat& gray, const MarkerRegistry& registry,
                         const CameraModel& camera, const Eigen::Matrix3d& tilt) {
   MethodResult result = method.run(gray, registry, camera, tilt);

@@ -6,8 +6,8 @@
 #include "app/bench/method.hpp"
 #include "app/bench/scene.hpp"
 
-// Localization measured on rendered frames: how often markers are read, how fast, and how near the poses
-// come to the bound of Cramér and Rao.
+// Localization measured on rendered frames: detection rate, time, and pose errors against the Cramér-Rao
+// bound.
 namespace lodestar {
 
 /// Root mean squares over the frames that gave a pose.
@@ -20,14 +20,14 @@ struct PoseSpread {
 
 /// One method at one scene.
 struct ScenePoint {
-  int markers = 0;  ///< that were in view, over all frames
-  int read = 0;     ///< of these, with their right ID at their place
-  int wrong = 0;    ///< IDs that were read where no such marker is
+  int markers = 0;  ///< in view, over all frames
+  int read = 0;     ///< of these, with the right ID at the right position
+  int wrong = 0;    ///< IDs read where no such marker is
   double median_us = 0.0;
-  double threshold_us = 0.0;  ///< median of cv::threshold on the same frames, turn and turn about
+  double threshold_us = 0.0;  ///< median of cv::threshold on the same frames, alternating with the method
   PoseSpread upright;
   PoseSpread free;
-  /// What nobody's estimate from our marker's dots could do better on the frames that gave a pose.
+  /// Cramér-Rao bounds of an estimate from our marker's dots, on the frames that gave a pose.
   PoseSpread upright_bound;
   PoseSpread free_bound;
 
@@ -48,14 +48,14 @@ struct Sweep {
 /// "noise", "blur", "height", "tilt", "light", "occlusion".
 const std::vector<std::string>& sweep_names();
 
-/// One sweep over all methods. `done` hears of every point.
+/// One sweep over all methods. `done` is called after every point.
 Sweep run_sweep(const std::string& name, const std::vector<MethodChoice>& methods, int trials,
                 std::uint64_t seed, const std::function<void()>& done);
 
-/// How many points a sweep has for each method.
+/// Number of points of a sweep for each method.
 std::size_t points_of(const std::string& name);
 
-/// Settings of one peer as they were tried.
+/// One setting of a peer, with its result.
 struct TriedSettings {
   MethodChoice choice;
   ScenePoint point;
@@ -64,7 +64,7 @@ struct TriedSettings {
 std::vector<TriedSettings> try_settings(const BenchScene& scene, const std::vector<MethodChoice>& choices,
                                         int trials, std::uint64_t seed);
 
-/// Those that read most; among equals, with the least lateral error of an upright pose.
+/// The setting with most markers read; among equals, with the least lateral error of the upright pose.
 const TriedSettings& best_of(const std::vector<TriedSettings>& tried);
 
 }  // namespace lodestar

@@ -27,7 +27,7 @@ Table targets_table(const BenchLocalizeResult& result) {
   return table;
 }
 
-/// Ours reaches for the bound, which is that of our marker's dots; for the others it is a yardstick.
+/// The bound is that of our marker's dots; for the peers it is a reference only.
 std::vector<std::string> point_row(const std::string& name, const ScenePoint& point) {
   const PoseSpread& rms = point.upright;
   const PoseSpread& bound = point.upright_bound;
@@ -60,7 +60,7 @@ Table scene_table(const BenchLocalizeResult& result, const std::string& title,
 }
 
 Table tried_table(const BenchLocalizeResult& result) {
-  Table table = points_table("Settings of the peers, 0.5 m aside: the best of each is kept");
+  Table table = points_table("Settings of the peers, 0.5 m off axis: the best of each is kept");
   for (const TriedSettings& tried : result.tried)
     table.rows.push_back(
         point_row(fmt::format("{}: {}", tried.choice.name, tried.choice.settings), tried.point));
@@ -83,7 +83,7 @@ Table counts_table(const BenchLocalizeResult& result) {
 }
 
 Table consistency_table(const BenchLocalizeResult& result) {
-  Table table{"Errors beside the stated covariance: normalized squared error a degree of freedom",
+  Table table{"Errors against the stated covariance: normalized squared error per degree of freedom",
               {"", "poses", "mean", "95 % band", ""},
               {}};
   for (const Consistency& one : result.consistency) {
@@ -131,7 +131,7 @@ std::vector<Table> tables_of(const BenchLocalizeResult& result) {
   return tables;
 }
 
-/// One curve a method, and the bound.
+/// One curve per method, and the bound.
 using ValueOf = double (*)(const ScenePoint& point);
 
 std::string sweep_chart(const BenchLocalizeResult& result, const Sweep& sweep, const std::string& title,

@@ -15,17 +15,17 @@ constexpr double mm_per_m = 1000.0;
 constexpr double off_axis_m = 0.7;
 constexpr double promised_ratio = 1.15;
 
-/// The bound knows of noise only: so does this scene.
+/// The bound models image noise only, so this scene has no texture.
 BenchScene plain_scene() {
   return {.texture_gray = 0.0};
 }
 
-/// Ten thousand tell the mean to 1.4 per cent; more would find fault with noise that is nearly normal.
+/// 10 000 frames determine the mean to 1.4 %; more would expose that the noise is only approximately normal.
 int frames_for_consistency(const BenchLocalizeOptions& options) {
   return std::min(options.frames, 10'000);
 }
 
-/// Work done so far, weighed by what a frame takes: the single-threaded points, then the counts.
+/// Progress, weighted by the cost of a frame: single-threaded points first, then the counts.
 class Work {
  public:
   Work(const BenchLocalizeOptions& options, const std::function<void(double)>& progress)
@@ -48,7 +48,7 @@ class Work {
 
 void choose_methods(BenchLocalizeResult& result, Work& work) {
   const BenchLocalizeOptions& options = result.options;
-  // Aside of the axis, so that errors of height and yaw count too.
+  // Off axis, so that height and yaw errors have an effect too.
   const BenchScene scene{.off_axis_m = 0.5};
   result.methods.push_back(lodestar_method());
   for (const std::string& peer : options.peers) {
@@ -72,7 +72,7 @@ void measure_points(BenchLocalizeResult& result, Work& work) {
   BenchScene three = plain_scene();
   three.markers = 3;
   for (const MethodChoice& method : result.methods) {
-    // Ours is fast, and judged by a few per cent: that takes more frames.
+    // Ours is fast, and compared to within a few per cent, which takes more frames.
     const int frames = &method == &result.methods.front() ? 10 * trials : trials;
     result.centred.push_back(measure(plain_scene(), method, frames, seed));
     result.off_axis.push_back(measure(aside, method, frames, seed));
@@ -93,7 +93,7 @@ void count_hard_frames(BenchLocalizeResult& result, Work& work) {
   }
 }
 
-/// Table 1's experiment, with so many frames; so many at once show every ID.
+/// Table 1's experiment with `frames` frames, in batches that show every ID.
 IdentificationResult identify(int frames, std::uint64_t seed) {
   constexpr int frames_at_once = 500;
   const int parts = (frames + frames_at_once - 1) / frames_at_once;

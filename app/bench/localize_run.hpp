@@ -4,23 +4,23 @@
 #include "app/bench/counts.hpp"
 #include "app/bench/localize.hpp"
 
-// All of `bench localize`: the settings tried, the targets, the sweeps, the counts.
+// `bench localize` as a whole: settings tried, targets, sweeps and counts.
 namespace lodestar {
 
 struct BenchLocalizeOptions {
-  int trials = 20;   ///< frames at each point; ten times as many for ours where it is judged
+  int trials = 20;   ///< frames at each point; ten times as many for ours at the points with targets
   int frames = 200;  ///< of each kind of hard frames
   std::uint64_t seed = 1;
   std::vector<std::string> peers;   ///< "apriltag", "aruco"
   std::vector<std::string> sweeps;  ///< of sweep_names()
 };
 
-/// A figure that the project has promised to reach.
+/// A figure with the limit that the project commits to.
 struct Target {
   std::string name;
   double value = 0.0;
   double limit = 0.0;
-  bool at_least = false;  ///< the limit is the least value, not the greatest
+  bool at_least = false;  ///< the limit is a minimum, not a maximum
   std::string unit;
   [[nodiscard]] bool reached() const { return at_least ? value >= limit : value <= limit; }
 };
@@ -46,7 +46,7 @@ struct BenchLocalizeResult {
   std::vector<Sweep> sweeps;
 };
 
-/// `progress` hears the share that is done, from any thread.
+/// `progress` is called with the completed share, from any thread.
 BenchLocalizeResult bench_localize(const BenchLocalizeOptions& options,
                                    const std::function<void(double share)>& progress);
 

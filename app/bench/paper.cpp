@@ -38,7 +38,7 @@ SimulatedCameraOptions varied_light(Random& random) {
   return light;
 }
 
-constexpr int frames_of_a_ceiling = 5;  // the ceiling's texture takes far longer to make than a frame
+constexpr int frames_of_a_ceiling = 5;  // generating the ceiling's texture takes far longer than a frame
 
 /// The IDs of Table 1's experiment.
 std::vector<int> different_ids() {
@@ -49,7 +49,7 @@ std::vector<int> different_ids() {
   return ids;
 }
 
-/// The marker to be read near the place that the camera looks at, and up to two others farther off.
+/// The marker to be read, near the point that the camera looks at, and up to two others farther off.
 MarkerRegistry some_markers(std::span<const int> ids, std::size_t which, Random& random) {
   MarkerRegistry registry = single_marker(ids[which]);
   const Vec3 center(1.5 * marker_pitch_m, -1.5 * marker_pitch_m, 0.0);
@@ -66,8 +66,8 @@ MarkerRegistry some_markers(std::span<const int> ids, std::size_t which, Random&
   return registry;
 }
 
-/// A camera 1.5 to 2.6 m below the ceiling, turned anyhow and tilted by some degrees, that looks at the
-/// marker.
+/// A camera 1.5 to 2.6 m below the ceiling, at any yaw and tilted by up to 6 degrees about each axis, that
+/// looks at the marker.
 Eigen::Isometry3d some_view(const MarkerRegistry& registry, Random& random) {
   constexpr double most_tilt = radians(6.0);
   const double distance = random.uniform(1.5, ceiling_m);

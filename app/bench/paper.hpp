@@ -5,7 +5,7 @@
 
 #include "localization/pose/pose_fix.hpp"
 
-// The paper's three experiments, done again with rendered frames of the paper's camera.
+// The paper's three experiments, repeated with rendered frames of the paper's camera.
 namespace lodestar {
 
 struct BenchPaperOptions {
@@ -21,7 +21,7 @@ struct BenchPaperOptions {
 struct IdentificationResult {
   int trials = 0;
   int correct = 0;  ///< the optimal marker was found and its ID was right
-  int wrong = 0;    ///< an ID was read that does not hang there
+  int wrong = 0;    ///< an ID was read that is not on the ceiling
   double mean_ms = 0.0;
 };
 

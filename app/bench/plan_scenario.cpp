@@ -25,8 +25,7 @@ std::vector<ScenarioAnswer> answer_scenario(const OccupancyMap& map,
 
   std::vector<ScenarioAnswer> answers;
   for (const MovingAiQuery& query : queries) answers.push_back({.query = query});
-  // One pass over all queries after the other: the same query again at once would find everything in the
-  // caches.
+  // Passes over all queries in turn: repeating the same query at once would run on warm caches.
   std::vector<std::vector<double>> times(queries.size());
   for (int pass = 0; pass < options.repeats; ++pass) {
     for (std::size_t i = 0; i < answers.size(); ++i) {

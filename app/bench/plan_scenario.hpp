@@ -10,7 +10,7 @@
 namespace lodestar {
 
 struct ScenarioOptions {
-  int repeats = 5;  ///< passes over all queries; each query's median time counts
+  int repeats = 5;  ///< passes over all queries; the median time of each query is reported
 };
 
 struct ScenarioAnswer {
@@ -20,7 +20,7 @@ struct ScenarioAnswer {
   double astar_microseconds = 0.0;  ///< of a plain A* with a binary heap for the same query, once
   std::size_t expanded = 0;
 
-  /// As long as the file says, to 1e-3 cells or to what it prints.
+  /// Length equal to the file's, to 1e-3 cells or to the file's rounding.
   [[nodiscard]] bool optimal() const;
 };
 

@@ -24,7 +24,7 @@ struct Answer {
   std::optional<Path> path;
 };
 
-/// Any place of a random cell, not only its centre.
+/// A uniformly random point of the map, not only cell centres.
 Vec2 random_place(const OccupancyMap& map, Random& random) {
   const Vec2 in_grid(random.uniform(0.0, map.columns), random.uniform(0.0, map.rows));
   return map.map_from_grid * Vec2(in_grid * map.resolution_m);
@@ -56,7 +56,7 @@ Answer answer(const GridPlanner& planner, const Query& query) {
   return answer;
 }
 
-/// All that is measured of one planner; medians come at the end.
+/// All measurements of one planner, before medians are taken.
 struct Collected {
   std::vector<double> microseconds;
   std::vector<double> length_ratios;

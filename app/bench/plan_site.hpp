@@ -7,7 +7,7 @@
 #include "app/site/site.hpp"
 #include "planning/grid_planner.hpp"
 
-// All planners on the same random queries over a site's map, with its robot.
+// All planners on the same random queries on a site's map, with its robot.
 namespace lodestar {
 
 struct SiteBenchOptions {
@@ -35,7 +35,8 @@ struct SiteBenchResult {
   std::vector<PlannerResult> planners;
 };
 
-/// Start and goal are random clear places that can reach each other. Planners take turns at every query.
+/// Start and goal are random clear points in the same connected region. All planners run on each query in
+/// turn.
 SiteBenchResult bench_site(const Site& site, const SiteBenchOptions& options);
 
 }  // namespace lodestar

@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
-// Is a stated probability to be believed? (Reliability diagram; Murphy and Winkler 1977.)
+// Calibration of stated probabilities (reliability diagram; Murphy and Winkler 1977).
 namespace lodestar {
 
-/// What was stated about one reading, and what came of it.
+/// The stated probability of one reading, and its outcome.
 struct StatedOutcome {
   double probability = 0.0;  ///< stated: that the reading is right
   bool right = false;
@@ -20,11 +20,11 @@ struct ReliabilityBin {
   double share_right = 0.0;
 };
 
-/// Readings by what was stated. The bins become narrower towards 1, where nearly all readings are and where
-/// it matters: 0.5, 0.9, 0.99, 0.999. Bins without readings are left out.
+/// Readings binned by stated probability. The bins become narrower towards 1, where nearly all readings are:
+/// 0.5, 0.9, 0.99, 0.999. Empty bins are omitted.
 std::vector<ReliabilityBin> reliability(std::span<const StatedOutcome> outcomes);
 
-/// Mean squared difference between what was stated and what came (Brier 1950); 0 for no outcomes.
+/// Mean squared difference between stated probability and outcome (Brier 1950); 0 without outcomes.
 double brier_score(std::span<const StatedOutcome> outcomes);
 
 }  // namespace lodestar

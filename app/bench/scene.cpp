@@ -21,7 +21,7 @@ int some_id_of_nine_dots(const MarkerRegistry& others, Random& random) {
   }
 }
 
-/// A marker whose grid's middle is at this place.
+/// A marker whose grid is centred at this point.
 RegisteredMarker marker_about(int id, const Vec3& middle_m, double yaw_rad) {
   RegisteredMarker marker{.id = id, .yaw_rad = yaw_rad};
   const Vec3 from_o = map_from_marker({}, marker) * marker_middle;
@@ -33,7 +33,7 @@ Vec3 middle_of(const MarkerRegistry& registry, std::size_t marker) {
   return map_from_marker(registry, registry.markers[marker]) * marker_middle;
 }
 
-/// A dark sheet, moved in over the marker from one of its sides.
+/// A dark sheet that covers this share of the marker from one of its sides.
 PrintedSquare sheet_over(const MarkerRegistry& registry, std::size_t marker, double share, Random& random) {
   constexpr double sheet_m = 0.4;
   constexpr double sheet_gray = 25.0;
@@ -93,7 +93,7 @@ BenchView some_view(const BenchScene& scene, const MarkerRegistry& registry, Ran
 
   const double towards = random.uniform(-std::numbers::pi, std::numbers::pi);
   view.tilt = Eigen::AngleAxisd(scene.tilt_rad, Vec3(std::cos(towards), std::sin(towards), 0.0)).matrix();
-  // A group of three has its place in the picture and hardly turns; a single marker's yaw is random already.
+  // A group of three must fit the image, so its yaw varies little; a single marker's yaw is random already.
   const double yaw =
       scene.markers > 1 ? random.uniform(-0.2, 0.2) : random.uniform(-std::numbers::pi, std::numbers::pi);
   const Eigen::Matrix3d heading = rotation_from({0.0, 0.0, yaw});

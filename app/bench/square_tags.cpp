@@ -9,8 +9,8 @@
 namespace lodestar {
 namespace {
 
-// Exposure is set for the paper: white well below saturation, black ink as dark as the lens' stray light
-// lets it be. The contrast is four fifths of that of our dots.
+// Exposure is set for the paper: white well below saturation, black ink limited by the lens' stray light. The
+// contrast is four fifths of that of our dots.
 constexpr double paper_gray = 200.0;
 constexpr double ink_gray = 30.0;
 
@@ -31,7 +31,7 @@ std::vector<ReadMarker> readings_of(const std::vector<TagSighting>& tags) {
   return readings;
 }
 
-/// Least squares of all corners, from a guess on.
+/// Least-squares pose from all corners, starting at a guess.
 std::optional<Eigen::Isometry3d> fitted(const std::optional<Eigen::Isometry3d>& guess,
                                         const std::vector<SurveyedDot>& corners, const CameraModel& camera,
                                         PoseFixOptions options) {
@@ -87,7 +87,7 @@ MethodResult SquareTags::run(const cv::Mat& gray, const MarkerRegistry& registry
       corners.push_back({place, tag.corners_px[k]});
     }
   }
-  // Several tags in view: what the library knows of one is where the fit of all begins.
+  // Several tags in view: the library's pose from one tag initializes the fit of all.
   if (known_tags > 1) result.free = fitted(own, corners, camera, {});
   PoseFixOptions upright;
   upright.prior.tilt = tilt;

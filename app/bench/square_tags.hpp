@@ -4,7 +4,7 @@
 
 #include "app/bench/method.hpp"
 
-// What the peers have in common: square black-and-white tags, of which they find the corners.
+// Common base of the peers: square black-and-white tags, detected by their corners.
 namespace lodestar {
 
 /// A tag that was read. Corners as printed: top left, top right, bottom right, bottom left; pixel centres
@@ -12,11 +12,11 @@ namespace lodestar {
 struct TagSighting {
   int id = 0;
   std::array<Vec2, 4> corners_px{Vec2(0.0, 0.0), Vec2(0.0, 0.0), Vec2(0.0, 0.0), Vec2(0.0, 0.0)};
-  std::size_t index = 0;  ///< among all that were found
+  std::size_t index = 0;  ///< among all tags found
 };
 
-/// A tag's modules row by row from the top: true is white. Its black frame and one white module about it
-/// belong to it.
+/// A tag's modules row by row from the top: true is white. Includes its black frame and one white module
+/// around it.
 struct TagPattern {
   int modules = 0;  ///< along a side
   std::vector<bool> white;

@@ -1,5 +1,5 @@
-// What people who watch cost the robot: a simulated one drives in real time, at first unseen, then with many
-// clients that read all they get, pictures too, and one that never reads.
+// CPU load of viewers on the robot: a simulated robot drives in real time, first without viewers, then with
+// many clients that read everything, pictures too, and one that never reads.
 //
 //     build/release/viewers_load [VIEWERS [SECONDS]]        100 viewers, 12 s with them and 12 s without
 
@@ -30,7 +30,7 @@ double cpu_s(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// The other side, in a process of its own: its work is not the robot's.
+/// The viewers, in a process of their own, so that their work is not measured.
 int watch(unsigned short port, int viewers, int seconds) {
   std::atomic<long> messages = 0;
   const Stamp end = monotonic_now() + std::chrono::seconds(seconds);
@@ -39,7 +39,7 @@ int watch(unsigned short port, int viewers, int seconds) {
     threads.emplace_back([&, i] {
       SocketClient client(port);
       (void)client.upgrade("lodestar.v1");
-      if (i < 3) client.send(R"({"type": "camera", "on": true})");  // pictures for a few
+      if (i < 3) client.send(R"({"type": "camera", "on": true})");  // pictures for three viewers
       while (monotonic_now() < end && client.receive()) ++messages;
     });
   }

@@ -4,7 +4,7 @@
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 
-// Time to form one 640 x 480 frame of a lit ceiling with markers every 1.5 m, seen by a robot on the move.
+// Time to render one 640 x 480 frame of a lit ceiling with markers every 1.5 m, seen by a moving robot.
 namespace lodestar {
 namespace {
 

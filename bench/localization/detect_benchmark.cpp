@@ -9,8 +9,8 @@
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 
-// A 640 x 480 frame with three markers and noise through the detector, beside cv::threshold alone on the same
-// frame in the same run, which is the yardstick.
+// Detection in a 640 x 480 frame with three markers and noise, against cv::threshold on the same frame in the
+// same run as the reference.
 namespace {
 
 using namespace lodestar;
@@ -22,7 +22,7 @@ CameraModel paper_camera() {
   return {.width_px = 640, .height_px = 480, .fx_px = 755.0, .fy_px = 755.0, .cx_px = 320.0, .cy_px = 240.0};
 }
 
-/// Light of a blurred disc's edge, `distance` from its middle.
+/// Brightness of a blurred disc at `distance` from its centre.
 double edge(double distance_px, double radius_px) {
   constexpr double blur_sigma_px = 0.67;
   return 0.5 * std::erfc((distance_px - radius_px) / (std::sqrt(2.0) * blur_sigma_px));
@@ -125,7 +125,7 @@ void pose_of_a_frame(benchmark::State& state) {
 }
 BENCHMARK(pose_of_a_frame)->Unit(benchmark::kMicrosecond);
 
-/// Stains of a few centimetres with a frame's noise: what the camera sees 10 cm further on.
+/// Stains of a few centimetres with image noise, as seen by the camera 10 cm further on.
 void motion_by_the_ceiling(benchmark::State& state) {
   cv::setNumThreads(1);
   const CameraModel camera = paper_camera();

@@ -8,7 +8,7 @@
 #include "planning/grid_search.hpp"
 #include "planning/jump_search.hpp"
 
-// Queries between random clear places of the lab (306 x 150 cells), and what is prepared once for a map.
+// Queries between random clear points of the lab (306 x 150 cells), and the preprocessing of a map.
 namespace lodestar {
 namespace {
 
@@ -29,7 +29,7 @@ struct Query {
   Cell goal;
 };
 
-/// The same ones for every benchmark.
+/// The same queries for every benchmark.
 const std::vector<Query>& queries() {
   static const std::vector<Query> all = [] {
     constexpr std::size_t count = 512;
