@@ -183,8 +183,7 @@ std::string lead_of(const BenchLocalizeResult& result) {
   for (const std::string& peer : result.left_out) methods += fmt::format("; {} left out: not built in", peer);
   return fmt::format(
       "Seed {}, {} frames a point, {} hard frames of each kind, one thread. Our marker is 14 cm wide from "
-      "edge "
-      "to edge of its dots, and so is the black square of each tag. Methods: {}.",
+      "edge to edge of its dots, and so is the black square of each tag. Methods: {}.",
       result.options.seed, result.options.trials, result.options.frames, methods);
 }
 

@@ -11,9 +11,8 @@ namespace lodestar {
 struct BenchPaperOptions {
   std::uint64_t seed = 1;
   int identification_trials = 200;
-  double tilt_sigma_rad =
-      radians(0.05);  ///< of the camera on its stand, truly so, and the prior of the pose estimate
-  std::optional<PosePrior> prior;  ///< instead of that one
+  double tilt_sigma_rad = radians(0.05);  ///< of the camera on its stand, true value and prior
+  std::optional<PosePrior> prior;         ///< instead of that one
 };
 
 /// Table 1: trials (the paper's are 200) with 100 different IDs, which are registered, varied angle, light

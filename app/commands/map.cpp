@@ -154,8 +154,7 @@ nlohmann::ordered_json as_json(const VisibilitySummary& summary) {
 void print_summary(const VisibilitySummary& summary) {
   fmt::print(
       "{} free cells; of these see, at every heading, a marker {:.1f} %, two {:.1f} %; at some heading a "
-      "marker "
-      "{:.1f} %\n",
+      "marker {:.1f} %\n",
       summary.cells, 100.0 * summary.share_one, 100.0 * summary.share_two,
       100.0 * summary.share_some_heading);
   fmt::print("longest way to a cell that sees one: {:.2f} m, from ({:.2f}, {:.2f})\n", summary.largest_gap_m,

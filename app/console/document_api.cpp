@@ -75,7 +75,7 @@ bool matches(const std::string& tags, const std::string& etag) {
 std::optional<HttpResponse> conflict_with(const std::string& present, const std::string& if_match) {
   if (if_match.empty()) return refusal(428, "found no If-Match, wanted the tag that was read");
   if (matches(if_match, etag_of(present))) return std::nullopt;
-  HttpResponse conflict = refusal(412, "somebody else saved since it was read");
+  HttpResponse conflict = refusal(412, "another user saved since it was read");
   conflict.etag = etag_of(present);
   return conflict;
 }

@@ -75,14 +75,15 @@ std::vector<Finding> look_at_interface(const std::string& name) {
   }
   if (seen.is_virtual) return {interface, {.what = "bit rate", .found = "none: the interface is virtual"}};
 
-  Finding rate{.what = "bit rate", .found = "not told by this interface"};
+  Finding rate{.what = "bit rate", .found = "not reported by this interface"};
   if (seen.bit_rate_bps) rate.found = fmt::format("{} bit/s", *seen.bit_rate_bps);
   if (!seen.bit_rate_bps || *seen.bit_rate_bps != usual_bit_rate_bps) {
     rate.verdict = Verdict::doubtful;
-    rate.remedy = fmt::format("bases speak at {} bit/s: sudo ip link set {} type can bitrate {}",
+    rate.remedy = fmt::format("bases use {} bit/s: sudo ip link set {} type can bitrate {}",
                               usual_bit_rate_bps, name, usual_bit_rate_bps);
   }
-  Finding controller{.what = "controller", .found = seen.controller.value_or("not told by this interface")};
+  Finding controller{.what = "controller",
+                     .found = seen.controller.value_or("not reported by this interface")};
   if (seen.transmit_errors) {
     controller.found +=
         fmt::format(", {} errors in sending, {} in receiving", *seen.transmit_errors, *seen.receive_errors);
@@ -168,22 +169,22 @@ std::vector<Finding> look_at_state(const Heard& heard, const BaseProtocol& proto
   if (!heard.system) {
     return {{.what = "mode",
              .verdict = Verdict::bad,
-             .found = "the base does not tell its state",
-             .remedy = "check the protocol in site.yaml; of two axes, both must speak"}};
+             .found = "the base does not report its state",
+             .remedy = "check the protocol in site.yaml; of two axes, both must send"}};
   }
   const SystemState& system = *heard.system;
   Finding mode{.what = "mode", .found = "takes commands from CAN"};
-  if (system.mode == ControlMode::standby) mode.found = "stands by; a run asks for CAN mode";
+  if (system.mode == ControlMode::standby) mode.found = "standby; a run requests CAN mode";
   if (system.mode == ControlMode::remote) {
     mode = {.what = "mode",
             .verdict = Verdict::bad,
             .found = "the remote control drives",
-            .remedy = "hand the base over: the remote control's mode switch, or switch it off"};
+            .remedy = "switch the remote control to CAN mode, or off"};
   }
   if (system.mode == ControlMode::uart || system.mode == ControlMode::unknown) {
     mode = {.what = "mode",
             .verdict = Verdict::doubtful,
-            .found = "somebody else has the base",
+            .found = "another controller has the base",
             .remedy = "end what commands it over the serial line"};
   }
   Finding stop{.what = "e-stop", .found = "released"};
@@ -198,7 +199,7 @@ std::vector<Finding> look_at_state(const Heard& heard, const BaseProtocol& proto
               .found = fmt::format("{}", fmt::join(protocol.fault_names(system.fault_bits), ", ")),
               .remedy = "find the cause; `resume` asks the base to clear them"};
   }
-  Finding masters{.what = "masters", .found = "nobody commands"};
+  Finding masters{.what = "masters", .found = "no motion commands"};
   if (heard.other_masters > 0) {
     masters = {.what = "masters",
                .verdict = Verdict::doubtful,

@@ -49,11 +49,10 @@ FaultSwitch parse_fault(const std::string& text) {
         plus == std::string::npos ? std::optional<Duration>() : duration_in(text.substr(plus + 1));
     if (fault && begin && (lasting || plus == std::string::npos)) return {*fault, *begin, lasting};
   }
-  throw InputError(
-      fmt::format("--fault: found '{}', wanted NAME@SECONDS or NAME@SECONDS+SECONDS with one of the names "
-                  "silent, estop, remote, "
-                  "fault-bits, stuck-counter, ignores, runaway, stuck-encoder, slip, kidnap",
-                  text));
+  throw InputError(fmt::format(
+      "--fault: found '{}', wanted NAME@SECONDS or NAME@SECONDS+SECONDS with one of the names silent, estop, "
+      "remote, fault-bits, stuck-counter, ignores, runaway, stuck-encoder, slip, kidnap",
+      text));
 }
 
 HostedProtocol protocol_of(const BaseArguments& arguments) {

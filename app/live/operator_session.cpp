@@ -67,14 +67,14 @@ void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& bas
   } else if (std::holds_alternative<ResumeOrder>(order.what)) {
     mission.resume();
     by_console_ = true;
-    say_by("go on");
+    say_by("resume");
   } else if (std::holds_alternative<ClearFaultOrder>(order.what)) {
     say_by(base.resume(now) ? "clear the fault" : "clear the fault: its cause is still there");
   } else if (const auto* place = std::get_if<PlaceOrder>(&order.what)) {
     const Pose2& pose = place->map_from_base;
     const bool done = mission.finished() && mission.place_robot(pose);
-    say_by(fmt::format("the robot stands at ({:.2f}, {:.2f}, {:.0f}°){}", pose.position_m.x(),
-                       pose.position_m.y(), degrees(pose.yaw_rad), done ? "" : ": not now"));
+    say_by(fmt::format("set pose to ({:.2f}, {:.2f}, {:.0f}°){}", pose.position_m.x(), pose.position_m.y(),
+                       degrees(pose.yaw_rad), done ? "" : ": not now"));
   }
 }
 

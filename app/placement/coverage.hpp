@@ -15,9 +15,8 @@ namespace lodestar {
 /// What an upward camera covers at every heading: a disc on the ceiling that grows with its height.
 struct SureView {
   double camera_height_m = 0.0;
-  double reach_per_m =
-      0.0;  ///< disc radius per metre of height above the camera, by the narrowest side of its view
-  double margin_m = 0.0;  ///< subtracted: half a marker and the camera's offset from the robot's centre
+  double reach_per_m = 0.0;  ///< disc radius per metre above the camera, by its view's narrowest side
+  double margin_m = 0.0;     ///< subtracted: half a marker and the camera's offset from the robot's centre
 
   /// Horizontal distance from the centre of a marker at this height within which the robot sees it at every
   /// heading.

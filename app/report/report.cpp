@@ -125,8 +125,7 @@ std::string report_html(const RunRecord& record, const std::string& map_png) {
   std::string html;
   html += fmt::format(
       "<h1>{}: {}</h1>\n<p class=\"lead\">Camera {}, seed {}. {:.1f} m driven in {:.1f} s, {} contacts, {} "
-      "of {} fixes "
-      "accepted from {} frames. Repeat with <code>{}</code></p>\n",
+      "of {} fixes accepted from {} frames. Repeat with <code>{}</code></p>\n",
       escaped(record.site), record.arrived() ? "arrived" : "not arrived", escaped(record.camera), record.seed,
       summary["driven_m"].get<double>(), summary["time_s"].get<double>(), record.contacts,
       summary["fixes_accepted"].get<int>(), record.fixes.size(), record.frames, escaped(record.repeat));

@@ -15,8 +15,7 @@ struct EstimateError {
   double heading_rad = 0.0;       ///< signed
   double position_sigma_m = 0.0;  ///< of the estimate, along the larger principal axis
   double heading_sigma_rad = 0.0;
-  double nees =
-      0.0;  ///< normalized estimation error squared, of pose and heading: 3 on average, if consistent
+  double nees = 0.0;  ///< normalized estimation error squared, 3 degrees of freedom: mean 3 if consistent
 };
 
 /// One for each step within the recorded ground truth, which is interpolated to the estimate's stamp.

@@ -14,9 +14,8 @@ struct Disturbances {
   /// Relative difference of the wheels' true travel: the left rolls farther than its encoder reports and the
   /// right less, by half of this each.
   std::optional<double> unequal_wheels;
-  double removed_markers =
-      0.0;  ///< this share of the markers is missing from the ceiling; the robot's registry still has them
-  bool plain_ceiling = false;  ///< without texture: no joints, stains or lamps
+  double removed_markers = 0.0;  ///< share of markers missing from the ceiling; the robot's registry has them
+  bool plain_ceiling = false;    ///< without texture: no joints, stains or lamps
 };
 
 /// The simulated world's options with these disturbances.

@@ -29,8 +29,7 @@ struct Robot {
   std::optional<double> shared_fix_sigma_m;
   std::optional<double> shared_fix_sigma_rad;
   double preferred_clearance_m = 0.0;
-  double pass_corners_within_m =
-      0.0;  ///< gentle corners are blended without stopping, within this distance of the path
+  double pass_corners_within_m = 0.0;  ///< gentle corners are blended within this distance of the path
   double max_forward_mps = 0.0;
   double max_turn_radps = 0.0;
   double max_acceleration_mps2 = 0.0;

@@ -1,4 +1,4 @@
-// What a person does to markers, as one step each that can be undone.
+// The user's actions on markers, each as one undoable step.
 import { arrayOffsets, distributed, movedBy, toWall } from './arrange.js';
 import type { Coverage } from './coverage.js';
 import { ask, askNumbers, el, plural } from './dom.js';
@@ -22,7 +22,7 @@ export class Actions {
     return heights[heights.length >> 1] ?? usualHeightM;
   }
 
-  /** Markers whose middles hang over these places. */
+  /** Adds markers with their centres above these points. */
   private addAll(middles: Point[]): void {
     const picker = this.picker();
     const z = this.usualHeight();
@@ -35,22 +35,22 @@ export class Actions {
 
   suggest(): void {
     const place = this.coverage.suggestion(this.usualHeight());
-    if (!place) return this.say('Every place where the robot can stand sees a marker');
+    if (!place) return this.say('The robot sees a marker from every position where it can be');
     this.addAll([place]);
     this.say('Placed a marker where it closes most of the gaps');
   }
 
-  /** The fewest more, by a greedy search, such that each place sees so many. */
+  /** Adds markers, few by a greedy search, until every position sees the wanted number. */
   async fill(): Promise<string> {
-    const numbers = await askNumbers('Fill the gaps', [{ name: 'wanted', label: 'Markers that each place shall see', value: 1, least: 1, most: 4, step: 1 }],
-      'Adds the fewest markers that a greedy search finds, at the height of the others; undo takes all of them back.', 'Fill');
+    const numbers = await askNumbers('Fill the gaps', [{ name: 'wanted', label: 'Markers in view from every position', value: 1, least: 1, most: 4, step: 1 }],
+      'Adds as few markers as a greedy search needs, at the height of the others; one undo removes all of them.', 'Fill');
     if (!numbers) return '';
     const z = this.usualHeight();
     const { places, blindM2 } = await fillGaps(this.coverage, z, Math.round(numbers['wanted']!), [...this.editor.shown()], async (share) => {
-      this.say(`Looking for places: ${(100 * share).toFixed(0)} %`);
+      this.say(`Searching positions: ${(100 * share).toFixed(0)} %`);
       await new Promise((done) => setTimeout(done));
     });
-    const rest = blindM2 > 0 ? `; ${blindM2.toFixed(2)} m² can be seen by no marker of this height` : '';
+    const rest = blindM2 > 0 ? `; ${blindM2.toFixed(2)} m² cannot see any marker at this height` : '';
     if (places.length === 0) return `Nothing to add${rest}`;
     this.addAll(places);
     return `Added ${plural(places.length, 'marker')}${rest}`;
@@ -64,14 +64,14 @@ export class Actions {
 
   duplicate(): void { this.editor.add(this.copies(this.editor.chosen(), [{ x: 0.3, y: -0.3 }])); }
 
-  /** Copies of what is chosen, in rows and columns. */
+  /** Copies the selection in rows and columns. */
   async array(): Promise<string> {
     const chosen = this.editor.chosen();
     const shape = await askNumbers('Array', [
       { name: 'columns', label: 'Columns', value: 3, least: 1, most: 200, step: 1 }, { name: 'rows', label: 'Rows', value: 2, least: 1, most: 200, step: 1 },
       { name: 'stepX', label: 'Between columns (m)', value: 1.2, step: 0.05 }, { name: 'stepY', label: 'Between rows (m)', value: 1.2, step: 0.05 },
       { name: 'turnDeg', label: 'Turned by (°)', value: 0, step: 1 }],
-    'Copies what is chosen, with the safest free IDs. What is chosen stays as the first.', 'Paste');
+    'Copies the selection, with the safest free IDs. The selection itself stays as the first.', 'Paste');
     if (!shape) return '';
     const offsets = arrayOffsets({ columns: Math.round(shape['columns']!), rows: Math.round(shape['rows']!),
       stepX: shape['stepX']!, stepY: shape['stepY']!, turnDeg: shape['turnDeg']! });
@@ -84,8 +84,8 @@ export class Actions {
   distribute(): void { this.editor.change(distributed(this.editor.chosen())); }
 
   async wall(): Promise<string> {
-    const numbers = await askNumbers('To the wall', [{ name: 'distance', label: 'From the wall to the middle (m)', value: 0.5, least: 0, most: 20, step: 0.05 }],
-      'Moves each chosen marker straight to the nearest wall, and turns it square to it.', 'Move');
+    const numbers = await askNumbers('To the wall', [{ name: 'distance', label: 'Distance from wall to marker centre (m)', value: 0.5, least: 0, most: 20, step: 0.05 }],
+      'Moves each selected marker straight to this distance from the nearest wall, and aligns it with the wall.', 'Move');
     if (!numbers) return '';
     const chosen = this.editor.chosen();
     this.editor.change(chosen.map((m) => toWall(this.coverage.floor, m, numbers['distance']!)));
@@ -96,7 +96,7 @@ export class Actions {
     const by = await askNumbers('Move by', [
       { name: 'x', label: 'x (m)', value: 0, step: 0.01 }, { name: 'y', label: 'y (m)', value: 0, step: 0.01 },
       { name: 'z', label: 'z (m)', value: 0, step: 0.01 }, { name: 'yawDeg', label: 'Turn (°)', value: 0, step: 1 }],
-    'All that is chosen, turned about its middle; a single marker about its dot O.', 'Move');
+    'Moves the selection and rotates it about its centre; a single marker about its dot O.', 'Move');
     if (!by) return '';
     const chosen = this.editor.chosen();
     this.editor.change(movedBy(chosen, { x: by['x']!, y: by['y']!, z: by['z']!, yawDeg: by['yawDeg']! }, this.editor.pivot(chosen)));
@@ -113,15 +113,15 @@ export class Actions {
     if (chosen.length > 0) this.editor.change(turned(chosen, this.editor.pivot(chosen), byDeg));
   }
 
-  /** Free IDs for the chosen marker, the safest first, and how far from all others each of them is. */
+  /** Offers free IDs for the selected marker, the safest first, each with its distance to all others. */
   async pickId(): Promise<string> {
     const [marker] = this.editor.chosen();
-    if (!marker || this.editor.selection.size !== 1) return 'Choose one marker first';
+    if (!marker || this.editor.selection.size !== 1) return 'Select one marker first';
     const others = [...this.editor.markers.values()].filter((m) => m.key !== marker.key).map((m) => m.id);
     const answers = new IdPicker(others).proposals(proposedIds).map(({ id, distance }): [string, string] =>
       [String(id), `${id}: ${distance} apart`]);
-    const answer = await ask(`Another ID for marker ${marker.id}`, [el('p', {}, 'So many of the sixteen places must be misread, a dot lost or a ' +
-      'glint won, to take it for any other ID here or for itself, however either is turned or mirrored. Three or more is safe.')],
+    const answer = await ask(`Another ID for marker ${marker.id}`, [el('p', {}, 'The number of the sixteen cells (dots missed or glints added) that must be misread to take it for any other ID here, or for ' +
+      'itself, with either rotated or mirrored. Three or more is safe.')],
     [...answers, ['', 'Cancel']]);
     if (answer === '') return '';
     this.editor.change([{ ...marker, id: Number(answer) }]);

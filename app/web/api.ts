@@ -1,4 +1,4 @@
-// The server's documents. What it refuses becomes a Refusal with its words.
+// The server's documents. A refused request throws a Refusal with the server's message.
 import type { Registry } from './editor.js';
 
 export class Refusal extends Error {
@@ -10,7 +10,7 @@ export interface Site {
   robot: { name: string; radius_m: number; footprint_m: [number, number][] | null };  // the outline; null for a disc
   start: { x_m: number; y_m: number; yaw_deg: number };
   goals: { x_m: number; y_m: number }[];
-  routes: [number, number][][];  // of the usual drive, from place to place
+  routes: [number, number][][];  // the usual routes, as waypoints
   coverage: { camera: string; camera_height_m: number; reach_per_m: number; margin_m: number; room_m: number };
   formats: string[];
 }
@@ -23,10 +23,10 @@ export interface MapInfo {
   heights: { low_m: number; step_m: number; touch_m: number } | null;  // of an OctoMap
 }
 
-/** What is occupied above each cell: bit k for low_m + k step_m and up to the next. */
+/** Occupied heights above each cell: bit k from low_m + k step_m up to the next. */
 export interface Heights { low_m: number; step_m: number; touch_m: number; bands: Uint32Array }
 
-/** Every so many-th cell of each row and column: millimetres, or null where some heading sees nothing. */
+/** Every `stride`-th cell of each row and column: millimetres, or null where some heading sees no marker. */
 export interface Deviations { stride: number; columns: number; sigma_mm: (number | null)[] }
 
 export interface Issue {

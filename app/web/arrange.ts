@@ -1,11 +1,11 @@
-// Markers in arrays, in lines and along walls. All as they lie on the map; lengths in metres.
+// Arranges markers in arrays, in lines and along walls. All poses in the map frame; lengths in metres.
 import type { Floor } from './coverage.js';
 import { centerOf, radians, sideM, tidy, transform, wrapDeg } from './geometry.js';
 import type { Marker, Point, Pose } from './geometry.js';
 
 const millimetre = (value: number): number => tidy(Math.round(value * 1000) / 1000);
 
-/** The marker with its middle elsewhere. */
+/** The marker moved to another centre. */
 export function withMiddle(marker: Marker, middle: Point, yawDeg = marker.yawDeg): Marker {
   const o = transform({ ...middle, yawDeg }, { x: -sideM / 2, y: sideM / 2 });
   return { ...marker, x: millimetre(o.x), y: millimetre(o.y), yawDeg: wrapDeg(yawDeg) };
@@ -13,7 +13,7 @@ export function withMiddle(marker: Marker, middle: Point, yawDeg = marker.yawDeg
 
 export interface ArrayShape { rows: number; columns: number; stepX: number; stepY: number; turnDeg: number }
 
-/** Where the copies of a group go, the group itself left out: row by row, along axes that are turned by so much. */
+/** Offsets of the copies of a group, without the group itself: row by row, along axes rotated by turnDeg. */
 export function arrayOffsets(shape: ArrayShape): Point[] {
   const offsets: Point[] = [];
   for (let row = 0; row < shape.rows; ++row) {
@@ -25,7 +25,7 @@ export function arrayOffsets(shape: ArrayShape): Point[] {
   return offsets;
 }
 
-/** Puts the middles at equal steps on the straight line between the two that are farthest apart along x or y. */
+/** Puts the centres at equal spacing on the straight line between the two that are farthest apart along x or y. */
 export function distributed(markers: Marker[]): Marker[] {
   if (markers.length < 3) return markers;
   const middles = markers.map((marker) => ({ marker, at: centerOf(marker) }));
@@ -40,7 +40,7 @@ export function distributed(markers: Marker[]): Marker[] {
   });
 }
 
-/** The nearest wall as seen along the axes of the grid: how far, and which way; null when there is none around. */
+/** The nearest wall along the axes of the grid: distance and direction; null when there is none within mostM. */
 export function nearestWall(floor: Floor, at: Point, mostM = 20): { distanceM: number; directionDeg: number } | null {
   const { resolution_m: r } = floor.info;
   const cell = floor.toGrid(at);
@@ -55,7 +55,7 @@ export function nearestWall(floor: Floor, at: Point, mostM = 20): { distanceM: n
   return null;
 }
 
-/** The middle at this distance from the nearest wall, O to X along the wall where it nearly was. */
+/** The centre at this distance from the nearest wall, the yaw rounded to the grid's axes. */
 export function toWall(floor: Floor, marker: Marker, distanceM: number): Marker {
   const middle = centerOf(marker);
   const wall = nearestWall(floor, middle);
@@ -67,7 +67,7 @@ export function toWall(floor: Floor, marker: Marker, distanceM: number): Marker 
   return withMiddle(marker, { x: middle.x + by * Math.cos(direction), y: middle.y + by * Math.sin(direction) }, yawDeg);
 }
 
-/** All by so much, turned about a pivot. */
+/** All translated by `by`, and rotated about a pivot. */
 export function movedBy(markers: Marker[], by: { x: number; y: number; z: number; yawDeg: number }, pivot: Point): Marker[] {
   const turn: Pose = { ...pivot, yawDeg: by.yawDeg };
   return markers.map((m) => {

@@ -1,4 +1,4 @@
-// The camera's picture, and what was read in it.
+// The camera's picture, with the markers detected in it.
 import { el } from './dom.js';
 import type { Picture } from './live_socket.js';
 
@@ -8,11 +8,11 @@ export class CameraPicture {
   shown: Picture | null = null;
   private busy = false;
 
-  /** A picture that comes while another is being unpacked is left out. */
+  /** Skips pictures that arrive while another is being decoded. */
   show(picture: Picture): void {
     if (this.busy) return;
     this.busy = true;
-    createImageBitmap(picture.jpeg).then((image) => this.draw(picture, image), () => { /* half a picture at the end */ })
+    createImageBitmap(picture.jpeg).then((image) => this.draw(picture, image), () => { /* truncated picture */ })
       .finally(() => { this.busy = false; });
   }
 

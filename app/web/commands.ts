@@ -1,4 +1,4 @@
-// What buttons and keys do, each once: both take them from here.
+// Commands, each defined once, for buttons and keys alike.
 
 export interface Command {
   name: string;
@@ -18,7 +18,7 @@ export function keyOf(e: KeyboardEvent): string {
   return [(e.ctrlKey || e.metaKey) ? 'Ctrl+' : '', e.altKey ? 'Alt+' : '', e.shiftKey && letter ? 'Shift+' : '', name].join('');
 }
 
-/** Is someone typing? Then only keys with Ctrl are ours. */
+/** Is the focus in a text field? Then only keys with Ctrl are commands. */
 export function isTyping(target: EventTarget | null): boolean {
   return target instanceof HTMLInputElement || target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement;
 }

@@ -1,4 +1,4 @@
-// The page as a whole: ties map, panel, tools and keys together, and does what follows a change.
+// The page as a whole: connects map, panel, tools and keys, and updates them after a change.
 import { Actions } from './actions.js';
 import * as api from './api.js';
 import { isTyping, keyOf } from './commands.js';
@@ -42,7 +42,7 @@ export class Console implements Page {
   readonly commands: Command[];
   readonly routes: Point[][];
   private readonly panel: Panel;
-  private readonly judgement = new Latest(followEveryMs, () => this.check(), complain);
+  private readonly checking = new Latest(followEveryMs, () => this.check(), complain);
   private readonly deviations = new Latest(followEveryMs, () => this.showDeviations(), complain);
 
   constructor(readonly site: api.Site, readonly floor: Floor, tagged: api.Tagged) {
@@ -67,7 +67,7 @@ export class Console implements Page {
     this.fit();
   }
 
-  // -- what follows a change --------------------------------------------------------------------------------
+  // -- after a change ---------------------------------------------------------------------------------------
 
   private changed(): void {
     this.coverage.update(this.editor.shown());
@@ -87,9 +87,9 @@ export class Console implements Page {
     this.judge();
   }
 
-  /** What the server thinks of it, a moment later and also while something is dragged. */
+  /** Has the server check the draft, shortly after a change and also while dragging. */
   private judge(): void {
-    this.judgement.want();
+    this.checking.want();
     if (this.layers.floor === 'deviation') this.deviations.want();
   }
 
@@ -98,7 +98,7 @@ export class Console implements Page {
     this.panel.showIssues(await api.checkMarkers(this.editor.draft()));
   }
 
-  /** What a single fix would give at each place, by the server, as `lodestar map visibility` has it. */
+  /** Expected deviation of a single fix at each position, by the server, as `lodestar map visibility` computes it. */
   private async showDeviations(): Promise<void> {
     this.stage.floorPaint.deviations = this.floor.spread(await api.getDeviations(this.editor.draft()));
     this.stage.paintRaster();

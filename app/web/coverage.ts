@@ -1,5 +1,5 @@
-// How many markers a robot sees from each cell where it can stand, however it has turned: those within the narrowest
-// side of its camera's view, with nothing occupied on the way.
+// Number of markers a robot sees at every heading from each cell where it can be: those within the narrowest
+// side of its camera's view, with nothing occupied in between.
 import type { Deviations, Heights, MapInfo, Site } from './api.js';
 import { centerOf, inverse, transform } from './geometry.js';
 import type { Marker, Point, Pose } from './geometry.js';
@@ -10,9 +10,9 @@ const enoughMarkers = 2;
 export class Floor {
   readonly origin: Pose;
   private readonly gridFromMap: Pose;
-  private readonly roomy: Uint8Array;  // 1 where the robot's middle can be
+  private readonly roomy: Uint8Array;  // 1 where the robot's centre can be
 
-  /** With `heights`, of an OctoMap, these hide markers; without, all that is occupied on the map is taken to reach the
+  /** With `heights`, of an OctoMap, these hide markers; without, everything occupied on the map is taken to reach the
    *  ceiling. */
   constructor(readonly info: MapInfo, readonly cells: Int8Array, roomM: number, readonly heights: Heights | null = null) {
     this.origin = { x: info.origin.x_m, y: info.origin.y_m, yawDeg: info.origin.yaw_deg };
@@ -30,7 +30,7 @@ export class Floor {
     return column >= 0 && row >= 0 && column < columns && row < rows && this.cells[row * columns + column]! >= occupiedFrom;
   }
 
-  /** Can the robot's middle be there, as planners see it: farther than it needs from all that is not free? */
+  /** Can the robot's centre be there by the planners' rule: far enough from every cell that is not free? */
   canStand(index: number): boolean { return this.roomy[index] === 1; }
 
   private placesWithRoom(radius: number): Uint8Array {
@@ -55,7 +55,7 @@ export class Floor {
     return room;
   }
 
-  /** One value a cell, in metres, from values for every so many-th; NaN where there is none. */
+  /** One value per cell, in metres, from values for every stride-th; NaN where there is none. */
   spread(coarse: Deviations): Float32Array {
     const { columns } = this.info;
     return Float32Array.from(this.cells, (_, i) => {
@@ -81,12 +81,12 @@ export class Floor {
       .map(([x, y]) => transform(this.origin, { x: x! * r, y: y! * r }));
   }
 
-  /** Is nothing between a camera over a cell and a marker? */
+  /** Is the line of sight from a camera above a cell to a marker free? */
   sees(cell: Point, cameraZ: number, marker: Point, markerZ: number): boolean {
     return this.heights ? this.seesPast(this.heights, cell, cameraZ, marker, markerZ) : this.seesOnMap(cell, marker);
   }
 
-  /** By heights: what touches the camera or the marker, as the ceiling does, is not in between. */
+  /** By heights: cells within touch_m of the camera or of the marker, such as the ceiling, do not count. */
   private seesPast(heights: Heights, cell: Point, cameraZ: number, marker: Point, markerZ: number): boolean {
     const { columns, rows, resolution_m: r } = this.info;
     const lengthM = Math.hypot((cell.x - marker.x) * r, (cell.y - marker.y) * r, markerZ - cameraZ);
@@ -103,8 +103,8 @@ export class Floor {
     return true;
   }
 
-  /** On the flat map. What the marker itself hangs over leaves it in sight: it does not reach the ceiling. All else that
-   *  is occupied is taken to. */
+  /** On the flat map. Occupied cells directly below the marker do not hide it: they do not reach the ceiling. All other
+   *  occupied cells are taken to. */
   private seesOnMap(cell: Point, marker: Point): boolean {
     const { columns, rows } = this.info;
     const steps = Math.ceil(Math.hypot(cell.x - marker.x, cell.y - marker.y));
@@ -128,13 +128,13 @@ export class Coverage {
 
   constructor(readonly floor: Floor, readonly site: Site) { this.counts = new Uint16Array(floor.cells.length); }
 
-  /** How far from below itself a marker at this height is seen. */
+  /** Horizontal distance within which a marker at this height is seen. */
   reachM(z: number): number {
     const c = this.site.coverage;
     return Math.max(0, (z - c.camera_height_m) * c.reach_per_m - c.margin_m);
   }
 
-  /** Brings the counts up to date; only markers that are new, gone or moved cost anything. */
+  /** Updates the counts; costs time only for markers that are new, removed or moved. */
   update(markers: Iterable<Marker>): void {
     const gone = new Set(this.seenFrom.keys());
     for (const marker of markers) {
@@ -153,7 +153,7 @@ export class Coverage {
     }
   }
 
-  /** Shares of the floor where the robot can stand: sees one marker at least, two at least. */
+  /** Shares of the floor where the robot can be with at least one and at least two markers in view. */
   shares(): { one: number; two: number } {
     let free = 0, one = 0, two = 0;
     for (let i = 0; i < this.counts.length; ++i) {
@@ -165,7 +165,7 @@ export class Coverage {
     return { one: free ? one / free : 1, two: free ? two / free : 1 };
   }
 
-  /** Where one more marker at this height would let the most blind cells see; null when none are blind. */
+  /** The position of a marker at this height that serves the most blind cells; null when there are none. */
   suggestion(z: number): Point | null {
     const { columns, rows, resolution_m: r } = this.floor.info;
     const stride = Math.max(1, Math.round(0.3 / r));
@@ -185,7 +185,7 @@ export class Coverage {
 
   private count(cells: Int32Array, by: number): void { for (const cell of cells) this.counts[cell]! += by; }
 
-  /** The cells, among those where the robot can stand, that see a marker whose middle is here. */
+  /** The cells where the robot can be that see a marker with this centre. */
   visibleFrom(middle: Point, z: number): Int32Array {
     const { columns, rows, resolution_m: r } = this.floor.info;
     const at = this.floor.toGrid(middle);

@@ -22,7 +22,7 @@ function choice(id: string, label: string, options: string[]): [HTMLElement, HTM
 
 export async function exportTo(editor: Editor, formats: string[]): Promise<void> {
   const [row, select] = choice('export-format', 'Format', formats);
-  if (await ask('Export markers', [row, el('p', {}, 'Poses as they are on the map, in metres.')],
+  if (await ask('Export markers', [row, el('p', {}, 'Poses in the map frame, in metres.')],
     [['go', 'Download'], ['', 'Cancel']]) !== 'go') return;
   const { text } = await api.exportMarkers(select.value, editor.registry());
   download(`markers${suffixes[select.value] ?? '.txt'}`, new Blob([text]));
@@ -31,7 +31,7 @@ export async function exportTo(editor: Editor, formats: string[]): Promise<void>
 export async function importFrom(editor: Editor, file: File): Promise<string> {
   const registry = await api.importMarkers(file.name, await file.text());
   editor.replaceAll(registry);
-  return `${plural(registry.markers.length, 'marker')} read from ${file.name}; undo brings the former back`;
+  return `${plural(registry.markers.length, 'marker')} read from ${file.name}; undo restores the previous markers`;
 }
 
 export async function printChosen(editor: Editor): Promise<void> {
@@ -47,24 +47,24 @@ export async function printChosen(editor: Editor): Promise<void> {
 export type Resolution = 'merge' | 'theirs' | 'mine' | '';
 
 export async function askAboutConflict(base: Registry, mine: Registry, theirs: Registry): Promise<Resolution> {
-  const words = `Meanwhile somebody else saved: ${summary(base, theirs)}. You: ${summary(base, mine)}.`;
-  return await ask('Somebody else saved first', [el('p', { id: 'conflict-words' }, words),
-    el('p', {}, 'Merging applies your changes to theirs; where both changed a marker, yours counts.')],
-    [['merge', 'Merge'], ['theirs', 'Take theirs'], ['mine', 'Overwrite with mine'], ['', 'Go on editing']]) as Resolution;
+  const words = `Another user has saved: ${summary(base, theirs)}. You: ${summary(base, mine)}.`;
+  return await ask('Another user saved first', [el('p', { id: 'conflict-words' }, words),
+    el('p', {}, 'Merging applies your changes to theirs; where both changed a marker, yours wins.')],
+    [['merge', 'Merge'], ['theirs', 'Take theirs'], ['mine', 'Overwrite with mine'], ['', 'Continue editing']]) as Resolution;
 }
 
 export async function showHelp(commands: Command[]): Promise<void> {
   const mouse: [string, string][] = [
-    ['Drag', 'a marker: move all chosen; the round handle: rotate; the floor: pan'],
-    ['Shift+click', 'choose one more'], ['Shift+drag', 'choose all in a box'], ['Alt while dragging', 'no snapping'],
-    ['Wheel', 'zoom about the pointer'], ['Right drag', 'pan, wherever it begins'],
-    ['Live: click, Shift+click', 'a goal, one goal more; the end of its arrow: drag for a heading'], ['Live: space bar', 'stop the robot'],
-    ['Replay: arrows, space bar', 'half a second on or back (Shift: five), play or pause']];
+    ['Drag', 'a marker: move the selection; the round handle: rotate; the floor: pan'],
+    ['Shift+click', 'add to the selection'], ['Shift+drag', 'select all in a box'], ['Alt while dragging', 'no snapping'],
+    ['Wheel', 'zoom at the pointer'], ['Right drag', 'pan, wherever it starts'],
+    ['Live: click, Shift+click', 'set a goal, add a goal; drag the end of its arrow for a heading'], ['Live: space bar', 'stop the robot'],
+    ['Replay: arrows, space bar', 'half a second forward or back (Shift: five), play or pause']];
   const keys = commands.filter((c) => c.key).map((c): [string, string] => [c.key!, c.title]);
   const list = el('dl', {}, ...[...mouse, ...keys].flatMap(([key, words]) => [el('dt', {}, key), el('dd', {}, words)]));
-  await ask('Mouse and keys', [list, el('p', {}, 'A marker is given by the middle of its dot O (orange) and the direction from O ' +
+  await ask('Mouse and keys', [list, el('p', {}, 'A marker is given by the centre of its dot O (orange) and the direction from O ' +
     'to X (blue), counter-clockwise from the x axis, seen from above. The map shows markers from above, as through the ceiling: ' +
-    'mirrored against what you see when you look up.')], [['', 'Close']]);
+    'mirrored compared with what you see when you look up.')], [['', 'Close']]);
 }
 
 export function pickFile(then: (file: File) => void): void {

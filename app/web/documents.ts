@@ -1,4 +1,4 @@
-// The registry of the site: read, saved, and settled with what somebody else saved.
+// The registry of the site: loads, saves, and resolves conflicts with another user's save.
 import * as api from './api.js';
 import { askAboutConflict } from './dialogs.js';
 import { plural } from './dom.js';
@@ -9,7 +9,7 @@ export class Documents {
   private base: Registry;
   private etag: string;
 
-  /** `hasRobot`: is one here that drives by the markers as they were when it began? */
+  /** `hasRobot`: is a robot connected that drives by the markers loaded at its start? */
   constructor(private readonly editor: Editor, tagged: api.Tagged, private readonly hasRobot: () => boolean) {
     [this.base, this.etag] = [tagged.registry, tagged.etag];
   }
@@ -19,7 +19,7 @@ export class Documents {
     try {
       this.take(await api.putMarkers(mine, this.etag));
       this.editor.markSaved();
-      return `Saved ${plural(mine.markers.length, 'marker')}${this.hasRobot() ? '; the robot goes by them when it is started again' : ''}`;
+      return `Saved ${plural(mine.markers.length, 'marker')}${this.hasRobot() ? '; the robot uses them after its next start' : ''}`;
     } catch (error) {
       if (!(error instanceof api.Refusal) || error.status !== 412) throw error;
       return await this.settle(mine);
@@ -30,23 +30,23 @@ export class Documents {
     const tagged = await api.getMarkers();
     this.take(tagged);
     this.editor.load(tagged.registry);
-    return 'Read again from the site';
+    return 'Reloaded from the site';
   }
 
   private async settle(mine: Registry): Promise<string> {
     const theirs = await api.getMarkers();
     const resolution = await askAboutConflict(this.base, mine, theirs.registry);
-    if (resolution === '') return 'Not saved: somebody else saved first';
+    if (resolution === '') return 'Not saved: another user saved first';
     const base = this.base;
     this.take(theirs);
     if (resolution === 'theirs') {
       this.editor.load(theirs.registry);
-      return 'Took the state that somebody else saved';
+      return 'Loaded the version that the other user saved';
     }
     if (resolution === 'merge') this.editor.replaceAll(merged(base, mine, theirs.registry));
     this.take(await api.putMarkers(this.editor.registry(), this.etag));
     this.editor.markSaved();
-    return resolution === 'merge' ? 'Merged and saved' : 'Saved over the other state; it is in the history';
+    return resolution === 'merge' ? 'Merged and saved' : 'Overwrote the other version; it is in the history';
   }
 
   private take(tagged: api.Tagged): void { [this.base, this.etag] = [tagged.registry, tagged.etag]; }

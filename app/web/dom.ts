@@ -1,4 +1,4 @@
-// Building pieces of the page. Text only ever becomes text.
+// Builds elements of the page. Text is only ever inserted as text, never as HTML.
 
 type Child = Node | string;
 
@@ -23,7 +23,7 @@ export const positive = (text: string): string => text.replace(/^-(0(\.0*)?)$/, 
 
 export const plural = (count: number, word: string): string => `${count} ${word}${count === 1 ? '' : 's'}`;
 
-/** A dialog with a head, contents and buttons; resolves with the name of the button, or '' when it is left. */
+/** A dialog with a head, contents and buttons; resolves with the name of the button, or '' when it is cancelled. */
 export function ask(head: string, contents: Child[], answers: [string, string][]): Promise<string> {
   const dialog = byId('dialog') as HTMLDialogElement;
   const row = el('div', { class: 'row' }, ...answers.map(([name, text], i) =>
@@ -39,7 +39,7 @@ export function ask(head: string, contents: Child[], answers: [string, string][]
 
 export interface NumberField { name: string; label: string; value: number; step: number; least?: number; most?: number }
 
-/** A dialog with numbers to fill in; null when it is left, or when one of them cannot be used. */
+/** A dialog with numbers to fill in; null when it is cancelled. Throws for an unusable number. */
 export async function askNumbers(head: string, fields: NumberField[], words: string, go: string): Promise<Record<string, number> | null> {
   const inputs = fields.map((field) => {
     const input = el('input', { type: 'number', id: `ask-${field.name}`, step: String(field.step), value: String(field.value) });

@@ -1,4 +1,4 @@
-// Beside the map: the robot in words and numbers, and the goals as fields for the keyboard.
+// The panel beside the map: the robot's state in words and numbers, and the goals as input fields.
 import { button, byId, el, positive } from './dom.js';
 import type { Goal } from './goals.js';
 import type { Live } from './live.js';
@@ -11,8 +11,8 @@ export class DrivePanel {
   constructor(private readonly live: Live) {
     byId('drive').append(el('div', { id: 'goal-list' }), this.summary, el('div', { class: 'row' },
       button('Drive', 'Drive to the goals', () => live.drive(), { id: 'drive-go', class: 'main' }),
-      button('Clear', 'Forget the goals', () => live.goals.set([]), { id: 'drive-clear' }),
-      button('Robot stands here', 'Tell the robot that it stands at the first goal', () => live.placeRobot(), { id: 'drive-place' })));
+      button('Clear', 'Remove the goals', () => live.goals.set([]), { id: 'drive-clear' }),
+      button('Set robot pose', 'Set the robot\'s initial pose to the first goal', () => live.placeRobot(), { id: 'drive-place' })));
   }
 
   refresh(): void {
@@ -29,8 +29,8 @@ export class DrivePanel {
     const rows: [string, string, boolean?][] = [];
     const pose = state.pose;
     rows.push(['Pose', pose ? `${pose.x_m.toFixed(3)}, ${pose.y_m.toFixed(3)} m, ${pose.yaw_deg.toFixed(1)}°` : 'not known', !pose]);
-    if (pose) rows.push(['Sure to 3σ', `${(1000 * ellipseOf(pose.covariance_m2, 3).long).toFixed(1)} mm, ${(3 * pose.sigma_yaw_deg).toFixed(2)}°`]);
-    if (state.error_m !== null) rows.push(['Off by', `${(1000 * state.error_m).toFixed(1)} mm`]);
+    if (pose) rows.push(['3σ', `${(1000 * ellipseOf(pose.covariance_m2, 3).long).toFixed(1)} mm, ${(3 * pose.sigma_yaw_deg).toFixed(2)}°`]);
+    if (state.error_m !== null) rows.push(['Error', `${(1000 * state.error_m).toFixed(1)} mm`]);
     const speed = state.measured ?? state.commanded;
     rows.push(['Speed', `${positive(speed.forward_mps.toFixed(2))} m/s, ${positive(speed.turn_degps.toFixed(0))} °/s`]);
     const age = state.seen_s === null ? null : state.time_s - state.seen_s;
@@ -57,11 +57,11 @@ export class DrivePanel {
     const { preview } = this.live;
     const reach = preview?.points
       ? `${preview.length_m!.toFixed(2)} m, about ${preview.time_s!.toFixed(0)} s, ${preview.turns} turns`
-      : preview?.why ? `Cannot get there: ${preview.why}` : goals.list.length > 0 && this.live.canDrive ? 'Looking for a way ...' : '';
+      : preview?.why ? `No path: ${preview.why}` : goals.list.length > 0 && this.live.canDrive ? 'Planning ...' : '';
     this.summary.textContent = reach;
     this.summary.className = preview?.why ? 'error' : '';
     const nearest = preview?.nearest;
-    if (nearest && preview.goal === goals.list.length - 1) this.summary.append(' ', button('Nearest place instead', 'Take the nearest place that can be reached', () => {
+    if (nearest && preview.goal === goals.list.length - 1) this.summary.append(' ', button('Nearest position instead', 'Use the nearest reachable position', () => {
       goals.set(goals.list.with(-1, { x: nearest[0], y: nearest[1], yawDeg: goals.list.at(-1)!.yawDeg }));
     }));
   }

@@ -1,8 +1,8 @@
-// The document that is edited: markers and alignment, every change of them undoable.
+// The document being edited: markers and alignment, with undo.
 import { centerOf, inverse, isIdentity, tidy, transform, wrapDeg } from './geometry.js';
 import type { Marker, Point, Pose } from './geometry.js';
 
-/** What one step changes: for each marker what it was and what it is; nothing stands for not there. */
+/** One undoable step: each marker before and after; undefined where it does not exist. */
 interface Step {
   markers: { key: number; before: Marker | undefined; after: Marker | undefined }[];
   alignment?: { before: Pose; after: Pose };
@@ -26,7 +26,7 @@ export class Editor {
   private savedAt: Step | undefined;
   private nextKey = 1;
 
-  /** Begins anew with a document; nothing before it can be undone. */
+  /** Loads a document and clears the undo history. */
   load(registry: Registry): void {
     this.markers.clear();
     this.selection.clear();
@@ -40,7 +40,7 @@ export class Editor {
 
   registry(): Registry { return this.registryOf([...this.markers.values()]); }
 
-  /** The same with what is being dragged where it is now. */
+  /** The same with dragged markers at their present position. */
   draft(): Registry {
     return this.registryOf([...this.markers.values()].map((marker) => {
       const dragged = this.preview.get(marker.key);
@@ -56,19 +56,19 @@ export class Editor {
     };
   }
 
-  /** A marker that is not yet in the document, given in the registry's frame. */
+  /** A new marker, not yet in the document, given in the registry's frame. */
   fresh(id: number, x: number, y: number, z: number, yawDeg: number): Marker {
     return { key: this.nextKey++, id, x: tidy(x), y: tidy(y), z: tidy(z), yawDeg: wrapDeg(yawDeg) };
   }
 
-  /** As it lies on the map. */
+  /** The marker in the map frame. */
   onMap(marker: Marker): Marker {
     if (isIdentity(this.alignment)) return marker;
     const at = transform(this.alignment, marker);
     return { ...marker, ...at, yawDeg: wrapDeg(marker.yawDeg + this.alignment.yawDeg) };
   }
 
-  /** The marker of the registry that lies like this on the map. */
+  /** The registry's marker for one in the map frame. */
   fromMap(marker: Marker): Marker {
     const at = isIdentity(this.alignment) ? marker : transform(inverse(this.alignment), marker);
     return {
@@ -77,7 +77,7 @@ export class Editor {
     };
   }
 
-  /** All markers as they lie on the map, with what is being dragged where it is now. */
+  /** All markers in the map frame, with dragged ones at their present position. */
   * shown(): Generator<Marker> {
     for (const marker of this.markers.values()) yield this.preview.get(marker.key) ?? this.onMap(marker);
   }
@@ -87,7 +87,7 @@ export class Editor {
       .map((m) => this.onMap(m));
   }
 
-  /** Where a selection turns: one marker about its dot O, several about the middle of all. */
+  /** Centre of rotation of a selection: dot O of a single marker, the mean centre of several. */
   pivot(markers: Marker[]): Point {
     if (markers.length === 1) return { x: markers[0]!.x, y: markers[0]!.y };
     const middles = markers.map(centerOf);
@@ -97,7 +97,7 @@ export class Editor {
     };
   }
 
-  /** Replaces markers by others with the same keys, given on the map. */
+  /** Replaces markers by others with the same keys, given in the map frame. */
   change(markersOnMap: Marker[]): void {
     this.perform(markersOnMap.map((m) => ({ key: m.key, before: this.markers.get(m.key), after: this.fromMap(m) }))
       .filter((c) => c.before !== undefined && !sameMarker(c.before, c.after)));
@@ -113,7 +113,7 @@ export class Editor {
       .filter((c) => c.before !== undefined));
   }
 
-  /** All at once, as one step: an import, a merge, someone else's state. */
+  /** Replaces everything in one step: an import, a merge, another user's version. */
   replaceAll(registry: Registry): void {
     const gone = [...this.markers.values()].map((m) => ({ key: m.key, before: m, after: undefined }));
     const come = registry.markers.map((m) => this.fresh(m.id, m.x_m, m.y_m, m.z_m, m.yaw_deg))

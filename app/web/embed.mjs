@@ -20,7 +20,7 @@ const files = [
   ['/style.css', 'text/css; charset=utf-8', plotStyle + readFileSync(join(source, 'style.css'), 'utf8')],
 ];
 
-/** A raw string literal in pieces: compilers take no piece beyond 64 KiB. */
+/** A string literal in pieces: compilers limit a piece to 64 KiB. */
 function literal(text) {
   const pieces = [];
   const bytes = Buffer.from(text, 'utf8');
@@ -28,7 +28,7 @@ function literal(text) {
   return pieces.map((piece) => '"' + [...piece].map(escaped).join('') + '"').join('\n    ');
 }
 
-/** Octal escapes have a fixed length, so that no digit after one is taken for a part of it. */
+/** Octal escapes of three digits, so that a following digit is not read as part of one. */
 function escaped(byte) {
   const plain = byte >= 0x20 && byte < 0x7f && byte !== 0x22 && byte !== 0x5c && byte !== 0x3f;
   return plain ? String.fromCharCode(byte) : '\\' + byte.toString(8).padStart(3, '0');

@@ -1,25 +1,26 @@
-// The fewest markers such that every place sees enough of them. That is set cover, for which nobody knows a fast exact
-// way; the greedy one (Chvatal 1979) needs at most H(n) times the fewest, and here about as many as a person would.
+// The fewest markers such that every position sees enough of them. This is set cover, which is NP-hard; the
+// greedy algorithm (Chvatal 1979) needs at most H(n) times the optimum, and here about as many as a person
+// would.
 import type { Coverage } from './coverage.js';
 import type { Marker, Point } from './geometry.js';
 import { centerOf, sideM } from './geometry.js';
 
 const stepM = 0.3;
-const breatheAfterMs = 30;
+const yieldAfterMs = 30;
 
 interface Candidate { at: Point; cells: Int32Array; gain: number }
 
 export interface Filling { places: Point[]; blindM2: number }
 
-/** Places for markers at this height so that each place on the floor sees `wanted` of them, with those that hang already.
- *  What no candidate can see is left, and said. Hands back control now and then, with the share that is done. */
+/** Positions for markers at this height so that every position on the floor sees `wanted` markers, existing ones included.
+ *  Cells that no candidate can see remain, and are reported. Yields at intervals, with the completed share. */
 export async function fillGaps(coverage: Coverage, z: number, wanted: number, present: Iterable<Marker>,
   progress: (share: number) => Promise<void>): Promise<Filling> {
   const missing = Int16Array.from(coverage.counts, (count, i) => coverage.floor.canStand(i) ? Math.max(0, wanted - count) : 0);
   const taken = [...present].map(centerOf);
   const candidates = await allCandidates(coverage, z, missing, taken, progress);
   const chosen = greedy(candidates, missing);
-  const kept = withoutNeedless(chosen, coverage, wanted);
+  const kept = withoutRedundant(chosen, coverage, wanted);
   const cellM2 = coverage.floor.info.resolution_m ** 2;
   return { places: kept.map((c) => c.at), blindM2: missing.reduce((sum, m) => sum + (m > 0 ? 1 : 0), 0) * cellM2 };
 }
@@ -46,15 +47,15 @@ async function allCandidates(coverage: Coverage, z: number, missing: Int16Array,
       const gain = gainOf(cells, missing);
       if (gain > 0) candidates.push({ at, cells, gain });
     }
-    if (performance.now() - last < breatheAfterMs) continue;
+    if (performance.now() - last < yieldAfterMs) continue;
     await progress(row / rows);
     last = performance.now();
   }
   return candidates;
 }
 
-/** Always the one that helps most places. Gains only shrink, so one whose gain still holds when it is looked at again, and
- *  is not below the others' former ones, is the best (Minoux 1978). */
+/** Repeatedly takes the candidate with the largest gain. Gains only shrink, so a candidate whose updated gain is not below
+ *  the others' old ones is the best (lazy evaluation, Minoux 1978). */
 function greedy(candidates: Candidate[], missing: Int16Array): Candidate[] {
   const chosen: Candidate[] = [];
   const open = candidates.sort((a, b) => a.gain - b.gain);  // the best is last
@@ -83,8 +84,8 @@ function insert(sorted: Candidate[], candidate: Candidate): void {
   sorted.splice(low, 0, candidate);
 }
 
-/** Later choices can make earlier ones needless. */
-function withoutNeedless(chosen: Candidate[], coverage: Coverage, wanted: number): Candidate[] {
+/** Drops markers that later choices have made redundant. */
+function withoutRedundant(chosen: Candidate[], coverage: Coverage, wanted: number): Candidate[] {
   const counts = Int16Array.from(coverage.counts);
   for (const { cells } of chosen) for (const cell of cells) ++counts[cell]!;
   return chosen.filter(({ cells }) => {

@@ -1,4 +1,4 @@
-// The floor: the map's cells, coloured by what is seen from them, and a scale.
+// The floor: the map's cells, coloured by coverage or deviation, and a scale bar.
 import { coloursNow } from './colours.js';
 import type { Coverage, Floor } from './coverage.js';
 import type { Layers } from './layers.js';
@@ -8,7 +8,7 @@ const badTint = [214, 60, 50], doubtTint = [232, 176, 40], goodTint = [46, 150, 
 const goodDeviationM = 0.005, badDeviationM = 0.02;
 
 export class FloorPaint {
-  /** Metres a cell; nothing yet, or not seen from there. */
+  /** Metres per cell; null before the first result, NaN where no marker is seen. */
   deviations: Float32Array | null = null;
   private readonly raster = document.createElement('canvas');
   private colours = coloursNow();
@@ -19,7 +19,7 @@ export class FloorPaint {
     this.raster.height = floor.info.rows;
   }
 
-  /** The cells' colours; to be called when coverage or theme has changed. */
+  /** Recomputes the cells' colours; call when coverage or theme has changed. */
   paint(): void {
     this.colours = coloursNow();
     const { columns, rows } = this.floor.info;
@@ -81,7 +81,7 @@ export class FloorPaint {
   }
 }
 
-/** From good to bad in one step of colour each way; red where nothing is seen. */
+/** Interpolates from green (good) to yellow (bad); red where no marker is seen. */
 function deviationTint(sigmaM: number): number[] {
   if (!(sigmaM > 0)) return badTint;
   const share = Math.min(1, Math.max(0, (sigmaM - goodDeviationM) / (badDeviationM - goodDeviationM)));

@@ -1,9 +1,9 @@
-// Places, directions and the marker's pattern. Lengths in metres; angles in degrees where a name says so.
+// Points, poses and the marker's pattern. Lengths in metres; angles in degrees where a name says so.
 
 export interface Point { x: number; y: number }
 export interface Pose extends Point { yawDeg: number }
 
-/** A marker as the registry has it: dot O, and the direction O to X counter-clockwise from above. */
+/** A marker as in the registry: position of dot O, and the direction O to X counter-clockwise from above. */
 export interface Marker extends Pose { key: number; id: number; z: number }
 
 export const pitchM = 0.04;
@@ -15,7 +15,7 @@ const bits = [
   [0x000, 0x020, 0x200, 0x000], [0x002, 0x010, 0x100, 0x800],
   [0x001, 0x008, 0x080, 0x400], [0x000, 0x004, 0x040, 0x000]];
 
-/** The fifteen places of the face that can hold a dot, with the bit of the ID that says whether one does. */
+/** The fifteen cells of the face that can hold a dot, with the bit of the ID that says whether one does. */
 export const dotPlaces: { row: number; column: number; bit: number | 'corner' }[] = bits.flatMap((columns, row) =>
   columns.map((bit, column) => ({ row, column, bit: bit !== 0 ? bit : 'corner' as const })))
   .filter(({ row, column }) => row !== 0 || column !== 3);
@@ -31,7 +31,7 @@ export function dotsOf(id: number): Dot[] {
 export const radians = (deg: number): number => deg * Math.PI / 180;
 export const degrees = (rad: number): number => rad * 180 / Math.PI;
 
-/** The same direction in (-180, 180], without the dust of arithmetic. */
+/** The same direction in (-180, 180], without rounding residue. */
 export function wrapDeg(deg: number): number {
   const wrapped = ((deg % 360) + 360) % 360;
   return tidy(wrapped > 180 ? wrapped - 360 : wrapped);
@@ -54,12 +54,12 @@ export function inverse(aFromB: Pose): Pose {
 
 export const isIdentity = (pose: Pose): boolean => pose.x === 0 && pose.y === 0 && pose.yawDeg === 0;
 
-/** The middle of a marker's square: from above its y axis points to yaw - 90 degrees. */
+/** The centre of a marker's square: from above its y axis points to yaw - 90 degrees. */
 export function centerOf(marker: Pose): Point {
   return transform(marker, { x: sideM / 2, y: -sideM / 2 });
 }
 
-/** Least squares over pairs: the pose that brings `from` points onto `to` points, and what is left of each. */
+/** Least-squares pose that maps `from` points onto `to` points, and the residual of each pair. */
 export function fitPairs(pairs: { from: Point; to: Point }[]): { pose: Pose; residualsM: number[] } | null {
   if (pairs.length < 2) return null;
   const mean = (pick: (p: { from: Point; to: Point }) => number): number =>

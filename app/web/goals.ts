@@ -1,4 +1,4 @@
-// Where to, as set on the map or typed: one goal or several, each with a heading or without.
+// Goals as set on the map or typed: one or several, each with or without a heading.
 import { degrees } from './geometry.js';
 import type { Point } from './geometry.js';
 import { headOf } from './robot_paint.js';
@@ -11,7 +11,7 @@ const round = (value: number): number => Math.round(value * 1000) / 1000;
 
 export const goalJson = (goal: Goal): number[] => goal.yawDeg === null ? [goal.x, goal.y] : [goal.x, goal.y, goal.yawDeg];
 
-/** A drag begins on a goal (moves it) or at the end of its arrow (turns it). */
+/** A drag starts on a goal (moves it) or at the end of its arrow (rotates it). */
 export class Goals {
   list: Goal[] = [];
   onChange: () => void = () => {};
@@ -48,6 +48,6 @@ export class Goals {
 
   release(): void { this.held = null; }
 
-  /** Where the arrow of a goal ends, on the screen; that of one without a heading points to the right. */
+  /** End of a goal's arrow on the screen; without a heading it points along the map's x axis. */
   arrowEnd(goal: Goal): Point { return headOf(this.view, this.view.toScreen(goal), goal.yawDeg ?? 0); }
 }

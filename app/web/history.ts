@@ -1,4 +1,4 @@
-// Two states of the registry side by side: what changed from one to the other, in words.
+// Compares two versions of the registry, in words.
 import * as api from './api.js';
 import { ask, el } from './dom.js';
 import type { Editor, Registry } from './editor.js';
@@ -36,7 +36,7 @@ export function summary(from: Registry, to: Registry): string {
   return `${changed} changed, ${added} added, ${removed} removed`;
 }
 
-/** What `mine` changed since `base`, applied to `theirs`. */
+/** The changes from `base` to `mine`, applied to `theirs` (three-way merge). */
 export function merged(base: Registry, mine: Registry, theirs: Registry): Registry {
   const before = byIdOf(base), ours = byIdOf(mine), result = byIdOf(theirs);
   for (const id of before.keys()) if (!ours.has(id)) result.delete(id);
@@ -47,8 +47,8 @@ export function merged(base: Registry, mine: Registry, theirs: Registry): Regist
   };
 }
 
-/** Shows what differs between a former state and the present one, and takes it into the editor if wanted; nothing is saved
- *  by that. */
+/** Shows the differences between an earlier version and the present one, and loads it into the editor if wanted, without
+ *  saving. */
 export async function openHistory(editor: Editor): Promise<string> {
   const numbers = await api.getHistory();
   if (numbers.length === 0) return 'Nothing has been saved over yet';

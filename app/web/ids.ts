@@ -1,9 +1,9 @@
-// How far apart IDs are, and which free ones are the safest: the rules of `lodestar markers check`.
+// Hamming distances of IDs, and the safest free ones: the rules of `lodestar markers check`.
 import { dotPlaces, idCount } from './geometry.js';
 
 const viewCount = 8;
 const mostDistance = 16;
-const leastCodedDots = 2;  // five dots with O, X and Y: fewer say little of whether they are a marker
+const leastCodedDots = 2;  // five dots with O, X and Y: fewer are easily confused with clutter
 
 /** Bit 4 row + column for each dot. */
 function patternOf(id: number): number {
@@ -24,7 +24,7 @@ function moved(pattern: number, to: (row: number, column: number) => [number, nu
   return result;
 }
 
-/** The pattern upright, turned by quarters, and each of these mirrored: eight ways to lay it. */
+/** The eight views of the pattern: rotated by quarter turns, and each of these mirrored. */
 function viewsOf(id: number): number[] {
   const views: number[] = [];
   const upright = patternOf(id);
@@ -44,8 +44,8 @@ for (let i = 1; i < bitCounts.length; ++i) bitCounts[i] = bitCounts[i >> 1]! + (
 const views = new Uint16Array(idCount * viewCount);
 for (let id = 0; id < idCount; ++id) views.set(viewsOf(id), id * viewCount);
 
-/** How many cells must be misread, a dot lost or a glint won, to take one ID for the other, however it is turned or
- *  mirrored; of an ID with itself: to take it for itself wrongly turned. */
+/** Number of cells (dots missed or glints added) that must be misread to take one ID for the other, rotated or mirrored in
+ *  any way; of an ID with itself: to read it in a wrong orientation. */
 export function idDistance(a: number, b: number): number {
   let least = mostDistance;
   for (let view = a === b ? 1 : 0; view < viewCount; ++view) {
@@ -56,7 +56,7 @@ export function idDistance(a: number, b: number): number {
 
 export interface Proposal { id: number; distance: number }
 
-/** Keeps for each ID how far it is from all that are taken, so that each next choice is quick. */
+/** Keeps for each ID its distance to all IDs taken, so that each further choice is fast. */
 export class IdPicker {
   private readonly nearest = new Uint8Array(idCount);
 
@@ -73,7 +73,7 @@ export class IdPicker {
     }
   }
 
-  /** The farthest from all others first; of equals the smallest. */
+  /** Largest distance to all others first; among equals the smallest ID. */
   proposals(count: number): Proposal[] {
     const found: Proposal[] = [];
     for (let distance = mostDistance; distance >= 0 && found.length < count; --distance) {
@@ -84,7 +84,7 @@ export class IdPicker {
     return found;
   }
 
-  /** The safest, which is taken by that. */
+  /** Takes and returns the safest ID. */
   next(): number {
     const id = this.proposals(1)[0]!.id;
     this.take(id);

@@ -1,5 +1,5 @@
-// Work that follows what is edited: no more often than every so many milliseconds, one at a time, and always once more
-// after the last change.
+// Debounced work that follows edits: at most once every afterMs milliseconds, one run at a time, and always
+// once more after the last change.
 export class Latest {
   private timer = 0;
   private busy = false;

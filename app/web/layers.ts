@@ -1,4 +1,4 @@
-// What the map shows: each layer can be switched off. The floor has one colour at a time.
+// The map's layers, each of which can be switched off. The floor has one colouring at a time.
 import { byId, el } from './dom.js';
 import { inkNow } from './robot_paint.js';
 import type { Ink } from './robot_paint.js';
@@ -7,19 +7,19 @@ export type FloorColour = 'coverage' | 'deviation' | 'plain';
 export type LayerName = 'map' | 'markers' | 'ids' | 'reach' | 'route';
 
 const names: [LayerName, string][] = [
-  ['map', 'Map'], ['markers', 'Markers'], ['ids', 'IDs'], ['reach', 'Reach of the chosen'], ['route', 'Usual route']];
+  ['map', 'Map'], ['markers', 'Markers'], ['ids', 'IDs'], ['reach', 'Reach of the selection'], ['route', 'Usual route']];
 const colours: [FloorColour, string][] = [
   ['coverage', 'coverage'], ['deviation', 'deviation'], ['plain', 'nothing']];
 
 const legends: Record<FloorColour, [string, string][]> = {
   coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more']],
-  deviation: [['more', '5 mm or less'], ['one', '20 mm or more, one deviation of a fix'], ['none', 'no marker at some heading']],
+  deviation: [['more', '5 mm or less'], ['one', '20 mm or more: standard deviation of a fix'], ['none', 'no marker at some heading']],
   plain: [],
 };
 
 const lineKeys: Record<string, [keyof Ink, string][]> = {
   live: [['path', 'planned'], ['preview', 'preview'], ['track', 'driven'], ['truth', 'markers in view'], ['goal', 'goal, 3σ of the pose']],
-  replay: [['track', 'by the estimate'], ['truth', 'by the truth of a simulation']],
+  replay: [['track', 'estimate'], ['truth', 'ground truth (simulation)']],
 };
 
 export class Layers {
@@ -48,7 +48,7 @@ export class Layers {
     this.onChange();
   }
 
-  /** What the colours of lines and floor mean, for what the page is for now. */
+  /** The legend of lines and floor colours, for the present mode. */
   showLegend(): void {
     const colours = inkNow();
     const lines = (lineKeys[document.body.dataset['mode'] ?? ''] ?? []).flatMap(([kind, words]) => {

@@ -1,4 +1,4 @@
-// The live view: what the robot is about, and where it is to go.
+// The live view: the robot's state, and its goals.
 import type { Site } from './api.js';
 import { CameraPicture } from './camera_picture.js';
 import { button, byId, el } from './dom.js';
@@ -38,7 +38,7 @@ export class Live implements Guest, Listener {
   private heardAt = 0;
   private plottedAt = 0;
   private shown = false;
-  private wantsWheel = false;
+  private wantsControl = false;
   private hasDriven = false;
 
   constructor(private readonly stage: Stage, private readonly site: Site, private readonly say: (words: string, bad?: boolean) => void) {
@@ -53,7 +53,7 @@ export class Live implements Guest, Listener {
     setInterval(() => this.beat(), holdEveryMs);
   }
 
-  /** Is it in sight? Then pictures come, and clicks on the map are goals. */
+  /** While shown, pictures are requested, and clicks on the map set goals. */
   show(shown: boolean): void {
     this.shown = shown;
     if (shown) {
@@ -70,12 +70,12 @@ export class Live implements Guest, Listener {
   get atWheel(): boolean { return this.state !== null && this.state.driver === this.hello?.client; }
   get isStale(): boolean { return performance.now() - this.heardAt > staleAfterMs; }
 
-  // -- what the robot says ----------------------------------------------------------------------------------
+  // -- messages from the robot ------------------------------------------------------------------------------
 
   onHello(hello: Hello): void {
     const first = this.hello === null;
     this.hello = hello;
-    this.wantsWheel = false;
+    this.wantsControl = false;
     this.wantPictures();
     if (hello.robot) document.body.dataset['robot'] = '';
     if (first && hello.robot) this.onRobot();
@@ -87,7 +87,7 @@ export class Live implements Guest, Listener {
     this.state = state;
     if (state.pose) this.addToTrack({ x: state.pose.x_m, y: state.pose.y_m });
     this.addToPlots(state);
-    this.watchWheel(state);
+    this.watchControl(state);
     if (!this.shown) return;
     this.panel.refresh();
     this.stage.redrawOverlay();
@@ -105,14 +105,14 @@ export class Live implements Guest, Listener {
   }
 
   onRefused(what: string, why: string): void {
-    if (what === 'take' || what === 'hold') this.wantsWheel = false;
+    if (what === 'take' || what === 'hold') this.wantsControl = false;
     if (what !== 'hold') this.say(`Not done (${what}): ${why}`, true);
   }
 
   onPicture(picture: Picture): void { if (this.shown) this.camera.show(picture); }
 
   onGone(): void {
-    this.wantsWheel = false;
+    this.wantsControl = false;
     if (this.hello?.robot) this.say('The connection to the robot is lost; trying again', true);
     this.panel.refresh();
     this.stage.redrawOverlay();
@@ -141,9 +141,9 @@ export class Live implements Guest, Listener {
     this.plots?.tell(this.columns[0]!.length - 1);
   }
 
-  // -- what people want -------------------------------------------------------------------------------------
+  // -- the user's orders ------------------------------------------------------------------------------------
 
-  /** Everyone may. Where the socket has gone there is nobody to tell, and whoever drove is no longer at the wheel. */
+  /** Any client may stop. Without a connection nothing can be sent, and a driver's lease runs out by itself. */
   stop(): void {
     this.say(this.socket.send({ type: 'stop' }) ? 'Stop' : 'No connection: use the button on the robot', true);
   }
@@ -156,39 +156,39 @@ export class Live implements Guest, Listener {
 
   order(message: Record<string, unknown>): void {
     if (!this.atWheel) this.socket.send({ type: 'take' });
-    this.wantsWheel = true;
+    this.wantsControl = true;
     if (!this.socket.send(message)) this.say('No connection to the robot', true);
   }
 
-  releaseWheel(): void {
-    this.wantsWheel = false;
+  releaseControl(): void {
+    this.wantsControl = false;
     this.socket.send({ type: 'release' });
   }
 
-  /** The first goal's place and heading. */
+  /** Sets the robot's pose to the first goal's position and heading. */
   placeRobot(): void {
     const goal = this.goals.list[0];
-    if (goal?.yawDeg == null) return this.say('Set a place on the map and drag its arrow to the robot\'s heading first', true);
+    if (goal?.yawDeg == null) return this.say('Set a goal on the map and drag its arrow to the robot\'s heading first', true);
     this.order({ type: 'place', pose: goalJson(goal) });
     this.goals.set([]);
   }
 
-  /** A hand on the wheel, as long as this page is looked at. */
+  /** Renews the control lease while this page is visible. */
   private beat(): void {
-    if (this.wantsWheel && !document.hidden) this.socket.send({ type: 'hold' });
+    if (this.wantsControl && !document.hidden) this.socket.send({ type: 'hold' });
     byId('stale').hidden = !(this.hello?.robot && this.shown && this.isStale);
     if (this.isStale && this.shown) {
-      byId('stale').textContent = `No word from the robot for ${((performance.now() - this.heardAt) / 1000).toFixed(0)} s`;
+      byId('stale').textContent = `No data from the robot for ${((performance.now() - this.heardAt) / 1000).toFixed(0)} s`;
       this.stage.redrawOverlay();
     }
   }
 
-  /** Gives the wheel back when the drive is over, so that others may have it. */
-  private watchWheel(state: State): void {
+  /** Releases the control lease when the drive is over. */
+  private watchControl(state: State): void {
     if (state.moving) this.hasDriven = true;
-    if (this.wantsWheel && this.hasDriven && !state.moving) {
+    if (this.wantsControl && this.hasDriven && !state.moving) {
       this.hasDriven = false;
-      this.releaseWheel();
+      this.releaseControl();
       this.goals.set([]);
     }
   }
@@ -203,9 +203,9 @@ export class Live implements Guest, Listener {
   private makeControls(): void {
     byId('live-controls').append(
       button('Stop', 'Stop the robot (space bar)', () => this.stop(), { id: 'live-stop' }),
-      button('Pause', 'Come to rest, keep the goal', () => this.order({ type: 'pause' }), { id: 'live-pause' }),
-      button('Go on', 'Go on to the goal', () => this.order({ type: 'resume' }), { id: 'live-resume' }),
-      button('Clear fault', 'Leave the latched fault of the base, if its cause is gone', () => this.order({ type: 'clear_fault' }), { id: 'live-clear' }),
+      button('Pause', 'Stop and keep the goal', () => this.order({ type: 'pause' }), { id: 'live-pause' }),
+      button('Resume', 'Continue to the goal', () => this.order({ type: 'resume' }), { id: 'live-resume' }),
+      button('Clear fault', 'Clear the latched fault of the base, if its cause is gone', () => this.order({ type: 'clear_fault' }), { id: 'live-clear' }),
       el('span', { id: 'live-phase' }),
     );
     addEventListener('keydown', (e) => {
@@ -266,7 +266,7 @@ export class Live implements Guest, Listener {
   words(): string {
     const state = this.state;
     if (!this.hello) return 'No connection yet';
-    if (!this.hello.robot) return 'No robot is here: start the console with lodestar replay --serve, or lodestar run --serve';
+    if (!this.hello.robot) return 'No robot is connected: start the console with lodestar replay --serve, or lodestar run --serve';
     if (!state) return 'Waiting for the robot';
     return `${state.phase}${state.moving && state.goals.length > 1 ? `, goal ${state.current + 1} of ${state.goals.length}` : ''}`;
   }

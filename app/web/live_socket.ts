@@ -1,4 +1,4 @@
-// The connection to the robot, `lodestar.v1`: it comes back by itself, and tells when it has gone.
+// The connection to the robot, `lodestar.v1`: reconnects by itself, and reports when it is lost.
 
 export interface Estimate {
   x_m: number; y_m: number; yaw_deg: number;
@@ -47,7 +47,7 @@ export class LiveSocket {
 
   constructor(private readonly listener: Listener) { this.connect(); }
 
-  /** False when nobody is there to hear it. */
+  /** False without a connection. */
   send(message: Record<string, unknown>): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(message));
@@ -79,7 +79,7 @@ export class LiveSocket {
   }
 }
 
-/** The length of a head in JSON, the head, and a JPEG. */
+/** Parses the length of the JSON header, the header, and a JPEG. */
 function pictureOf(data: ArrayBuffer): Picture {
   const length = new DataView(data).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Omit<Picture, 'jpeg'>;

@@ -1,4 +1,5 @@
-// Starts the console's page: opens the session of the address, reads the documents, and hands them to it.
+// Starts the console's page: opens a session with the token in the address, loads the documents, and creates
+// the console.
 import * as api from './api.js';
 import { Console } from './console.js';
 import { Floor } from './coverage.js';

@@ -1,9 +1,9 @@
-// A marker's picture: on the map as through the ceiling, in the panel as printed.
+// Draws markers: on the map as seen through the ceiling, in the panel as printed.
 import { centerOf, dotRadiusM, dotsOf, pitchM, sideM, transform } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import type { View } from './view.js';
 
-/** A marker as one would see it through the ceiling: mirrored against the printed face. */
+/** A marker as seen through the ceiling: a mirror image of the printed face. */
 export function drawFromAbove(c: CanvasRenderingContext2D, marker: Marker, view: View, plate: string, dot: string, coarse: boolean): void {
   const scale = Math.max(view.pixelsPerM, 12 / (sideM + pitchM));  // never smaller than 12 pixels
   const middle = view.toScreen(centerOf(marker));
@@ -50,7 +50,7 @@ export function drawFace(canvas: HTMLCanvasElement, id: number, fromAbove: boole
   }
 }
 
-/** Is a point of the map on the marker's plate, or within a few pixels of its middle? */
+/** Is a point of the map on the marker's plate, or within `slackM` of its centre? */
 export function isOn(marker: Marker, p: Point, slackM: number): boolean {
   const o = transform({ x: 0, y: 0, yawDeg: -marker.yawDeg }, { x: p.x - marker.x, y: p.y - marker.y });
   const half = Math.max(sideM / 2 + pitchM / 2, slackM);

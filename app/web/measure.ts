@@ -1,4 +1,4 @@
-// A tape measure: click two places, or two markers, and read how far and which way.
+// A tape measure: click two points or markers, and read distance and direction.
 import { centerOf, degrees } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import type { Pointer } from './pointer.js';
@@ -19,7 +19,7 @@ export class Measure {
     this.on = true;
     this.from = this.to = null;
     this.pointer.pick = (at, marker) => this.take(at, marker);
-    this.say('Measure: click two places, or markers for their middles. Escape leaves.');
+    this.say('Measure: click two points, or markers for their centres. Escape cancels.');
   }
 
   end(): void {

@@ -1,4 +1,4 @@
-// What the page is for at the moment: the panel beside the map, and what a click on it means.
+// The mode of the page: selects the panel beside the map, and the meaning of clicks on it.
 import { button, byId } from './dom.js';
 import type { Layers } from './layers.js';
 import type { Live } from './live.js';
@@ -8,11 +8,11 @@ import type { Stage } from './stage.js';
 import { attempt } from './words.js';
 
 export type Mode = 'edit' | 'live' | 'replay';
-const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['live', 'Live', 'watch the robot, and send it'],
-  ['replay', 'Replay', 'open a run and scrub through it']];
+const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['live', 'Live', 'watch and drive the robot'],
+  ['replay', 'Replay', 'open a run and play it back']];
 
-/** Who looks on moves no marker. */
-const onlooker: Guest = { press: () => false, drag: () => {}, release: () => {}, click: () => {} };
+/** Ignores clicks and drags: no editing during playback. */
+const passive: Guest = { press: () => false, drag: () => {}, release: () => {}, click: () => {} };
 
 interface Parts {
   readonly layers: Layers;
@@ -42,7 +42,7 @@ export class Modes {
     document.body.dataset['mode'] = mode;
     for (const [other] of titles) byId(`tool-${other}`).setAttribute('aria-pressed', String(other === mode));
     pointer.cancel();
-    pointer.guest = mode === 'edit' ? null : mode === 'live' ? live : onlooker;
+    pointer.guest = mode === 'edit' ? null : mode === 'live' ? live : passive;
     stage.showsSelection = mode === 'edit';
     live.show(mode === 'live');
     if (before !== mode) layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
@@ -61,7 +61,7 @@ export class Modes {
     return words;
   }
 
-  /** Each mode has room of another size for the map. */
+  /** Fits the map on the first use of a mode: each leaves a different size for it. */
   private fitAtFirst(mode: Mode): void {
     if (this.seen.has(mode)) return;
     this.seen.add(mode);

@@ -7,7 +7,7 @@ namespace lodestar {
 
 /// A file of the console's page, built into the program.
 struct PageFile {
-  std::string_view target;  ///< as asked for: "/", "/app.js"
+  std::string_view target;  ///< the request target: "/", "/app.js"
   std::string_view content_type;
   std::string_view text;
 };

@@ -1,4 +1,4 @@
-// What buttons and keys do to the page: documents, tools, the view. Those for markers are in marker_commands.ts.
+// Commands for the page: documents, tools, the view. Those for markers are in marker_commands.ts.
 import { alignByPairs } from './alignment.js';
 import type { Site } from './api.js';
 import type { Command } from './commands.js';
@@ -29,21 +29,21 @@ export function pageCommands(page: Page): Command[] {
     { name: 'redo', button: 'Redo', key: 'Ctrl+Shift+Z', title: 'redo', run: () => editor.redo(), possible: () => editor.canRedo },
     { name: 'redo2', key: 'Ctrl+Y', title: 'redo', run: () => editor.redo() },
     ...markerCommands(page, attempt),
-    { name: 'coverage', everywhere: true, button: 'Coverage', key: 'C', title: 'show what the markers cover', run: () => layers.paintFloor(layers.floor === 'coverage' ? 'plain' : 'coverage'), pressed: () => layers.floor === 'coverage' },
-    { name: 'measure', everywhere: true, button: 'Measure', key: 'T', title: 'tape measure between two places', run: () => page.measure.toggle(), pressed: () => page.measure.on },
-    { name: 'deviation', everywhere: true, key: 'V', title: 'show how sure of its pose the robot would be', run: () => layers.paintFloor(layers.floor === 'deviation' ? 'coverage' : 'deviation') },
+    { name: 'coverage', everywhere: true, button: 'Coverage', key: 'C', title: 'show the coverage of the markers', run: () => layers.paintFloor(layers.floor === 'coverage' ? 'plain' : 'coverage'), pressed: () => layers.floor === 'coverage' },
+    { name: 'measure', everywhere: true, button: 'Measure', key: 'T', title: 'tape measure between two points', run: () => page.measure.toggle(), pressed: () => page.measure.on },
+    { name: 'deviation', everywhere: true, key: 'V', title: 'show the expected standard deviation of a fix', run: () => layers.paintFloor(layers.floor === 'deviation' ? 'coverage' : 'deviation') },
     { name: 'turn-view', everywhere: true, key: '.', title: 'turn the view by 15° clockwise', run: () => page.turnView(-15) },
     { name: 'turn-view-back', everywhere: true, key: ',', title: 'turn the view by 15° counter-clockwise', run: () => page.turnView(15) },
-    { name: 'north', everywhere: true, key: '0', title: 'the map upright again', run: () => page.turnView(-page.view.turnDeg) },
+    { name: 'north', everywhere: true, key: '0', title: 'reset the rotation of the view', run: () => page.turnView(-page.view.turnDeg) },
     { name: 'fit', everywhere: true, button: 'Fit', key: 'F', title: 'show the whole map', run: () => page.fit() },
     { name: 'align', button: 'Align', title: 'align all markers to the map by pairs of points', run: () => alignByPairs(editor, page.pointer, page.stage, say) },
     { name: 'import', button: 'Import', title: 'read markers of another format', run: () => pickFile((file) => attempt(() => importFrom(editor, file))) },
     { name: 'export', button: 'Export', title: 'write markers in another format', run: () => attempt(() => exportTo(editor, page.site.formats)) },
-    { name: 'print', button: 'Print', key: 'Ctrl+P', title: 'sheets to make the chosen markers from', run: () => attempt(() => printChosen(editor)) },
-    { name: 'history', button: 'History', title: 'bring back an earlier state', run: () => attempt(() => openHistory(editor)) },
-    { name: 'reload', button: 'Reload', title: 'read the markers again; unsaved changes are lost', run: () => attempt(() => page.documents.reload()) },
+    { name: 'print', button: 'Print', key: 'Ctrl+P', title: 'print sheets of the selected markers', run: () => attempt(() => printChosen(editor)) },
+    { name: 'history', button: 'History', title: 'restore an earlier version', run: () => attempt(() => openHistory(editor)) },
+    { name: 'reload', button: 'Reload', title: 'reload the markers; unsaved changes are lost', run: () => attempt(() => page.documents.reload()) },
     { name: 'save', button: 'Save', key: 'Ctrl+S', title: 'save', run: () => attempt(() => page.documents.save()), possible: () => editor.dirty },
     { name: 'theme', everywhere: true, button: 'Light/dark', title: 'light or dark', run: () => page.changeTheme() },
-    { name: 'help', everywhere: true, button: 'Help', key: '?', title: 'this sheet', run: () => attempt(() => showHelp(page.commands)) },
+    { name: 'help', everywhere: true, button: 'Help', key: '?', title: 'this help', run: () => attempt(() => showHelp(page.commands)) },
   ];
 }

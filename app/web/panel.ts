@@ -28,8 +28,8 @@ export class Panel {
 
   constructor(private readonly editor: Editor, private readonly actions: PanelActions) {
     byId('coverage').append(this.coverageWords, this.gapWords, el('div', { class: 'row' },
-      button('Suggest next marker', 'Place one where it closes most of the gaps', () => actions.suggest()),
-      button('Fill the gaps', 'Place as many as it takes, by a greedy search (K)', () => actions.fill())));
+      button('Suggest next marker', 'Place a marker where it closes most of the gaps', () => actions.suggest()),
+      button('Fill the gaps', 'Place as many markers as needed, by a greedy search (K)', () => actions.fill())));
     byId('filter').addEventListener('input', () => this.showList());
   }
 
@@ -48,13 +48,13 @@ export class Panel {
     this.shownSelection = keys;
     if (chosen.length === 0) {
       box.replaceChildren(el('p', {}, this.editor.markers.size === 0
-        ? 'There are no markers yet. Add hangs one in the middle of the view, Suggest next marker where it is needed most.'
+        ? 'There are no markers yet. Add places one at the centre of the view, Suggest next marker where it is needed most.'
         : 'Nothing. Click a marker; Shift+drag a box; press ? for all keys.'));
     } else if (chosen.length === 1) {
       box.replaceChildren(this.fieldsOf(chosen[0]!), el('div', { class: 'row' },
         button('Safest IDs', 'Free IDs, the safest first (I)', () => this.actions.pickId())), facesOf(chosen[0]!.id));
     } else {
-      box.replaceChildren(el('p', {}, `${plural(chosen.length, 'marker')}. M moves and turns them by numbers, A copies them in an array, D puts them at equal steps.`));
+      box.replaceChildren(el('p', {}, `${plural(chosen.length, 'marker')}. M moves and turns them by numbers, A copies them in an array, D distributes them evenly.`));
     }
   }
 
@@ -94,16 +94,16 @@ export class Panel {
     const { one, two } = coverage.shares();
     const percent = (share: number) => `${(100 * share).toFixed(1)} %`;
     this.coverageWords.textContent = `${percent(one)} of the floor where the robot can stand sees a marker, ${percent(two)} two or more, ` +
-      'however the robot has turned.';
+      'at every heading.';
   }
 
   // -- issues ---------------------------------------------------------------------------------------------
 
-  /** What the server found in the registry, as `lodestar markers check` does. */
+  /** The server's findings on the registry, as by `lodestar markers check`. */
   showIssues(issues: Issue[]): void {
     const gaps = issues.filter((i) => i.kind === 'gap').length;
     this.gapWords.className = gaps === 0 ? 'fine' : 'warning';
-    this.gapWords.textContent = gaps === 0 ? 'No gaps.' : `${plural(gaps, 'gap')} without any marker; the wheels carry the robot across short ones.`;
+    this.gapWords.textContent = gaps === 0 ? 'No gaps.' : `${plural(gaps, 'gap')} without any marker in view; short ones are bridged by odometry.`;
     const worstFirst = [...issues].sort((a, b) => a.severity.localeCompare(b.severity));
     const errors = issues.filter((i) => i.severity === 'error').length;
     byId('issues').replaceChildren(
@@ -142,7 +142,7 @@ function listOf(items: HTMLElement[]): HTMLElement {
   return el('ul', { class: 'plain' }, ...items.map((item) => el('li', {}, item)));
 }
 
-/** The face as printed, and as the map shows it: they are mirror images, and it is said which is which. */
+/** The face as printed and as on the map, each labelled: they are mirror images. */
 function facesOf(id: number): HTMLElement {
   const face = (fromAbove: boolean, words: string) => {
     const canvas = el('canvas', { width: '96', height: '96', role: 'img', 'aria-label': `Marker ${id} ${words}` });

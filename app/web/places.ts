@@ -31,11 +31,11 @@ export class Places {
     };
     const line = (name: string, words: string, goals: (Goal | undefined)[], remove: () => void) => el('li', { class: 'place' },
       button(name, words, () => this.goals.set(goals.filter((g) => g !== undefined))),
-      button('×', `Forget ${name}`, () => { remove(); this.save(); }, { 'aria-label': `Forget ${name}` }));
+      button('×', `Remove ${name}`, () => { remove(); this.save(); }, { 'aria-label': `Remove ${name}` }));
     byId('places').replaceChildren(
       el('ul', { class: 'plain' },
-        ...this.routes.places.map((p) => line(p.name, 'Take this place as the goal', [goalOf(p.name)], () => this.forgetPlace(p.name))),
-        ...this.routes.routes.map((r) => line(`${r.name}: ${r.places.join(' → ')}`, 'Take this route', r.places.map(goalOf),
+        ...this.routes.places.map((p) => line(p.name, 'Use this place as the goal', [goalOf(p.name)], () => this.forgetPlace(p.name))),
+        ...this.routes.routes.map((r) => line(`${r.name}: ${r.places.join(' → ')}`, 'Use this route', r.places.map(goalOf),
           () => { this.routes.routes = this.routes.routes.filter((other) => other !== r); }))),
       el('div', { class: 'row' },
         button('Keep as place', 'Keep the last goal under a name', () => this.attempt(() => this.keepPlace()), { id: 'place-keep' }),

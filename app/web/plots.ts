@@ -1,4 +1,4 @@
-// Small plots over time, and in words what they show now.
+// Small plots over time, with the present values in words.
 import uPlot from 'uplot';
 import { el, positive } from './dom.js';
 
@@ -28,7 +28,7 @@ export class Plot {
     this.plot?.setData(data);
   }
 
-  /** Says the values at a row, and marks its time. */
+  /** Shows the values at a row, and marks its time. */
   tell(row: number, mark: boolean): void {
     const parts = this.lines.map((line, i) => {
       const value = this.data[i + 1]?.[row];
@@ -58,13 +58,13 @@ export class Plot {
   }
 }
 
-/** Three plots side by side or below each other: how sure and how right, how fast, how well seen. */
+/** Three plots: uncertainty and error of the position, speed, markers in view. */
 export class DrivePlots {
   private readonly plots: Plot[];
 
   constructor(parent: HTMLElement, onPick: ((timeS: number) => void) | null = null) {
     this.plots = [
-      new Plot(parent, 'Position', [{ label: '3σ', unit: ' mm', colour: '--line-a', digits: 1 }, { label: 'off by', unit: ' mm', colour: '--line-b', digits: 1 }]),
+      new Plot(parent, 'Position', [{ label: '3σ', unit: ' mm', colour: '--line-a', digits: 1 }, { label: 'error', unit: ' mm', colour: '--line-b', digits: 1 }]),
       new Plot(parent, 'Speed', [{ label: 'commanded', unit: ' m/s', colour: '--line-a', digits: 2, dash: true }, { label: 'driven', unit: ' m/s', colour: '--line-b', digits: 2 }]),
       new Plot(parent, 'Markers', [{ label: 'confidence', unit: '', colour: '--line-a', digits: 2 }, { label: 'in view', unit: '', colour: '--line-b', digits: 0 }]),
     ];

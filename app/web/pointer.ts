@@ -1,4 +1,4 @@
-// The mouse, a pen or a finger on the stage: pan, zoom, choose, drag, rotate, marquee.
+// Pointer gestures on the stage: pan, zoom, select, drag, rotate, marquee.
 import { centerOf, degrees, tidy, transform, wrapDeg } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import { isOn } from './marker_paint.js';
@@ -6,7 +6,7 @@ import type { Stage } from './stage.js';
 
 export interface Snap { on: boolean; gridM: number; angleDeg: number }
 
-/** Who takes clicks and drags on the map instead of the editor: places on the screen, but for a click. */
+/** Handles clicks and drags on the map instead of the editor: in screen coordinates, but map coordinates for a click. */
 export interface Guest {
   press(screen: Point): boolean;
   drag(screen: Point): void;
@@ -25,7 +25,7 @@ const clickSlackPx = 4;
 
 export class Pointer {
   snap: Snap = { on: true, gridM: 0.05, angleDeg: 15 };
-  /** Set while something asks for a place on the map: gets the next click. */
+  /** Set while a point on the map is requested: receives the next click. */
   pick: ((at: Point, marker: Marker | null) => void) | null = null;
   guest: Guest | null = null;
   onHover: (at: Point | null) => void = () => {};
@@ -50,7 +50,7 @@ export class Pointer {
     }, { passive: false });
   }
 
-  /** Leaves everything as it was before the gesture. */
+  /** Restores the state before the gesture. */
   cancel(): void {
     this.gesture = null;
     this.stage.marquee = null;
@@ -153,7 +153,7 @@ export class Pointer {
 
   private rotatedBy(before: Marker[], pivot: Point, byDeg: number, snapping: boolean): Marker[] {
     const step = this.snap.angleDeg;
-    const alone = before.length === 1 ? before[0]!.yawDeg : 0;  // one marker snaps to a yaw, several by a turn
+    const alone = before.length === 1 ? before[0]!.yawDeg : 0;  // one marker snaps to a yaw, several to a rotation angle
     const turn = snapping ? Math.round((alone + byDeg) / step) * step - alone : Math.round(byDeg * 10) / 10;
     return turned(before, pivot, turn);
   }
@@ -195,7 +195,7 @@ export class Pointer {
   }
 }
 
-/** By hand no finer than a millimetre; on the grid exactly. */
+/** Rounds free drags to a millimetre; snapped values stay exact. */
 const rounded = (value: number, exact: boolean): number => exact ? tidy(value) : Math.round(value * 1000) / 1000;
 
 export function turned(markers: Marker[], pivot: Point, byDeg: number): Marker[] {

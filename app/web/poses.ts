@@ -1,8 +1,8 @@
-// Where something was at a time.
+// Poses at a point in time.
 import type { Row } from './api.js';
 import { wrapDeg } from './geometry.js';
 
-/** The pose at a time, between the rows before and after it; the first or the last one beyond the ends. */
+/** The pose at a time, interpolated between rows; the first or the last one beyond the ends. */
 export function poseAt(rows: Row[], time: number): Row | null {
   if (rows.length === 0) return null;
   let low = 0;

@@ -1,4 +1,5 @@
-// A run folder on the map: its track, the robot at a time, plots and camera pictures, and a bar to scrub through it.
+// Plays back a run folder on the map: track, robot pose over time, plots and camera pictures, with a time
+// bar.
 import { getRun, getRuns, pictureOfRun } from './api.js';
 import type { Row, Run } from './api.js';
 import { button, byId, el, positive } from './dom.js';
@@ -30,12 +31,12 @@ export class Replay {
   private readonly speed = el('select', { 'aria-label': 'Speed' }, ...speeds.map((s) => el('option', { value: s }, `${s} ×`)));
   private readonly play = button('Play', 'Play or pause (space bar)', () => this.toggle());
   private readonly words = el('output', { id: 'replay-words' });
-  private readonly noPicture = el('p', { class: 'faint' }, 'No pictures: lodestar replay --pictures 2 keeps two a second');
+  private readonly noPicture = el('p', { class: 'faint' }, 'No pictures: lodestar replay --pictures 2 keeps two per second');
   private readonly picture = el('img', { id: 'replay-picture', alt: 'Camera picture of that time', hidden: '' });
 
   constructor(private readonly stage: Stage, private readonly robot: RobotShape, private readonly fail: (error: unknown) => void) {
     byId('replay').append(this.runs, this.play, this.slider, this.speed, this.words,
-      button('Close', 'Leave the replay', () => this.onClose()));
+      button('Close', 'Close the playback', () => this.onClose()));
     byId('picture-box').append(this.picture, this.noPicture);
     this.speed.value = '1';
     this.runs.addEventListener('change', () => { this.load(this.runs.value).catch(this.fail); });
@@ -44,13 +45,13 @@ export class Replay {
     stage.painters.push((c) => this.paint(c));
   }
 
-  /** Shows the bar with the latest run, or says that there is none; those that come later are added. */
+  /** Shows the bar with the latest run, or reports that there is none; new runs are added as they appear. */
   async open(): Promise<string> {
     this.opened = true;
     clearInterval(this.watching);
     this.watching = setInterval(() => { this.look().catch(this.fail); }, lookEveryMs);
     await this.look();
-    return this.run ? '' : 'No run folders yet: replay -o and the drives of this console leave them below --runs FOLDER';
+    return this.run ? '' : 'No run folders yet: replay -o and the drives of this console write them to --runs FOLDER';
   }
 
   private async look(): Promise<void> {
@@ -94,7 +95,7 @@ export class Replay {
     this.goTo(this.start());
   }
 
-  /** A robot's clock goes on from drive to drive. */
+  /** Stamps continue from drive to drive, so a run does not start at zero. */
   private start(): number { return this.run?.estimate[0]?.[0] ?? 0; }
   private end(): number { return Math.max(this.run?.estimate.at(-1)?.[0] ?? 0, this.run?.truth.at(-1)?.[0] ?? 0); }
 
@@ -125,7 +126,7 @@ export class Replay {
     else requestAnimationFrame((next) => this.advance(next));
   }
 
-  /** The last picture that had been taken by then. */
+  /** Shows the last picture taken before the present time. */
   private showPicture(): void {
     const names = this.run?.pictures ?? [];
     const at = lastNotAfter(names.map((name) => parseFloat(name)), this.time);
@@ -144,7 +145,7 @@ export class Replay {
     if (!estimate) return '';
     const place = `${this.time.toFixed(1)} of ${this.end().toFixed(1)} s: ${estimate[1].toFixed(3)}, ${estimate[2].toFixed(3)} m, ${positive(estimate[3].toFixed(1))}°`;
     if (!truth) return place;
-    return `${place}; off by ${(1000 * Math.hypot(estimate[1] - truth[1], estimate[2] - truth[2])).toFixed(1)} mm`;
+    return `${place}; error ${(1000 * Math.hypot(estimate[1] - truth[1], estimate[2] - truth[2])).toFixed(1)} mm`;
   }
 
   private paint(c: CanvasRenderingContext2D): void {

@@ -1,4 +1,4 @@
-// What moves, drawn over the map: the robot, how sure it is of its place, ways and goals.
+// Draws the robot, its uncertainty ellipse, paths and goals over the map.
 import { degrees } from './geometry.js';
 import type { Point, Pose } from './geometry.js';
 import type { View } from './view.js';
@@ -28,7 +28,7 @@ export function drawWay(c: CanvasRenderingContext2D, view: View, points: Iterabl
 /** A disc, or the outline where the robot has one: corners in its own frame, x ahead and y to the left. */
 export interface RobotShape { radius_m: number; footprint_m: [number, number][] | null }
 
-/** Its footprint, true to scale but never too small to be seen, and a wedge at its front. */
+/** The footprint, to scale but never too small to be seen, and a wedge at its front. */
 export function drawRobot(c: CanvasRenderingContext2D, view: View, pose: Pose, shape: RobotShape, colour: string): void {
   const at = view.toScreen(pose);
   const corners = shape.footprint_m ?? [[shape.radius_m, shape.radius_m]];
@@ -55,7 +55,7 @@ export function drawRobot(c: CanvasRenderingContext2D, view: View, pose: Pose, s
   c.restore();
 }
 
-/** Half axes (m) of the ellipse of so many sigmas, and the direction of the longer one. */
+/** Semi-axes (m) of the ellipse at this number of sigmas, and the direction of the longer one. */
 export function ellipseOf([xx, xy, yy]: [number, number, number], sigmas: number): { long: number; short: number; yawRad: number } {
   const mean = (xx + yy) / 2;
   const apart = Math.hypot((xx - yy) / 2, xy);
@@ -105,7 +105,7 @@ export function drawGoal(c: CanvasRenderingContext2D, view: View, at: Point, yaw
 
 const headPx = 38;
 
-/** Where a goal's arrow ends, on the screen. */
+/** End of a goal's arrow on the screen. */
 export function headOf(view: View, p: Point, yawDeg: number): Point {
   const angle = view.angleOf(yawDeg);
   return { x: p.x + headPx * Math.cos(angle), y: p.y + headPx * Math.sin(angle) };

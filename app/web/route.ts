@@ -1,4 +1,4 @@
-// The usual drive of the site, as the server plans it.
+// The usual routes of the site, as planned by the server.
 import type { Point } from './geometry.js';
 import type { Stage } from './stage.js';
 

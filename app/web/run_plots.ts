@@ -1,11 +1,11 @@
-// What the plots of a run show: its steps, fixes and errors on one time line.
+// Plot data of a run: steps, fixes and errors on a common time axis.
 import type { Row, Run } from './api.js';
 import { poseAt } from './poses.js';
 
 const mostRows = 1500;
 const seenForS = 0.5;
 
-/** Rows of time, 3 sigma (mm), error (mm), commanded, driven (m/s), confidence, markers: as DrivePlots has them. */
+/** Rows of time, 3 sigma (mm), error (mm), commanded, driven (m/s), confidence, markers, as for DrivePlots. */
 export function columnsOf(run: Run): (number | null)[][] {
   const columns: (number | null)[][] = Array.from({ length: 7 }, () => []);
   const stride = Math.max(1, Math.ceil(run.steps.length / mostRows));

@@ -1,4 +1,4 @@
-// What came of a run, in words and numbers.
+// Summary of a run, in words and numbers.
 import type { Run } from './api.js';
 import { byId, el } from './dom.js';
 
@@ -8,7 +8,7 @@ interface Facts { camera?: string; seed?: number; repeat?: string; contacts?: nu
 export function showSummary(run: Run): void {
   const facts = run.summary as Facts;
   const rows: [string, string][] = [['Camera', facts.camera ?? '-'], ['Seed', String(facts.seed ?? '-')]];
-  if (run.truth.length > 0) rows.push(['Contacts', String(facts.contacts ?? '-')], ['NEES (3 is honest)', facts.nees?.toFixed(2) ?? '-']);
+  if (run.truth.length > 0) rows.push(['Contacts', String(facts.contacts ?? '-')], ['NEES (3: consistent)', facts.nees?.toFixed(2) ?? '-']);
   byId('run-facts').replaceChildren(el('dl', {}, ...rows.flatMap(([name, words]) => [el('dt', {}, name), el('dd', {}, words)])),
     el('p', { class: 'faint' }, facts.repeat ?? ''));
   byId('run-goals').replaceChildren(el('ul', { class: 'plain' }, ...(facts.goals ?? []).map(goalLine)));

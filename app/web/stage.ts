@@ -13,12 +13,12 @@ import type { View } from './view.js';
 const fineFromPx = 26;   // side of a marker from which its dots are drawn
 const labelFromPx = 14;
 const handleDistancePx = 46;
-const manyMarkers = 1500;  // from here on a pan moves the drawn layers, and draws them anew at its end
+const manyMarkers = 1500;  // from this many on, a pan shifts the drawn layers and redraws them at its end
 
 export class Stage {
   marquee: { a: Point; b: Point } | null = null;
   pins: { at: Point; label: string }[] = [];
-  /** What others draw on the overlay. */
+  /** Drawing callbacks for the overlay. */
   painters: ((c: CanvasRenderingContext2D) => void)[] = [];
   showsSelection = true;
   readonly floorPaint: FloorPaint;
@@ -70,7 +70,7 @@ export class Stage {
     }
   }
 
-  /** To be called when coverage, theme or what the floor shows has changed. */
+  /** Call when coverage, theme or the floor's colouring has changed. */
   paintRaster(): void { this.floorPaint.paint(); }
 
   /** Draws everything with the next frame. */
@@ -79,7 +79,7 @@ export class Stage {
     this.redrawDragged();
   }
 
-  /** The same while something is dragged: of very many markers only those that move, over where all were. */
+  /** The same during a drag: with very many markers, only the moving ones are redrawn. */
   redrawDragged(): void {
     this.ceilingWanted ||= this.editor.markers.size < manyMarkers;
     if (this.wanted) return;
@@ -94,7 +94,7 @@ export class Stage {
     });
   }
 
-  /** The same for the overlay alone: for what moves. */
+  /** The same for the overlay alone, for moving content. */
   redrawOverlay(): void {
     if (this.wanted || this.overlayWanted) return;
     this.overlayWanted = true;
@@ -104,7 +104,7 @@ export class Stage {
     });
   }
 
-  /** The middle of the marker with an ID. */
+  /** The centre of the marker with this ID. */
   placeOfId(id: number): Point | null {
     for (const marker of this.editor.shown()) if (marker.id === id) return centerOf(marker);
     return null;
@@ -136,7 +136,7 @@ export class Stage {
     c.textAlign = 'start';
   }
 
-  /** Where the handle to rotate the selection is, on the screen. */
+  /** Screen position of the handle that rotates the selection. */
   rotateHandle(): Point | null {
     const chosen = this.draggedSelection();
     if (chosen.length === 0) return null;
@@ -187,7 +187,7 @@ export class Stage {
     }
   }
 
-  /** What is dragged, when the ceiling is not drawn anew for it. */
+  /** Draws the dragged markers when the ceiling layer is not redrawn. */
   private drawMoving(c: CanvasRenderingContext2D): void {
     const { view, colours } = this;
     for (const marker of this.editor.preview.values()) drawFromAbove(c, marker, view, colours.chosen, colours.dot, true);

@@ -1,4 +1,4 @@
-// What the page uses of uPlot.
+// The parts of uPlot that the page uses.
 declare module 'uplot' {
   interface Series { label?: string; stroke?: string; width?: number; dash?: number[]; spanGaps?: boolean; points?: { show: boolean } }
   interface Axis { stroke?: string; grid?: { stroke: string; width: number }; ticks?: { stroke: string; width: number }; size?: number; gap?: number; font?: string; space?: number }

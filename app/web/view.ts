@@ -1,4 +1,4 @@
-// What part of the map the stage shows: metres with y up against pixels with y down, the map turned by some angle.
+// The visible part of the map: from metres with y up to pixels with y down, with the map rotated by turnDeg.
 import { radians, transform, wrapDeg } from './geometry.js';
 import type { Point } from './geometry.js';
 
@@ -19,7 +19,7 @@ export class View {
     return { x: at.x + this.center.x, y: at.y + this.center.y };
   }
 
-  /** How a direction on the map lies on a canvas: radians, clockwise from the right. */
+  /** Canvas angle of a map direction: radians, clockwise from the right. */
   angleOf(yawDeg: number): number { return -radians(yawDeg + this.turnDeg); }
 
   panBy(dx: number, dy: number): void {
@@ -27,7 +27,7 @@ export class View {
     this.center = { x: this.center.x - by.x, y: this.center.y - by.y };
   }
 
-  /** Zooms about a place on the screen: what is under it stays under it. */
+  /** Zooms about a screen point, which keeps its map position. */
   zoomAt(screen: Point, factor: number): void {
     const before = this.toMap(screen);
     this.pixelsPerM = Math.min(5000, Math.max(2, this.pixelsPerM * factor));
@@ -35,10 +35,10 @@ export class View {
     this.center = { x: this.center.x + before.x - after.x, y: this.center.y + before.y - after.y };
   }
 
-  /** Turns the map about the middle of the screen. */
+  /** Rotates the map about the centre of the screen. */
   turnBy(deg: number): void { this.turnDeg = wrapDeg(this.turnDeg + deg); }
 
-  /** Shows all of these points, with some room around them; never closer than a few metres. */
+  /** Shows all of these points with a margin; at least leastM metres across. */
   fit(points: Point[], leastM = 1): void {
     const placed = points.map((p) => this.turned(p, this.turnDeg));
     const xs = placed.map((p) => p.x);

@@ -1,4 +1,4 @@
-// The line at the foot of the page: what has just been done, or why not.
+// The status line at the foot of the page.
 import { byId } from './dom.js';
 
 export function say(words: string, bad = false): void {
@@ -8,7 +8,7 @@ export function say(words: string, bad = false): void {
 
 export const complain = (error: unknown): void => say(error instanceof Error ? error.message : String(error), true);
 
-/** Runs something that may fail, and says how. */
+/** Runs an action that may fail, and reports the result. */
 export function attempt(action: () => Promise<string | void>): void {
   action().then((words) => { if (words) say(words); }, complain);
 }

@@ -92,9 +92,9 @@ describe('driving', () => {
   test('what cannot be reached is said, with the nearest place that can', async () => {
     const page = await watch();
     await clickMap(page, 3.3, 6.2);  // in a cupboard
-    await page.locator('#preview-words.error', { hasText: 'Cannot get there' }).waitFor();
+    await page.locator('#preview-words.error', { hasText: 'No path' }).waitFor();
     assert.equal(await page.locator('#drive-go').isDisabled(), true);
-    await page.getByRole('button', { name: 'Nearest place instead' }).click();
+    await page.getByRole('button', { name: 'Nearest position instead' }).click();
     await previewed(page);
     await page.getByLabel('Goal 1, x in metres').fill('2.5');
     await page.keyboard.press('Enter');
@@ -185,7 +185,7 @@ describe('stopping', () => {
     const page = await watch(undefined, undefined, mortal.url);
     await page.context().setOffline(true);
     await page.evaluate(() => window.lodestar.console.live.socket.socket.close());
-    await page.locator('#stale', { hasText: 'No word from the robot' }).waitFor();
+    await page.locator('#stale', { hasText: 'No data from the robot' }).waitFor();
     await page.context().setOffline(false);
     await page.locator('#stale').waitFor({ state: 'hidden' });
     await page.context().close();  // its complaints are of the connection that was cut
