@@ -72,7 +72,7 @@ SensorInput sense(Camera& camera, BaseDriver& base) {
   return input;
 }
 
-/// False when the robot shall stop for good.
+/// False when the run is to end.
 bool obey(OperatorWish wish, BaseDriver& base, const RunOptions& options) {
   if (wish == OperatorWish::stop) return false;
   if (wish == OperatorWish::resume && !base.resume(monotonic_now())) {

@@ -39,7 +39,7 @@ std::string token_in(const std::string& cookies) {
   return "";
 }
 
-/// Compares with all tokens even after a match, so that the time tells nothing.
+/// Compares with all tokens even after a match, so that timing reveals nothing.
 std::optional<Role> role_for(const std::string& offered, const AccessRules& rules) {
   if (!rules.asks_for_token()) return Role::drive;
   std::optional<Role> role;

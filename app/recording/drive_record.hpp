@@ -22,7 +22,7 @@ struct StepRecord {
   PoseEstimate estimate;
   BodyVelocity commanded;
   BodyVelocity measured;             ///< by the base
-  Vec2 wheel_scales = Vec2::Ones();  ///< true over reported travel, left and right, as learned so far
+  Vec2 wheel_scales = Vec2::Ones();  ///< true over reported travel, left and right, as estimated so far
 };
 
 /// One frame that gave a pose.

@@ -130,8 +130,7 @@ void draw_place(Canvas& canvas, const Vec2& at_m, const std::string& letter, con
   canvas.draw_text(at_m, letter, 16.0, white);
 }
 
-/// Hollow circles at even distances along the true track, one shade for the way there and one for the way
-/// back.
+/// Hollow circles at even distances along the true track, in one colour per goal (there, back).
 void draw_track(Canvas& canvas, const RunRecord& record) {
   const std::vector<std::vector<TruePose>> parts = parts_of_track(record);
   for (std::size_t part = 0; part < parts.size(); ++part) {
