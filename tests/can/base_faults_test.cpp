@@ -73,7 +73,12 @@ TEST_F(BaseFaults, an_emergency_stop_is_latched_and_not_ended_by_its_release) {
   expect_no_motion_after(40ms, pressed->stamp);
   expect_said_within(40ms, "the emergency stop is pressed", pressed->stamp);
   measure("emergency stop", pressed->stamp);
-  EXPECT_EQ(resume_until_the_end(40s), 0);
+  const auto released = witness->wait_for(
+      [](const CanFrame& frame) { return agilex::decode_system_state(frame) && !says_emergency_stop(frame); },
+      pressed->stamp, 5s);
+  ASSERT_TRUE(released);
+  EXPECT_FALSE(witness->wait_for(is_moving_command, released->stamp, 1s)) << "moves without a resume";
+  EXPECT_EQ(resume_and_wait_for_the_end(40s), 0);
 }
 
 TEST_F(BaseFaults, the_remote_control_is_not_fought) {

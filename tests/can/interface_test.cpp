@@ -26,7 +26,7 @@ class Interface : public CanLab {
   void expect_latched_until_resume(const std::string& words, Stamp back) {
     EXPECT_TRUE(wait_for_words(words, 2s));
     EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s)) << "moves without a resume";
-    EXPECT_EQ(resume_until_the_end(40s), 0);
+    EXPECT_EQ(resume_and_wait_for_the_end(40s), 0);
     const Truth truth = end_base();
     EXPECT_NEAR(truth.x_m, 2.4, 0.03);
     EXPECT_NEAR(truth.y_m, 5.5, 0.03);
@@ -82,7 +82,7 @@ TEST_F(Interface, error_passive_makes_it_slow) {
   EXPECT_TRUE(witness->wait_for(drives_faster_than(0.1), passive + 1s, 3s));
   EXPECT_TRUE(witness->heard(drives_faster_than(0.35), passive + 1s).empty());
   words.end();
-  EXPECT_EQ(resume_until_the_end(40s), 0);
+  EXPECT_EQ(wait_for_the_end(40s), 0);
   EXPECT_EQ(run->output().find("CAN controller"), std::string::npos) << "a warning is no fault";
 }
 

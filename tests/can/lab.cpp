@@ -91,7 +91,6 @@ void CanLab::measure(const std::string& fault, Stamp since) const {
 Stamp CanLab::wait_until_driving() {
   for (const Stamp end = monotonic_now() + 40s; monotonic_now() < end;) {
     if (witness->wait_for(drives_faster_than(0.3), monotonic_now(), 300ms)) return monotonic_now();
-    run->say("resume");
   }
   ADD_FAILURE() << "never drove";
   return monotonic_now();
@@ -137,20 +136,36 @@ void CanLab::expect_no_motion_after(Duration bound, Stamp since) const {
   EXPECT_GT(monotonic_now() - moving.back().stamp, quiet) << "still commanded";
 }
 
-std::optional<int> CanLab::wait_for_the_end(Duration longest) const {
+std::optional<int> CanLab::wait_for_the_end(Duration longest, Stamp since) const {
   std::optional<int> ended;
   const Stamp end = monotonic_now() + longest;
-  while (!ended && monotonic_now() < end && !run->said("base: stopped by a fault")) ended = run->wait(100ms);
+  while (!ended && monotonic_now() < end && !run->said("base: stopped by a fault", since)) {
+    ended = run->wait(100ms);
+  }
   return ended;
 }
 
-std::optional<int> CanLab::resume_until_the_end(Duration longest) {
-  std::optional<int> ended;
-  for (const Stamp end = monotonic_now() + longest; !ended && monotonic_now() < end;) {
+bool CanLab::resume(Duration longest) {
+  for (const Stamp end = monotonic_now() + longest; monotonic_now() < end;) {
+    const Stamp asked = monotonic_now();
     run->say("resume");
-    ended = run->wait(1s);
+    while (monotonic_now() < end && !run->said("base: cannot resume", asked)) {
+      if (run->said("base: ready", asked)) return true;
+      std::this_thread::sleep_for(5ms);
+    }
+    std::this_thread::sleep_for(200ms);
   }
-  return ended;
+  return false;
+}
+
+std::optional<int> CanLab::resume_and_wait_for_the_end(Duration longest) {
+  constexpr Duration patience = 5s;  // until all that the base has to say was heard again
+  const Stamp asked = monotonic_now();
+  if (!resume(patience)) {
+    ADD_FAILURE() << "cannot resume";
+    return std::nullopt;
+  }
+  return wait_for_the_end(longest, asked);
 }
 
 CanLab::Truth CanLab::end_base() {

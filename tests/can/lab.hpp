@@ -39,17 +39,18 @@ class CanLab : public testing::Test {
   /// Nobody commands motion any more, from so soon after `since` on.
   void expect_no_motion_after(Duration bound, Stamp since) const;
 
-  /// Drives, on a straight leg, if need be after a resume: a busy machine may have stopped it on its way
-  /// there. The time at which that was seen.
+  /// Drives, on a straight leg. The time at which that was seen.
   Stamp wait_until_driving();
-  /// The exit code of the mission; nothing when it does not end in time, or is stopped by a fault.
-  std::optional<int> wait_for_the_end(Duration longest) const;
+  /// The exit code of the mission; nothing when it does not end in time, or is stopped by a fault after
+  /// `since`.
+  std::optional<int> wait_for_the_end(Duration longest, Stamp since = Stamp{}) const;
   /// The navigator has said so on its way.
   bool wait_for_words(const std::string& words, Duration longest) const;
   bool wait_for_any_words(const std::vector<std::string>& words, Duration longest) const;
-  /// Somebody stands there and resumes, as often as it takes, until the mission is over; its exit code. (On a
-  /// machine that is busy with other things, this kernel itself may hang for a while.)
-  std::optional<int> resume_until_the_end(Duration longest);
+  /// Somebody resumes after a fault, and again where the cause was still there. False when it never went.
+  bool resume(Duration longest);
+  /// The same, once: a further fault ends the wait.
+  std::optional<int> resume_and_wait_for_the_end(Duration longest);
 
   /// How the simulated drive truly ended.
   struct Truth {

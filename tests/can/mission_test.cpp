@@ -61,7 +61,7 @@ TEST_F(Mission, a_full_disk_ends_the_log_and_not_the_drive) {
   ASSERT_TRUE(shell("mkdir -p /run/small && mount -t tmpfs -o size=16k tmpfs /run/small"));
   start_base();
   start_run("--goal 2.4,5.5 -o /run/small/run");
-  EXPECT_EQ(resume_until_the_end(40s), 0);
+  EXPECT_EQ(wait_for_the_end(40s), 0);
   EXPECT_TRUE(run->said("the run is not recorded as a whole"));
   EXPECT_NEAR(end_base().x_m, 2.4, 0.03);
   ASSERT_TRUE(shell("umount /run/small"));
@@ -77,7 +77,7 @@ TEST_F(Mission, arrives_with_an_odrive) {
   site = "odrive";
   start_base("--protocol odrive");
   start_run("--goal 2.4,5.5");
-  EXPECT_EQ(resume_until_the_end(40s), 0);
+  EXPECT_EQ(wait_for_the_end(40s), 0);
   const Truth truth = end_base();
   EXPECT_NEAR(truth.x_m, 2.4, 0.03);
   EXPECT_NEAR(truth.y_m, 5.5, 0.03);
@@ -112,7 +112,7 @@ TEST_F(Mission, waits_for_an_interface_and_a_base_that_come_later) {
   const auto commands = witness->heard(is_motion_command, Stamp{});
   EXPECT_TRUE(commands.empty()) << "moves by itself: " << candump_line(commands.front());
   start_base();
-  EXPECT_EQ(resume_until_the_end(30s), 0);
+  EXPECT_EQ(wait_for_the_end(30s), 0);
 }
 
 TEST_F(Mission, is_refused_with_a_camera_that_is_not_there) {
