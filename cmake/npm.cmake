@@ -1,5 +1,5 @@
 # lodestar_npm_packages(SOURCE FOLDER RESULT): what SOURCE's package-lock.json names, installed into FOLDER, once for
-# each lock file. RESULT is OFF where that cannot be had. No package's script is run.
+# each lock file. RESULT is OFF, after npm's own words, where that cannot be had. No package's script is run.
 function(lodestar_npm_packages source folder result)
   set(stamp ${folder}/node_modules/.lodestar)
   file(MD5 ${source}/package-lock.json lock)
@@ -11,8 +11,9 @@ function(lodestar_npm_packages source folder result)
     message(STATUS "Installing the packages of ${source}")
     file(COPY ${source}/package.json ${source}/package-lock.json DESTINATION ${folder})
     execute_process(COMMAND ${NPM_PROGRAM} ci --ignore-scripts --no-audit --no-fund
-      WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+      WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed OUTPUT_VARIABLE words ERROR_VARIABLE words TIMEOUT 600)
     if(failed)
+      message(WARNING "npm ci in ${folder}: ${failed}\n${words}")
       set(${result} OFF PARENT_SCOPE)
       return()
     endif()
