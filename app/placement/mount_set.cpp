@@ -117,8 +117,7 @@ std::string text_report(const MountSet& set, const MountCalibration& calibration
   for (const Part& part : parts_of(mount)) {
     text += part.measured
                 ? fmt::format("{:<9} {:>9.{}f}  +- {:.2g}\n", part.key, part.value, part.decimals, part.sigma)
-                : fmt::format("{:<9} not observable in this log: stays as in the robot file
-", part.key);
+                : fmt::format("{:<9} not observable in this log: stays as in the robot file\n", part.key);
   }
   text += fmt::format("wheels    left x {:.4f}, right x {:.4f}, track width {:.4f} m (not written)\n",
                       mount.left_scale, mount.right_scale, mount.track_width_m);
