@@ -38,6 +38,11 @@ class Backtrack {
     return !seen_at_m_.empty() && has_seen_ && made_ < options_.most_to_a_goal;
   }
 
+  /// Where the next one leads to; nothing when none may be made.
+  [[nodiscard]] std::optional<Vec2> place_m() const {
+    return possible() ? std::optional(seen_at_m_.front()) : std::nullopt;
+  }
+
   /// Counts a retreat: where to. Nothing when none may be made.
   std::optional<Vec2> begin();
 

@@ -54,8 +54,6 @@ std::string_view to_string(DrivePhase phase) {
       return "turning to the final heading";
     case DrivePhase::arrived:
       return "arrived";
-    case DrivePhase::cancelled:
-      return "cancelled";
   }
   return "";
 }
@@ -73,7 +71,6 @@ RotateThenDrive::RotateThenDrive(Path path, std::optional<double> final_heading_
 
 BodyVelocity RotateThenDrive::update(const PoseEstimate& estimate, Duration elapsed,
                                      const SpeedLimit& limit) {
-  if (paused_ || cancelled_) return slow_down(elapsed);
   const Pose2& pose = estimate.map_from_base;
   next_phase(pose);
   BodyVelocity wanted;
@@ -98,9 +95,13 @@ BodyVelocity RotateThenDrive::turn_around(double turn_radps, Duration elapsed) {
   // Whatever comes next begins with a look ahead.
   if (phase_ != DrivePhase::arrived && phase_ != DrivePhase::final_rotation) begin_turn();
   const bool rolling = last_.forward_mps != 0.0;
-  const BodyVelocity result = command({0.0, rolling ? 0.0 : turn_radps}, elapsed);
-  if (cancelled_ && phase_ != DrivePhase::arrived && at_rest()) phase_ = DrivePhase::cancelled;
-  return result;
+  return command({0.0, rolling ? 0.0 : turn_radps}, elapsed);
+}
+
+void RotateThenDrive::take_over_from(const RotateThenDrive& other) {
+  last_ = other.last_;
+  pending_m_ = other.pending_m_;
+  pending_rad_ = other.pending_rad_;
 }
 
 void RotateThenDrive::next_phase(const Pose2& pose) {

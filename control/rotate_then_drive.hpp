@@ -10,7 +10,7 @@
 
 namespace lodestar {
 
-enum class DrivePhase { rotating, driving, passing_corner, final_rotation, arrived, cancelled };
+enum class DrivePhase { rotating, driving, passing_corner, final_rotation, arrived };
 std::string_view to_string(DrivePhase phase);
 
 /// The paper's closed loop (section 6.3): rotate towards the next waypoint (Eq. (18), with atan2 and
@@ -33,13 +33,8 @@ class RotateThenDrive {
   /// path.
   BodyVelocity turn_around(double turn_radps, Duration elapsed);
 
-  /// Until resume(), update() brings the robot to rest and keeps it there.
-  void pause() { paused_ = true; }
-  void resume() { paused_ = false; }
-  [[nodiscard]] bool paused() const { return paused_; }
-
-  /// Brings the robot to rest, for good: then the phase is `cancelled`.
-  void cancel() { cancelled_ = true; }
+  /// The next command changes the speed from what the other one commanded last.
+  void take_over_from(const RotateThenDrive& other);
 
   [[nodiscard]] DrivePhase phase() const { return phase_; }
   [[nodiscard]] bool arrived() const { return phase_ == DrivePhase::arrived; }
@@ -49,6 +44,8 @@ class RotateThenDrive {
 
   /// The leg being driven, from its beginning, and those after it; empty when there is none.
   [[nodiscard]] Path path_ahead() const;
+
+  [[nodiscard]] const std::optional<double>& final_heading_rad() const { return final_heading_rad_; }
 
  private:
   void next_phase(const Pose2& pose);
@@ -81,9 +78,7 @@ class RotateThenDrive {
   Vec2 leg_start_m_ = Vec2::Zero();
   std::optional<double> turn_heading_rad_;  ///< fixed when a turn to a waypoint begins
   std::optional<Corner> corner_;            ///< at the target, if it is to be passed without stopping
-  bool paused_ = false;
-  bool cancelled_ = false;
-  int approaches_ = 0;  ///< to the goal
+  int approaches_ = 0;                      ///< to the goal
   BodyVelocity last_;
   double pending_m_ = 0.0;    ///< way that was commanded and has not come into effect yet
   double pending_rad_ = 0.0;  ///< likewise of turns

@@ -42,6 +42,8 @@ std::string_view to_string(RouteChange change) {
       return "the robot had left the path";
     case RouteChange::surer:
       return "planned anew after too long a way without a marker";
+    case RouteChange::new_goal:
+      return "planned to another goal";
     case RouteChange::lost:
       return "no path any more";
   }

@@ -21,6 +21,7 @@ enum class RouteChange {
   blocked,    ///< something stands in its way; replaced
   left_path,  ///< the robot is not on it; replaced
   surer,      ///< it led too far without a marker; planned anew
+  new_goal,   ///< the first to another goal; where there is none, failure says why
   lost        ///< it cannot be followed and there is no other: failure says why
 };
 std::string_view to_string(RouteChange change);

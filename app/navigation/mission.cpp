@@ -140,15 +140,23 @@ MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep&
                 fmt::format("cannot start: {}", step.stop ? to_string(*step.stop) : "not at rest"));
   }
   navigation_.look_for_markers(false);
-  const std::optional<PlanResult> result = navigation_.go_to(goals_[current_]);
-  if (!result) return fail(input.now, "the pose is not known");
-  if (const auto* failure = std::get_if<PlanFailure>(&*result)) {
-    return fail(input.now, std::string(to_string(*failure)));
-  }
-  follow_path(input, step, std::get<Plan>(*result).path);
   state_ = State::driving;
   since_.reset();
-  return MissionEvent::path_planned;
+  drive_ends_ = input.now + options_.max_time_more;
+  const std::optional<RouteUpdate> route = navigation_.go_to(goals_[current_]);
+  return route ? take_route(input, step, *route) : MissionEvent::none;
+}
+
+MissionEvent Mission::take_route(const SensorInput& input, const NavigationStep& step,
+                                 const RouteUpdate& route) {
+  if (!route.failure) {
+    follow_path(input, step, route.route.path);
+    return MissionEvent::path_planned;
+  }
+  const std::string_view why = to_string(*route.failure);
+  const bool never_had_one = route.change == RouteChange::new_goal;
+  return fail(input.now,
+              never_had_one ? std::string(why) : fmt::format("{}: {}", to_string(route.change), why));
 }
 
 void Mission::follow_path(const SensorInput& input, const NavigationStep& step, Path path) {
@@ -160,14 +168,7 @@ void Mission::follow_path(const SensorInput& input, const NavigationStep& step, 
 
 MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
-  if (step.reroute && step.reroute->failure) {
-    return fail(input.now,
-                fmt::format("{}: {}", to_string(step.reroute->change), to_string(*step.reroute->failure)));
-  }
-  if (step.reroute) {
-    follow_path(input, step, step.reroute->route.path);
-    return MissionEvent::path_planned;
-  }
+  if (step.reroute) return take_route(input, step, *step.reroute);
   if (navigation_.arrived()) {
     state_ = State::settling;
     since_.reset();

@@ -75,6 +75,7 @@ class Mission {
   MissionEvent advance(const SensorInput& input, const NavigationStep& step);
   MissionEvent hold(const SensorInput& input);
   MissionEvent start_goal(const SensorInput& input, const NavigationStep& step);
+  MissionEvent take_route(const SensorInput& input, const NavigationStep& step, const RouteUpdate& route);
   void follow_path(const SensorInput& input, const NavigationStep& step, Path path);
   MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
   MissionEvent come_to_rest(const SensorInput& input);

@@ -16,19 +16,23 @@ BodyVelocity run(RotateThenDrive& controller, Plant& plant, int steps, const Spe
   return command;
 }
 
+BodyVelocity slow_down(RotateThenDrive& controller, Plant& plant, int steps) {
+  BodyVelocity command;
+  for (int step = 0; step < steps; ++step) plant.run(command = controller.slow_down(from_seconds(period_s)));
+  return command;
+}
+
 TEST(Pause, comes_to_rest_gently_and_goes_on_to_the_same_goal) {
   RotateThenDrive controller(path, std::nullopt);
   Plant plant;
   const BodyVelocity before = run(controller, plant, 150);
   ASSERT_GT(before.forward_mps, 0.4);
-  controller.pause();
-  const BodyVelocity next = run(controller, plant, 1);
+  const BodyVelocity next = slow_down(controller, plant, 1);
   EXPECT_GE(next.forward_mps, before.forward_mps - 0.5 * period_s - 1e-9) << "no jerk";
-  run(controller, plant, 100);
+  slow_down(controller, plant, 100);
   const Pose2 paused = plant.truth;
-  run(controller, plant, 100);
+  slow_down(controller, plant, 100);
   EXPECT_LT((plant.truth.position_m - paused.position_m).norm(), 1e-3);
-  controller.resume();
   run(controller, plant, 3000);
   EXPECT_TRUE(controller.arrived());
   EXPECT_LT((plant.truth.position_m - Vec2(3.0, 2.0)).norm(), 0.015);
@@ -39,26 +43,23 @@ TEST(Pause, of_the_last_turn_goes_on_too) {
   Plant plant;
   while (controller.phase() != DrivePhase::final_rotation) run(controller, plant, 1);
   run(controller, plant, 30);
-  controller.pause();
-  EXPECT_EQ(run(controller, plant, 100).turn_radps, 0.0);
-  controller.resume();
+  EXPECT_EQ(slow_down(controller, plant, 100).turn_radps, 0.0);
   run(controller, plant, 2000);
   EXPECT_TRUE(controller.arrived());
   EXPECT_NEAR(plant.truth.yaw_rad, radians(170.0), radians(1.5));
 }
 
-TEST(Pause, cancelled_is_at_rest_for_good) {
+TEST(Pause, another_path_begins_at_the_speed_of_the_one_before) {
   RotateThenDrive controller(path, std::nullopt);
   Plant plant;
   const BodyVelocity before = run(controller, plant, 150);
-  controller.cancel();
-  const BodyVelocity next = run(controller, plant, 1);
-  EXPECT_GE(next.forward_mps, before.forward_mps - 0.5 * period_s - 1e-9);
-  EXPECT_NE(controller.phase(), DrivePhase::cancelled) << "it still rolls";
-  run(controller, plant, 200);
-  EXPECT_EQ(controller.phase(), DrivePhase::cancelled);
-  controller.resume();
-  EXPECT_EQ(run(controller, plant, 10).forward_mps, 0.0);
+  RotateThenDrive other({{plant.truth.position_m, Vec2(1.0, 2.0)}}, std::nullopt);
+  other.take_over_from(controller);
+  EXPECT_FALSE(other.at_rest());
+  EXPECT_NEAR(run(other, plant, 1).forward_mps, before.forward_mps - 0.5 * period_s, 1e-9) << "no jerk";
+  run(other, plant, 3000);
+  EXPECT_TRUE(other.arrived());
+  EXPECT_LT((plant.truth.position_m - Vec2(1.0, 2.0)).norm(), 0.015);
 }
 
 TEST(Pause, looking_around_turns_on_the_spot_and_the_drive_goes_on_from_there) {

@@ -1,57 +1,13 @@
-#include "app/navigation/navigation.hpp"
-
 #include <algorithm>
-#include <filesystem>
-#include <functional>
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "app/navigation/mission.hpp"
-#include "app/navigation/navigation_setup.hpp"
-#include "app/simulate/disturbances.hpp"
-#include "drivers/base/base_driver.hpp"
-#include "drivers/simulation/simulation.hpp"
+
+#include "tests/app/navigation/lab.hpp"
 
 namespace lodestar {
 namespace {
-
-constexpr Duration period = std::chrono::milliseconds(20);
-
-Site lab() {
-  return load_site(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab");
-}
-
-/// The lab as it is, with the robot in it that knows the lab as surveyed.
-struct Lab {
-  Site site = lab();
-  KnownWorld known = known_world(site, "wide");
-  MarkerRegistry registered_marker = site.registry;  ///< how the markers really hang
-  std::uint64_t seed = 1;
-  Disturbances disturbances;
-  bool has_plain_ceiling = false;                                ///< nothing to be seen on it but markers
-  std::function<bool(Stamp)> sees = [](Stamp) { return true; };  ///< or the lens is covered
-
-  [[nodiscard]] Simulation simulation() const {
-    SimulationOptions options;
-    options.start = site.start;
-    options.base_from_camera = site.robot.base_from_camera;
-    options.robot_radius_m = site.robot.radius_m;
-    options.base.track_width_m = site.robot.track_width_m;
-    options.seed = seed;
-    return {known.map, registered_marker, known.camera, made_harder(options, disturbances)};
-  }
-};
-
-SensorInput sense(const Lab& lab, Simulation& simulation, BaseDriver& base) {
-  simulation.advance(period);
-  SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
-  while (std::optional<Frame> frame = simulation.camera().poll()) {
-    if (!lab.sees(frame->stamp)) cv::blur(frame->gray, frame->gray, {101, 101});
-    input.frames.push_back(std::move(*frame));
-  }
-  return input;
-}
 
 struct Drive {
   bool arrived = false;
@@ -120,7 +76,7 @@ TEST(Navigation, arrives_and_trusts_all_markers_where_they_hang_as_surveyed) {
 TEST(Navigation, names_a_moved_marker_and_arrives_without_it) {
   for (const Vec2& moved : {Vec2(0.06, -0.03), Vec2(-0.15, 0.1), Vec2(0.3, 0.3)}) {
     Lab lab;
-    RegisteredMarker& marker = marker_on_the_way(lab.registered_marker);
+    RegisteredMarker& marker = marker_on_the_way(lab.hung);
     marker.position_m.head<2>() += moved;
     const Drive result = drive(lab, lab.site.goals.front());
     EXPECT_TRUE(result.arrived) << result.failure;
@@ -138,7 +94,7 @@ TEST(Navigation, takes_another_way_where_it_found_no_marker) {
   lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03, .plain_ceiling = true};
   std::vector<Vec2> places_m{lab.site.start.position_m};
   for (const Goal& goal : lab.site.goals) places_m.push_back(goal.position_m);
-  lab.registered_marker = with_markers_removed(lab.registered_marker, 0.5, places_m, lab.seed);
+  lab.hung = with_markers_removed(lab.hung, 0.5, places_m, lab.seed);
   const Drive result = drive(lab, lab.site.goals.front());
   EXPECT_TRUE(result.arrived) << result.failure;
   EXPECT_TRUE(result.took_another_way);
@@ -166,7 +122,7 @@ TEST(Navigation, goes_back_to_learn_its_wheels_when_the_next_marker_is_too_far) 
     Lab lab;
     lab.seed = seed;
     lab.disturbances.plain_ceiling = true;
-    std::erase_if(lab.registered_marker.markers,
+    std::erase_if(lab.hung.markers,
                   [&](const RegisteredMarker& marker) { return !left.contains(marker.id); });
     const Drive result = drive(lab, lab.site.goals.front());
     EXPECT_TRUE(result.arrived) << result.failure;
@@ -182,7 +138,7 @@ TEST(Navigation, goes_by_the_ceiling_where_markers_are_far_between) {
     lab.seed = seed;
     lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03};
     const Goal& goal = lab.site.goals.front();
-    std::erase_if(lab.registered_marker.markers, [&](const RegisteredMarker& marker) {
+    std::erase_if(lab.hung.markers, [&](const RegisteredMarker& marker) {
       const Vec2 place_m = marker.position_m.head<2>();
       return (place_m - lab.site.start.position_m).norm() > 2.0 && (place_m - goal.position_m).norm() > 2.0;
     });

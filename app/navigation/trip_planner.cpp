@@ -1,0 +1,115 @@
+#include "app/navigation/trip_planner.hpp"
+
+#include <utility>
+
+namespace lodestar {
+
+TripPlanner::TripPlanner(const OccupancyMap& map, const TripPlannerOptions& options) : options_(options) {
+  lay_ground(map, {});
+}
+
+void TripPlanner::map_changed(const OccupancyMap& map, std::span<const Vec2> blind_m) {
+  lay_ground(map, blind_m);
+}
+
+/// An unsure robot keeps away from what it could touch; and where it has found no marker it drives again only
+/// if every other way is far longer.
+void TripPlanner::lay_ground(const OccupancyMap& map, std::span<const Vec2> blind_m) {
+  GridPlannerOptions options = options_.planner;
+  options.shunned.places_m.assign(blind_m.begin(), blind_m.end());
+  const bool is_unsure = keeps_to_the_middle_ || !blind_m.empty();
+  ground_ = std::make_unique<const PlanningContext>(map, options, is_unsure ? Margins::wide : Margins::usual);
+}
+
+TripPlanner::Planned TripPlanner::plan(const PlanRequest& request, const Trip& trip, const Pose2& pose,
+                                       std::span<const Vec2> blind_m) {
+  const bool is_other_ground = trip.keeps_to_the_middle != keeps_to_the_middle_;
+  const bool begins_anew = request.kind == PlanKind::new_goal && is_other_ground;
+  if (begins_anew || request.kind == PlanKind::another_way) {
+    keeps_to_the_middle_ = trip.keeps_to_the_middle;
+    lay_ground(ground_->map, blind_m);
+  }
+  switch (request.kind) {
+    case PlanKind::review:
+      // Sampling planners take too long to be asked while the robot drives.
+      if (sampling_method(options_.planner.kind)) return {PathIsToGo{}, std::nullopt};
+      return review(route_from(request, trip, pose));
+    case PlanKind::replan:
+      return replan(route_from(request, trip, pose));
+    case PlanKind::another_way:
+      return another_way(trip, pose);
+    case PlanKind::new_goal:
+      return to_goal(request, pose);
+    case PlanKind::way_back:
+      break;
+  }
+  return way_back(request.goal_m, trip, pose);
+}
+
+TripPlanner::Planned TripPlanner::review(const RouteUpdate& update) const {
+  if (update.change == RouteChange::kept) return {PathHolds{}, std::nullopt};
+  return {PathIsToGo{}, std::nullopt};
+}
+
+TripPlanner::Planned TripPlanner::replan(const RouteUpdate& update) const {
+  if (update.change == RouteChange::kept) return {PathHolds{}, std::nullopt};
+  if (update.change == RouteChange::lost) return {PathNotFound{}, update};
+  return {along(update.route), update};
+}
+
+TripPlanner::Planned TripPlanner::another_way(const Trip& trip, const Pose2& pose) const {
+  const std::optional<double>& goal_heading_rad = trip.drive.final_heading_rad();
+  const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal_heading_rad};
+  const Vec2 goal_m = trip.drive.path_ahead().waypoints_m.back();
+  const PlanResult result = ground_->planner.plan(pose.position_m, goal_m, headings);
+  const auto* plan = std::get_if<Plan>(&result);
+  if (plan == nullptr) return {PathNotFound{}, std::nullopt};
+  const Route route{plan->path, goal_heading_rad};
+  return {along(route), RouteUpdate{.route = route, .change = RouteChange::surer, .failure = std::nullopt}};
+}
+
+TripPlanner::Planned TripPlanner::to_goal(const PlanRequest& request, const Pose2& pose) const {
+  const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = request.goal_heading_rad};
+  const PlanResult result = ground_->planner.plan(pose.position_m, request.goal_m, headings);
+  RouteUpdate update{.route = {{}, request.goal_heading_rad}, .change = RouteChange::new_goal, .failure = {}};
+  if (const auto* failure = std::get_if<PlanFailure>(&result)) {
+    update.failure = *failure;
+    return {PathNotFound{}, update};
+  }
+  update.route.path = std::get<Plan>(result).path;
+  return {along(update.route), update};
+}
+
+/// First along the leg by which it has come: every other way may be narrower.
+TripPlanner::Planned TripPlanner::way_back(const Vec2& place_m, const Trip& trip, const Pose2& pose) const {
+  constexpr double beside_leg_m = 0.3;
+  const auto along_way = [&](Path path) {
+    return Planned{PathFound{RotateThenDrive(std::move(path), std::nullopt, options_.drive)}, std::nullopt};
+  };
+  const std::vector<Vec2> ahead_m = trip.drive.path_ahead().waypoints_m;
+  const bool is_on_leg =
+      ahead_m.size() > 1 && distance_to_path_m({{ahead_m[0], ahead_m[1]}}, pose.position_m) <= beside_leg_m;
+  const Vec2 from_m = is_on_leg ? ahead_m.front() : pose.position_m;
+  if (distance_to_path_m({{from_m, pose.position_m}}, place_m) <= beside_leg_m)
+    return along_way({{pose.position_m, place_m}});
+  const MarginPlanner planner(ground_->map, options_.planner, margins_m(Margins::wide));
+  const PlanResult result = planner.plan(from_m, place_m);
+  const auto* plan = std::get_if<Plan>(&result);
+  if (plan == nullptr) return {PathNotFound{}, std::nullopt};
+  Path path = plan->path;
+  if (is_on_leg) path.waypoints_m.insert(path.waypoints_m.begin(), pose.position_m);
+  return along_way(std::move(path));
+}
+
+RouteUpdate TripPlanner::route_from(const PlanRequest& request, const Trip& trip, const Pose2& pose) const {
+  Route route{trip.drive.path_ahead(), trip.drive.final_heading_rad()};
+  if (request.leg_from_here) route.path.waypoints_m.front() = pose.position_m;
+  return updated(route, pose, ground_->planner, options_.route);
+}
+
+PathFound TripPlanner::along(const Route& route) const {
+  const DriveOptions drive = ground_->drive_options(route.path, options_.drive);
+  return {RotateThenDrive(route.path, route.goal_heading_rad, drive)};
+}
+
+}  // namespace lodestar
