@@ -42,13 +42,12 @@ ExitCode run(const BenchLocalizeArguments& arguments) {
   const BenchLocalizeResult result =
       bench_localize(options, [&progress](double share) { progress.show(share); });
   for (const std::string& peer : result.left_out)
-    fmt::print(stderr, "bench: {} is skipped, this program was built without it
-", peer);
+    fmt::print(stderr, "bench: {} is skipped, this program was built without it\n", peer);
   const std::string json = bench_localize_json(result).dump(2) + "\n";
   if (!folder.empty()) {
-      write_file_atomically(folder / "localize.json", json);
-      write_file_atomically(folder / "localize.html", bench_localize_html(result));
-      if (!arguments.quiet) fmt::print(stderr, "bench: wrote {}\n", (folder / "localize.html").string());
+    write_file_atomically(folder / "localize.json", json);
+    write_file_atomically(folder / "localize.html", bench_localize_html(result));
+    if (!arguments.quiet) fmt::print(stderr, "bench: wrote {}\n", (folder / "localize.html").string());
   }
   fmt::print("{}", arguments.json ? json : bench_localize_text(result));
   return done;

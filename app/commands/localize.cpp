@@ -221,12 +221,10 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
       ->check(CLI::IsMember({"csv", "tum", "json"}))
       ->capture_default_str();
   add_frame_arguments(*command, arguments->frames);
-  command->footer(
-      command->get_footer() +
-      "\nStamps are in seconds: a video's own time, a camera's since boot; an image's is its
-name when that is a number (12.40.png), else its position in the list, from 0.");
-  return {{command, [arguments] {
-    return localize(*arguments); }}};
+  command->footer(command->get_footer() +
+                  "\nStamps are in seconds: a video's own time, a camera's since boot; an image's is "
+                  "its\nname when that is a number (12.40.png), else its position in the list, from 0.");
+  return {{command, [arguments] { return localize(*arguments); }}};
 }
 
 }  // namespace lodestar

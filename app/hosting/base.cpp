@@ -85,10 +85,8 @@ ExitCode base_command(const BaseArguments& arguments) {
   HostedBase base(options_from(arguments));
   std::signal(SIGINT, take_signal);
   std::signal(SIGTERM, take_signal);
-  fmt::print(stderr, "lodestar: a simulated base runs on {}; Ctrl-C ends it
-", arguments.interface);
-  const HostedDrive drive = base.run([] {
-    return told_to_stop != 0; });
+  fmt::print(stderr, "lodestar: a simulated base runs on {}; Ctrl-C ends it\n", arguments.interface);
+  const HostedDrive drive = base.run([] { return told_to_stop != 0; });
   const Pose2& end = drive.map_from_base;
   fmt::print("at {:.4f} {:.4f} {:.3f} driven {:.3f} contacts {}\n", end.position_m.x(), end.position_m.y(),
              degrees(end.yaw_rad), drive.driven_m, drive.contacts);
