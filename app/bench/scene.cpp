@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "maps/paper_camera.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -48,12 +50,7 @@ PrintedSquare sheet_over(const MarkerRegistry& registry, std::size_t marker, dou
 }  // namespace
 
 CameraModel bench_camera() {
-  return {.width_px = 640,
-          .height_px = 480,
-          .fx_px = 755.139,
-          .fy_px = 753.926,
-          .cx_px = 320.252,
-          .cy_px = 239.661};
+  return paper_camera();
 }
 
 MarkerRegistry bench_registry(const BenchScene& scene, Random random) {

@@ -22,7 +22,7 @@ struct BenchScene {
   int markers = 1;            ///< in view: 1, or 3 in a triangle
 };
 
-/// K of Eq. (16).
+/// The paper's.
 CameraModel bench_camera();
 
 /// The centre of a marker's grid in the marker frame, and its outer side length, between the outer edges of

@@ -2,15 +2,12 @@
 
 #include "drivers/simulation/image_former.hpp"
 #include "maps/marker.hpp"
+#include "maps/paper_camera.hpp"
 #include "maps/random.hpp"
 
 // Time to render one 640 x 480 frame of a lit ceiling with markers every 1.5 m, seen by a moving robot.
 namespace lodestar {
 namespace {
-
-CameraModel paper_camera() {
-  return {640, 480, 755.139, 753.926, 320.252, 239.661, Distortion::none, {}};
-}
 
 CameraModel wide_camera() {
   return {640, 480, 320.0, 320.0, 319.5, 239.5, Distortion::none, {}};

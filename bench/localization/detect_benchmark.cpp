@@ -17,8 +17,8 @@ using namespace lodestar;
 
 constexpr double ceiling_m = 2.6;
 
-/// K of Eq. (16), its pixels made square.
-CameraModel paper_camera() {
+/// As long as the paper's, with square pixels.
+CameraModel square_pixel_camera() {
   return {.width_px = 640, .height_px = 480, .fx_px = 755.0, .fy_px = 755.0, .cx_px = 320.0, .cy_px = 240.0};
 }
 
@@ -29,7 +29,7 @@ double edge(double distance_px, double radius_px) {
 }
 
 void draw_marker(cv::Mat& frame, int id, const Vec2& o_px, double turn_rad) {
-  const double pitch_px = paper_camera().fx_px * marker_pitch_m / ceiling_m;
+  const double pitch_px = square_pixel_camera().fx_px * marker_pitch_m / ceiling_m;
   const Eigen::Rotation2Dd turn(turn_rad);
   for (const GridCell cell : dots_of(id)) {
     const Vec2 center = o_px + turn * Vec2(cell.column * pitch_px, (cell.row - 3) * pitch_px);
@@ -109,7 +109,7 @@ MarkerRegistry three_markers(const CameraModel& camera) {
 }
 
 void pose_of_a_frame(benchmark::State& state) {
-  const CameraModel camera = paper_camera();
+  const CameraModel camera = square_pixel_camera();
   const MarkerRegistry registry = three_markers(camera);
   const cv::Mat frame = frame_of_three_markers();
   MarkerDetector detector(expecting(registry));
@@ -128,7 +128,7 @@ BENCHMARK(pose_of_a_frame)->Unit(benchmark::kMicrosecond);
 /// Stains of a few centimetres with image noise, as seen by the camera 10 cm further on.
 void motion_by_the_ceiling(benchmark::State& state) {
   cv::setNumThreads(1);
-  const CameraModel camera = paper_camera();
+  const CameraModel camera = square_pixel_camera();
   constexpr int way_px = 29;
   cv::Mat1f stains(camera.height_px, camera.width_px + way_px);
   cv::RNG random(1);

@@ -13,11 +13,6 @@
 // Cameras, ceilings and measures that the tests of the simulated camera share.
 namespace lodestar::testing {
 
-/// K of Eq. (16); for a ceiling 2.6 m above it.
-inline CameraModel paper_camera() {
-  return {640, 480, 755.139, 753.926, 320.252, 239.661, Distortion::none, {}};
-}
-
 /// 90 degrees wide, for a ceiling 1.5 m above it.
 inline CameraModel wide_camera() {
   return {640, 480, 320.0, 320.0, 319.5, 239.5, Distortion::none, {}};

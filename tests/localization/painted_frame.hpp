@@ -10,20 +10,11 @@
 
 #include "maps/camera_model.hpp"
 #include "maps/marker.hpp"
+#include "maps/paper_camera.hpp"
 #include "maps/random.hpp"
 
 // Frames whose truth is known, because it is chosen before they are drawn.
 namespace lodestar {
-
-/// K of Eq. (16).
-inline CameraModel paper_camera() {
-  return {.width_px = 640,
-          .height_px = 480,
-          .fx_px = 755.139,
-          .fy_px = 753.926,
-          .cx_px = 320.252,
-          .cy_px = 239.661};
-}
 
 /// 90 degrees of view.
 inline CameraModel wide_camera() {

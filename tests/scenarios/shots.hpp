@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/simulation/image_former.hpp"
+#include "maps/paper_camera.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 
@@ -32,11 +33,7 @@ class Shots : public ::testing::Test {
                "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
                "  - {id: 447, x_m: 1.0, y_m: 2.0, z_m: 2.6, yaw_deg: 30}\n"
                "  - {id: 1782, x_m: 1.5, y_m: 2.0, z_m: 2.6, yaw_deg: -110}\n");
-    write_text(
-        scratch_.path() / "camera.yaml",
-        "image_width: 640\nimage_height: 480\ncamera_name: ceiling\n"
-        "camera_matrix: {rows: 3, cols: 3, data: [755.139, 0, 320.252, 0, 753.926, 239.661, 0, 0, 1]}\n"
-        "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n");
+    save_camera(paper_camera(), "ceiling", scratch_.path() / "camera.yaml");
     std::filesystem::create_directories(scratch_.path() / "frames");
     take("0.5", Pose2{{1.2, 2.1}, radians(75.0)});
     take("1.5", Pose2{{1.3, 1.9}, radians(-160.0)});

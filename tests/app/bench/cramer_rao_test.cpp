@@ -5,16 +5,12 @@
 
 #include "drivers/simulation/image_former.hpp"
 #include "maps/marker.hpp"
+#include "maps/paper_camera.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr double ceiling_m = 2.6;
-
-/// K of Eq. (16).
-CameraModel paper_camera() {
-  return {640, 480, 755.139, 753.926, 320.252, 239.661, Distortion::none, {}};
-}
 
 /// A marker of nine dots on the axes of the map.
 MarkerRegistry nine_dots() {

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "app/navigation/navigation_setup.hpp"
+#include "maps/paper_camera.hpp"
 
 namespace lodestar {
 namespace {
@@ -20,7 +21,13 @@ TEST(Site, of_the_lab_is_the_papers) {
   EXPECT_EQ(site.map.map.rows, 150);
   EXPECT_DOUBLE_EQ(site.map.map.resolution_m, 0.05);
   EXPECT_TRUE(site.map.warnings.empty());
-  EXPECT_NEAR(site.cameras.at("paper").fx_px, 755.139, 1e-9);
+  const CameraModel paper = site.cameras.at("paper");
+  EXPECT_EQ(paper.width_px, paper_camera().width_px);
+  EXPECT_EQ(paper.height_px, paper_camera().height_px);
+  EXPECT_EQ(paper.fx_px, paper_camera().fx_px);
+  EXPECT_EQ(paper.fy_px, paper_camera().fy_px);
+  EXPECT_EQ(paper.cx_px, paper_camera().cx_px);
+  EXPECT_EQ(paper.cy_px, paper_camera().cy_px);
   EXPECT_GE(site.registry.markers.size(), 10U);
   for (const RegisteredMarker& marker : site.registry.markers) {
     EXPECT_NEAR(marker.position_m.z() - site.robot.base_from_camera.translation().z(), 1.5, 0.05)

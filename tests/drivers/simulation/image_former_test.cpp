@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "maps/paper_camera.hpp"
+
 #include "tests/drivers/ceiling_pictures.hpp"
 
 namespace lodestar {
@@ -13,7 +15,6 @@ using testing::distorted;
 using testing::many_markers;
 using testing::measure_spot;
 using testing::one_marker;
-using testing::paper_camera;
 using testing::plain_light;
 using testing::Spot;
 using testing::wide_camera;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/simulation/image_former.hpp"
+#include "maps/paper_camera.hpp"
 
 #include "tests/drivers/ceiling_pictures.hpp"
 
@@ -10,7 +11,6 @@ namespace lodestar {
 namespace {
 
 using testing::camera_at;
-using testing::paper_camera;
 using testing::plain_light;
 
 constexpr double ceiling_m = 2.6;
@@ -45,7 +45,7 @@ int gray_at(const cv::Mat& image, const Vec2& pixel) {
 TEST(PrintedSquare, reads_as_printed_to_a_camera_below) {
   ImageFormer former = former_with(quartered(0.0, 0.0));
   const cv::Mat image = seen_by(former, camera_at(0.0, 0.0, 0.0, {}));
-  const Vec2 middle(320.252, 239.661);
+  const Vec2 middle(paper_camera().cx_px, paper_camera().cy_px);
   EXPECT_EQ(gray_at(image, middle + Vec2(-14, -14)), 30);
   EXPECT_EQ(gray_at(image, middle + Vec2(14, -14)), 200);
   EXPECT_EQ(gray_at(image, middle + Vec2(-14, 14)), 200);
@@ -84,7 +84,7 @@ TEST(PrintedSquare, is_blurred_as_the_dots_are) {
   ImageFormer former({}, paper_camera(), options, 1);
   former.hang(patch);
   const cv::Mat image = seen_by(former, camera_at(0.0, 0.0, 0.0, {}));
-  const double edge_px = 320.252 + 0.1 * 755.139 / ceiling_m;
+  const double edge_px = paper_camera().cx_px + 0.1 * paper_camera().fx_px / ceiling_m;
   const double sigma_px = std::sqrt(1.2 * 1.2 + 1.0 / 12.0);
   for (int u = 345; u < 355; ++u) {
     const double share = 0.5 * std::erfc((u - edge_px) / (std::sqrt(2.0) * sigma_px));

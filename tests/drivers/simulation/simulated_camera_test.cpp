@@ -6,6 +6,7 @@
 
 #include "drivers/simulation/tilt_wobble.hpp"
 #include "maps/input_error.hpp"
+#include "maps/paper_camera.hpp"
 
 #include "tests/drivers/ceiling_pictures.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 using std::chrono::milliseconds;
 using testing::measure_spot;
 using testing::one_marker;
-using testing::paper_camera;
 using testing::plain_light;
 
 Stamp at(Duration since_start) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "maps/paper_camera.hpp"
 #include "maps/random.hpp"
 
 namespace lodestar {
@@ -29,7 +30,7 @@ cv::Mat1f stained(double gray, std::uint64_t seed) {
 }
 
 struct Picture {
-  CameraModel camera{640, 480, 755.139, 753.926, 320.252, 239.661, Distortion::none, {}};
+  CameraModel camera = paper_camera();
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   cv::Mat1f ceiling;
   double noise_gray = 1.5;

@@ -6,24 +6,13 @@
 #include <limits>
 
 #include "localization/pose/map_estimate.hpp"
+#include "maps/paper_camera.hpp"
 #include "maps/random.hpp"
 
 #include "tests/localization/seen_markers.hpp"
 
 namespace lodestar {
 namespace {
-
-/// K of Eq. (16).
-CameraModel paper_camera() {
-  CameraModel camera;
-  camera.width_px = 640;
-  camera.height_px = 480;
-  camera.fx_px = 755.139;
-  camera.fy_px = 753.926;
-  camera.cx_px = 320.252;
-  camera.cy_px = 239.661;
-  return camera;
-}
 
 CameraModel wide_camera() {
   CameraModel camera;
