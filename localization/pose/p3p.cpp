@@ -199,12 +199,17 @@ Eigen::Isometry3d motion_for(const std::array<Vec3, 3>& rays, const Vec3& depths
   return camera_from_points;
 }
 
+/// Eq. (11): the cosine of the angle between two unit rays, one of alpha, beta and gamma.
+double cosine_between(const Vec3& ray, const Vec3& other) {
+  return ray.dot(other);
+}
+
 Triangle triangle_of(const std::array<Vec3, 3>& rays, const std::array<Vec3, 3>& points) {
   Triangle triangle;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto i = static_cast<std::size_t>(pairs[k].first);
     const auto j = static_cast<std::size_t>(pairs[k].second);
-    triangle.cosines[static_cast<Eigen::Index>(k)] = rays[i].dot(rays[j]);
+    triangle.cosines[static_cast<Eigen::Index>(k)] = cosine_between(rays[i], rays[j]);
     triangle.squared_sides[static_cast<Eigen::Index>(k)] = (points[i] - points[j]).squaredNorm();
   }
   return triangle;
