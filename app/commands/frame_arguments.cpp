@@ -5,7 +5,7 @@ namespace lodestar {
 void add_frame_arguments(CLI::App& command, FrameArguments& arguments) {
   command
       .add_option("--method", arguments.method,
-                  "Detection method: lodestar, or paper (fixed threshold, binary centres) for comparison")
+                  "Method: lodestar, or for comparison the paper's whole method (docs/method.md)")
       ->check(CLI::IsMember({"lodestar", "paper"}))
       ->capture_default_str();
   command.add_option("--draw", arguments.draw, "Folder for a PNG of each frame with its detections")
@@ -25,7 +25,7 @@ void add_frame_arguments(CLI::App& command, FrameArguments& arguments) {
 }
 
 DetectorOptions detector_options(const FrameArguments& arguments) {
-  return arguments.method == "paper" ? paper_method() : DetectorOptions{};
+  return arguments.method == "paper" ? paper_detection() : DetectorOptions{};
 }
 
 FrameInputs open_inputs(const FrameArguments& arguments, const std::optional<CameraModel>& camera) {

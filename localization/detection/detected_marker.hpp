@@ -20,7 +20,7 @@ using MarkerDots = InlineVector<MarkerDot, marker_grid_size * marker_grid_size>;
 /// A marker that was seen and decoded.
 struct DetectedMarker {
   int id = 0;
-  double probability = 0.0;  ///< that the ID is right, by the evidence of all cells
+  double probability = 0.0;  ///< that the ID is right, by the evidence of all cells; 0: they were not weighed
   double confidence = 0.0;   ///< P(S) of Eq. (3)
   Vec2 center_px =
       Vec2::Zero();  ///< centre of the marker's area, whose distance to the image centre ranks it

@@ -175,6 +175,7 @@ std::span<const MarkerReading> AreaReader::read(std::span<const Dot> dots) {
       return readings_;
     }
   }
+  if (!options_.every_corner) return {};
   read_every_corner(dots);
   leave_out_conflicts();
   if (!readings_.empty()) read_the_rest(dots);

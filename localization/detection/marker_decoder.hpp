@@ -35,6 +35,7 @@ struct MarkerDecoderOptions {
   double guard_pitches = 2.0;  ///< about a marker that shares its area with others, so much must be clear
   std::size_t least_dots_in_a_crowd = 5;  ///< and so many dots agree: three always fit some grid
   std::size_t most_dots = 48;             ///< an area with more holds no markers
+  bool every_corner = true;               ///< try every dot as O where the paper's rule finds no marker
 };
 
 /// The direction dots, as indices.

@@ -176,13 +176,15 @@ void add_inner_pixels(const cv::Mat& gray, const Run& run, ConfidenceSum& confid
 
 }  // namespace
 
-DetectorOptions paper_method() {
+DetectorOptions paper_detection() {
   DetectorOptions options;
   options.dots.fixed_threshold = 200;
   options.dots.by_binary_center = true;
   options.dots.tail_px = 2.5;
   options.dots.min_radius_px = 1.3;
+  options.decoder.every_corner = false;
   options.lattice_search = false;
+  options.weigh_cells = false;
   return options;
 }
 
@@ -225,6 +227,11 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const
   const std::span<const MarkerReading> readings = area_reader_.read(dots);
   for (const MarkerReading& reading : readings) {
     const DotsOfMarker own = dots_at(dots, reading.indices);
+    const auto grid_place = [&](GridCell cell) { return reading.grid.center_px(cell); };
+    if (!options_.weigh_cells) {
+      markers_.push_back(detected(reading.id, 0.0, confidence_of(gray, own), reading.dots, grid_place));
+      continue;
+    }
     const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
     const bool cover_shows = shows_a_cover(reading.grid, own, of_frame, options_.evidence);
     const IdReading id = id_decoder_.read(cells, cover_shows);
@@ -233,8 +240,7 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const
         id.contradicting > 0 || !id_decoder_.accepts(id.id)) {
       continue;
     }
-    markers_.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots,
-                                [&](GridCell cell) { return reading.grid.center_px(cell); }));
+    markers_.push_back(detected(id.id, probability, confidence_of(gray, own), reading.dots, grid_place));
   }
   if (readings.empty() && options_.lattice_search && id_decoder_.knows_ids())
     append_marker_of_lattice(gray, dots, of_frame);

@@ -34,11 +34,14 @@ struct DetectorOptions {
   /// Where the paper's rule fails, look for any lattice of dots, of which some may be hidden. Only with
   /// registered IDs: where any may hang, each square of a lattice is somebody's.
   bool lattice_search = true;
+  /// The ID by the evidence of all cells, and a probability with it. Else that of the dots found, Eq. (9),
+  /// with neither.
+  bool weigh_cells = true;
 };
 
 /// The paper's own way (sections 4.1 and 4.2): the threshold 200 everywhere, centres of binary dots,
-/// direction dots by the farthest pair, nothing else tried.
-DetectorOptions paper_method();
+/// direction dots by the farthest pair, the ID by Eq. (9), nothing else tried.
+DetectorOptions paper_detection();
 
 /// The same, with the registry's markers expected.
 DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options = {});
