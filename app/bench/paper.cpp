@@ -8,6 +8,7 @@
 #include "app/common/stopwatch.hpp"
 #include "drivers/simulation/image_former.hpp"
 #include "localization/detection/marker_detector.hpp"
+#include "localization/pose/paper_pose.hpp"
 #include "maps/marker.hpp"
 #include "maps/random.hpp"
 
@@ -81,23 +82,30 @@ Eigen::Isometry3d some_view(const MarkerRegistry& registry, Random& random) {
   return view;
 }
 
+/// What one frame of the stand gives.
+struct Measured {
+  Eigen::Isometry3d map_from_camera;
+  double confidence = 0.0;
+};
+
 /// A camera on its stand: nearly upright, at a place and heading, below the one marker.
 class Stand {
  public:
   explicit Stand(const BenchPaperOptions& options)
       : random_(Random(options.seed).stream(2)),
         tilt_sigma_rad_(options.tilt_sigma_rad),
+        method_(options.method),
         former_(registry_, bench_camera(), SimulatedCameraOptions{}, random_.bits()) {
     PosePrior upright;
     upright.tilt_sigma_rad = options.tilt_sigma_rad;
     fix_options_.prior = options.prior.value_or(upright);
   }
 
-  std::optional<PoseFix> measure(const Vec3& position, double yaw_rad) {
+  std::optional<Measured> measure(const Vec3& position, double yaw_rad) {
     const Eigen::Isometry3d view =
         camera_at(position, yaw_rad, tilt_sigma_rad_ * random_.normal(), tilt_sigma_rad_ * random_.normal());
     const cv::Mat gray = former_.expose(view, view, frame_++);
-    return fix_pose(Stamp{}, detect_markers(gray), registry_, camera_, fix_options_);
+    return method_ == MeasuredBy::paper ? by_the_paper(gray) : by_us(gray);
   }
 
   /// In the frame of Tables 2 and 3, the marker's.
@@ -106,10 +114,22 @@ class Stand {
   }
 
  private:
+  std::optional<Measured> by_us(const cv::Mat& gray) {
+    const auto fix = fix_pose(Stamp{}, detect_markers(gray), registry_, camera_, fix_options_);
+    return fix ? std::optional(Measured{fix->map_from_camera, fix->confidence}) : std::nullopt;
+  }
+
+  std::optional<Measured> by_the_paper(const cv::Mat& gray) {
+    const std::vector<DetectedMarker> markers = detect_markers(gray, paper_detection());
+    const auto fix = fix_pose_as_in_paper(Stamp{}, markers, registry_, camera_);
+    return fix ? std::optional(Measured{fix->map_from_camera, fix->confidence}) : std::nullopt;
+  }
+
   MarkerRegistry registry_ = single_marker(1782);
   CameraModel camera_ = bench_camera();
   Random random_;
   double tilt_sigma_rad_;
+  MeasuredBy method_;
   ImageFormer former_;
   PoseFixOptions fix_options_;
   std::uint64_t frame_ = 0;
@@ -150,7 +170,8 @@ std::vector<PositionTrial> move(Stand& stand) {
 
 IdentificationResult bench_identification(const BenchPaperOptions& options) {
   const std::vector<int> ids = different_ids();
-  MarkerDetector detector({.registered_ids = ids});
+  MarkerDetector detector(options.method == MeasuredBy::paper ? paper_detection()
+                                                              : DetectorOptions{.registered_ids = ids});
   Random random = Random(options.seed).stream(1);
   IdentificationResult result;
   double elapsed_us = 0.0;
@@ -178,6 +199,15 @@ double AngleTrial::deviation_deg() const {
   return fixed ? real_deg - output_deg : inf;
 }
 
+double PositionTrial::distance_m() const {
+  return fixed ? (real_m - output_m).norm() : inf;
+}
+
+std::size_t PoseBenchResult::poses() const {
+  return static_cast<std::size_t>(std::ranges::count(angles, true, &AngleTrial::fixed) +
+                                  std::ranges::count(positions, true, &PositionTrial::fixed));
+}
+
 double PoseBenchResult::mean_angle_deviation_deg() const {
   double sum = 0.0;
   for (const AngleTrial& trial : angles) sum += std::abs(trial.deviation_deg());
@@ -186,8 +216,7 @@ double PoseBenchResult::mean_angle_deviation_deg() const {
 
 double PoseBenchResult::mean_position_deviation_m() const {
   double sum = 0.0;
-  for (const PositionTrial& trial : positions)
-    sum += trial.fixed ? (trial.real_m - trial.output_m).norm() : inf;
+  for (const PositionTrial& trial : positions) sum += trial.distance_m();
   return sum / static_cast<double>(positions.size());
 }
 

@@ -22,6 +22,12 @@ struct BenchArguments {
   bool json = false;
 };
 
+/// One method's figures in all three tables.
+struct MethodFigures {
+  IdentificationResult ids;
+  PoseBenchResult poses;
+};
+
 double percent(int part, int whole) {
   return 100.0 * part / whole;
 }
@@ -50,74 +56,107 @@ nlohmann::ordered_json position_rows(const std::vector<PositionTrial>& positions
   return rows;
 }
 
-void print_json(const BenchPaperOptions& options, const IdentificationResult& ids,
-                const PoseBenchResult& ours, const PoseBenchResult& free) {
+nlohmann::ordered_json identification(const IdentificationResult& ids) {
+  return {{"trials", ids.trials}, {"correct", ids.correct}, {"wrong", ids.wrong}, {"mean_ms", ids.mean_ms}};
+}
+
+void print_json(const BenchPaperOptions& options, const MethodFigures& ours, const PoseBenchResult& free,
+                const MethodFigures& method) {
   const nlohmann::ordered_json report{
       {"seed", options.seed},
       {"prior", {{"tilt_sigma_deg", degrees(options.tilt_sigma_rad)}, {"height", "free"}}},
       {"table_1",
        {{"paper", {{"trials", paper_trials}, {"correct", paper_correct}, {"mean_ms", paper_ms}}},
-        {"ours",
-         {{"trials", ids.trials}, {"correct", ids.correct}, {"wrong", ids.wrong}, {"mean_ms", ids.mean_ms}}},
-        {"identification_percent", percent(ids.correct, ids.trials)}}},
+        {"ours", identification(ours.ids)},
+        {"identification_percent", percent(ours.ids.correct, ours.ids.trials)},
+        {"papers_method", identification(method.ids)}}},
       {"table_2",
        {{"paper_mean_abs_deg", paper_angle_deg},
-        {"mean_abs_deg", ours.mean_angle_deviation_deg()},
+        {"mean_abs_deg", ours.poses.mean_angle_deviation_deg()},
         {"mean_abs_deg_without_prior", free.mean_angle_deviation_deg()},
-        {"rows", angle_rows(ours.angles)}}},
+        {"rows", angle_rows(ours.poses.angles)},
+        {"mean_abs_deg_by_papers_method", method.poses.mean_angle_deviation_deg()},
+        {"rows_by_papers_method", angle_rows(method.poses.angles)}}},
       {"table_3",
        {{"paper_mean_cm", paper_position_cm},
-        {"mean_cm", cm_per_m * ours.mean_position_deviation_m()},
+        {"mean_cm", cm_per_m * ours.poses.mean_position_deviation_m()},
         {"mean_cm_without_prior", cm_per_m * free.mean_position_deviation_m()},
-        {"rows", position_rows(ours.positions)}}}};
+        {"rows", position_rows(ours.poses.positions)},
+        {"mean_cm_by_papers_method", cm_per_m * method.poses.mean_position_deviation_m()},
+        {"rows_by_papers_method", position_rows(method.poses.positions)}}}};
   fmt::print("{}\n", report.dump(2));
 }
 
-void print_text(const BenchPaperOptions& options, const IdentificationResult& ids,
-                const PoseBenchResult& ours, const PoseBenchResult& free) {
+void print_table_1(const IdentificationResult& ours, const IdentificationResult& method) {
+  fmt::print("Table 1  identification      paper       ours  paper's method here\n");
+  fmt::print("  trials               {:>12} {:>10} {:>20}\n", paper_trials, ours.trials, method.trials);
+  fmt::print("  correct              {:>12} {:>10} {:>20}\n", paper_correct, ours.correct, method.correct);
+  fmt::print("  accuracy             {:>11.1f}% {:>9.1f}% {:>19.1f}%\n", percent(paper_correct, paper_trials),
+             percent(ours.correct, ours.trials), percent(method.correct, method.trials));
+  fmt::print("  mean time (ms)       {:>12.0f} {:>10.2f} {:>20.2f}\n\n", paper_ms, ours.mean_ms,
+             method.mean_ms);
+}
+
+void print_table_2(const PoseBenchResult& ours, const PoseBenchResult& free, const PoseBenchResult& method) {
+  fmt::print(
+      "Table 2  real (deg)  output (deg)  deviation (deg)  confidence  deviation by the paper's method\n");
+  for (std::size_t i = 0; i < ours.angles.size(); ++i) {
+    const AngleTrial& trial = ours.angles[i];
+    fmt::print("  {:>16.0f} {:>13.2f} {:>16.2f} {:>11.2f} {:>32.2f}\n", trial.real_deg, trial.output_deg,
+               trial.deviation_deg(), trial.confidence, method.angles[i].deviation_deg());
+  }
+  fmt::print(
+      "  mean absolute deviation: paper {:.2f} deg, ours {:.2f} deg ({:.2f} deg without any prior), "
+      "the paper's method here {:.2f} deg\n\n",
+      paper_angle_deg, ours.mean_angle_deviation_deg(), free.mean_angle_deviation_deg(),
+      method.mean_angle_deviation_deg());
+}
+
+void print_table_3(const PoseBenchResult& ours, const PoseBenchResult& free, const PoseBenchResult& method) {
+  fmt::print(
+      "Table 3  real X, Y, Z (cm)            output X, Y, Z (cm)        distance (cm)  confidence  "
+      "distance by the paper's method\n");
+  for (std::size_t i = 0; i < ours.positions.size(); ++i) {
+    const PositionTrial& trial = ours.positions[i];
+    const Vec3 real = trial.real_m * cm_per_m;
+    const Vec3 output = trial.output_m * cm_per_m;
+    fmt::print("  {:>10.2f} {:>8.2f} {:>8.2f}    {:>9.2f} {:>8.2f} {:>8.2f} {:>14.2f} {:>11.2f} {:>31.2f}\n",
+               real.x(), real.y(), real.z(), output.x(), output.y(), output.z(), (real - output).norm(),
+               trial.confidence, cm_per_m * method.positions[i].distance_m());
+  }
+  fmt::print(
+      "  mean 3-D deviation: paper {:.2f} cm, ours {:.2f} cm ({:.2f} cm without any prior), "
+      "the paper's method here {:.2f} cm\n",
+      paper_position_cm, cm_per_m * ours.mean_position_deviation_m(),
+      cm_per_m * free.mean_position_deviation_m(), cm_per_m * method.mean_position_deviation_m());
+}
+
+void print_text(const BenchPaperOptions& options, const MethodFigures& ours, const PoseBenchResult& free,
+                const MethodFigures& method) {
   fmt::print(
       "Seed {}. Prior: tilt known to {:.2f} deg (a calibrated mount on a flat floor), height free.\n\n",
       options.seed, degrees(options.tilt_sigma_rad));
-  fmt::print("Table 1  identification      paper       ours\n");
-  fmt::print("  trials               {:>12} {:>10}\n", paper_trials, ids.trials);
-  fmt::print("  correct              {:>12} {:>10}\n", paper_correct, ids.correct);
-  fmt::print("  accuracy             {:>11.1f}% {:>9.1f}%\n", percent(paper_correct, paper_trials),
-             percent(ids.correct, ids.trials));
-  fmt::print("  mean time (ms)       {:>12.0f} {:>10.2f}\n\n", paper_ms, ids.mean_ms);
+  print_table_1(ours.ids, method.ids);
+  print_table_2(ours.poses, free, method.poses);
+  print_table_3(ours.poses, free, method.poses);
+}
 
-  fmt::print("Table 2  real (deg)  output (deg)  deviation (deg)  confidence\n");
-  for (const AngleTrial& trial : ours.angles) {
-    fmt::print("  {:>16.0f} {:>13.2f} {:>16.2f} {:>11.2f}\n", trial.real_deg, trial.output_deg,
-               trial.deviation_deg(), trial.confidence);
-  }
-  fmt::print(
-      "  mean absolute deviation: paper {:.2f} deg, ours {:.2f} deg ({:.2f} deg without any prior)\n\n",
-      paper_angle_deg, ours.mean_angle_deviation_deg(), free.mean_angle_deviation_deg());
-
-  fmt::print("Table 3  real X, Y, Z (cm)            output X, Y, Z (cm)        distance (cm)  confidence\n");
-  for (const PositionTrial& trial : ours.positions) {
-    const Vec3 real = trial.real_m * cm_per_m;
-    const Vec3 output = trial.output_m * cm_per_m;
-    fmt::print("  {:>10.2f} {:>8.2f} {:>8.2f}    {:>9.2f} {:>8.2f} {:>8.2f} {:>14.2f} {:>11.2f}\n", real.x(),
-               real.y(), real.z(), output.x(), output.y(), output.z(), (real - output).norm(),
-               trial.confidence);
-  }
-  fmt::print("  mean 3-D deviation: paper {:.2f} cm, ours {:.2f} cm ({:.2f} cm without any prior)\n",
-             paper_position_cm, cm_per_m * ours.mean_position_deviation_m(),
-             cm_per_m * free.mean_position_deviation_m());
+MethodFigures figures_of(BenchPaperOptions options, MeasuredBy method) {
+  options.method = method;
+  return {bench_identification(options), bench_poses(options)};
 }
 
 ExitCode paper(const BenchArguments& arguments) {
-  BenchPaperOptions options{.seed = arguments.seed};
-  const IdentificationResult ids = bench_identification(options);
-  const PoseBenchResult ours = bench_poses(options);
+  const BenchPaperOptions options{.seed = arguments.seed};
+  const MethodFigures ours = figures_of(options, MeasuredBy::lodestar);
+  const MethodFigures method = figures_of(options, MeasuredBy::paper);
   BenchPaperOptions without_prior = options;
   without_prior.prior = PosePrior{};
   const PoseBenchResult free = bench_poses(without_prior);
   if (arguments.json) {
-    print_json(options, ids, ours, free);
+    print_json(options, ours, free, method);
   } else {
-    print_text(options, ids, ours, free);
+    print_text(options, ours, free, method);
   }
   return done;
 }
@@ -128,8 +167,8 @@ std::vector<Command> bench_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* bench = lodestar.add_subcommand("bench", "Measure against published figures");
   bench->require_subcommand(1);
-  CLI::App* paper_command =
-      bench->add_subcommand("paper", "The paper's Tables 1 to 3 beside ours, on the same trials");
+  CLI::App* paper_command = bench->add_subcommand(
+      "paper", "The paper's Tables 1 to 3 beside ours and the paper's method, on the same trials");
   paper_command->add_option("--seed", arguments->seed, "Seed of noise, views and light")
       ->capture_default_str();
   paper_command->add_flag("--json", arguments->json, "As JSON");
