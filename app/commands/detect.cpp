@@ -30,8 +30,10 @@ nlohmann::ordered_json as_json(const Vec2& point) {
 void print_json(const std::string& file, std::span<const DetectedMarker> markers) {
   nlohmann::ordered_json line{{"file", file}, {"markers", nlohmann::ordered_json::array()}};
   for (const DetectedMarker& marker : markers) {
+    const auto probability = marker.probability > 0.0 ? nlohmann::ordered_json(marker.probability)
+                                                      : nlohmann::ordered_json();  // not told by this method
     line["markers"].push_back({{"id", marker.id},
-                               {"probability", marker.probability},
+                               {"probability", probability},
                                {"confidence", marker.confidence},
                                {"o", as_json(marker.o_px)},
                                {"x", as_json(marker.x_px)},

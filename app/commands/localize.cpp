@@ -8,11 +8,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/frame_arguments.hpp"
-#include "app/site/site.hpp"
-#include "localization/pose/expected_view.hpp"
-#include "localization/pose/marker_tracker.hpp"
-#include "localization/pose/mount.hpp"
-#include "localization/pose/pose_fixer.hpp"
+#include "app/commands/localize_methods.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -29,19 +25,6 @@ struct LocalizeArguments {
   FrameArguments frames;
 };
 
-/// One row of the results: the camera's pose in the map, or the robot's when its mount is known.
-struct Row {
-  std::string file;
-  Stamp stamp;
-  std::vector<int> ids;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  double sigma_x_m = 0.0;
-  double sigma_y_m = 0.0;
-  double sigma_yaw_rad = 0.0;
-  double confidence = 0.0;
-  int dots = 0;
-};
-
 PoseFixOptions fix_options(const LocalizeArguments& arguments, const std::optional<Robot>& robot) {
   PoseFixOptions options;
   PosePrior& prior = options.prior;
@@ -56,39 +39,30 @@ PoseFixOptions fix_options(const LocalizeArguments& arguments, const std::option
   return options;
 }
 
-Row row_of(const SourceFrame& frame, const PoseFix& fix, const std::optional<Robot>& robot) {
-  Row row{.file = frame.name, .stamp = frame.stamp, .ids = fix.ids};
-  Eigen::Matrix3d covariance = fix.covariance({0, 1, 5}, {0, 1, 5});
-  row.pose = fix.map_from_camera;
-  if (robot) {
-    row.pose = fix.map_from_camera * robot->base_from_camera.inverse();
-    covariance = compensate_mount(fix, robot->base_from_camera).covariance;
-  }
-  row.sigma_x_m = std::sqrt(covariance(0, 0));
-  row.sigma_y_m = std::sqrt(covariance(1, 1));
-  row.sigma_yaw_rad = std::sqrt(covariance(2, 2));
-  row.confidence = fix.confidence;
-  row.dots = fix.dots;
-  return row;
-}
-
-void print_csv(const Row& row) {
+void print_csv(const LocalizeRow& row) {
   const Vec3 p = row.pose.translation();
   const RollPitchYaw angles = angles_of(row.pose.linear());
-  fmt::print("{},{:.6f},{},{:.6f},{:.6f},{:.6f},{:.5f},{:.5f},{:.5f},{:.6f},{:.6f},{:.5f},{:.4f},{}\n",
-             csv_cell(row.file), seconds(row.stamp), fmt::join(row.ids, "+"), p.x(), p.y(), p.z(),
-             degrees(angles.yaw_rad), degrees(angles.roll_rad), degrees(angles.pitch_rad), row.sigma_x_m,
-             row.sigma_y_m, degrees(row.sigma_yaw_rad), row.confidence, row.dots);
+  const std::string sigmas =
+      row.sigmas ? fmt::format("{:.6f},{:.6f},{:.5f}", row.sigmas->x_m, row.sigmas->y_m, row.sigmas->yaw_deg)
+                 : ",,";
+  fmt::print("{},{:.6f},{},{:.6f},{:.6f},{:.6f},{:.5f},{:.5f},{:.5f},{},{:.4f},{}\n", csv_cell(row.file),
+             seconds(row.stamp), fmt::join(row.ids, "+"), p.x(), p.y(), p.z(), degrees(angles.yaw_rad),
+             degrees(angles.roll_rad), degrees(angles.pitch_rad), sigmas, row.confidence, row.dots);
 }
 
-void print_tum(const Row& row) {
+void print_tum(const LocalizeRow& row) {
   const Vec3 p = row.pose.translation();
   const Eigen::Quaterniond q(row.pose.linear());
   fmt::print("{:.6f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n", seconds(row.stamp), p.x(), p.y(),
              p.z(), q.x(), q.y(), q.z(), q.w());
 }
 
-void print_json(const Row& row) {
+/// A number, or null.
+nlohmann::ordered_json sigma_json(const LocalizeRow& row, double LocalizeSigmas::* sigma) {
+  return row.sigmas ? nlohmann::ordered_json(*row.sigmas.*sigma) : nlohmann::ordered_json();
+}
+
+void print_json(const LocalizeRow& row) {
   const Vec3 p = row.pose.translation();
   const RollPitchYaw angles = angles_of(row.pose.linear());
   const nlohmann::ordered_json line{{"file", row.file},
@@ -100,24 +74,26 @@ void print_json(const Row& row) {
                                     {"yaw_deg", degrees(angles.yaw_rad)},
                                     {"roll_deg", degrees(angles.roll_rad)},
                                     {"pitch_deg", degrees(angles.pitch_rad)},
-                                    {"sigma_x", row.sigma_x_m},
-                                    {"sigma_y", row.sigma_y_m},
-                                    {"sigma_yaw_deg", degrees(row.sigma_yaw_rad)},
+                                    {"sigma_x", sigma_json(row, &LocalizeSigmas::x_m)},
+                                    {"sigma_y", sigma_json(row, &LocalizeSigmas::y_m)},
+                                    {"sigma_yaw_deg", sigma_json(row, &LocalizeSigmas::yaw_deg)},
                                     {"confidence", row.confidence},
                                     {"dots", row.dots}};
   fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void print_row(const std::string& format, const Row& row) {
+void print_row(const std::string& format, const LocalizeRow& row) {
   if (format == "csv") print_csv(row);
   if (format == "tum") print_tum(row);
   if (format == "json") print_json(row);
 }
 
 /// Why a detected marker is not used in the fix; empty when it is.
-std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry, const PoseFix* fix) {
+std::string objection_to(const DetectedMarker& marker, const MarkerRegistry& registry,
+                         const std::optional<LocalizeRow>& row, const std::string& why_not_used) {
+  if (std::ranges::count(registry.markers, marker.id, &RegisteredMarker::id) == 0) return "not registered";
   if (registry.find(marker.id) == nullptr) return "registered twice";
-  if (fix != nullptr && !std::ranges::count(fix->ids, marker.id)) return "contradicts the others";
+  if (row && !std::ranges::count(row->ids, marker.id)) return why_not_used;
   return {};
 }
 
@@ -133,25 +109,28 @@ double in_words_deg(double angle_rad) {
   return std::round(degrees(angle_rad) * per_degree) / per_degree + 0.0;
 }
 
-std::vector<std::string> words_of_pose(const Row& row, const char* who) {
+std::vector<std::string> words_of_pose(const LocalizeRow& row, const char* who) {
   constexpr double mm = 1000.0;
   const Vec3 p = row.pose.translation();
   const RollPitchYaw angles = angles_of(row.pose.linear());
+  const std::string sigmas =
+      row.sigmas ? fmt::format("one sigma: x {:.1f} mm, y {:.1f} mm, yaw {:.3f} deg", mm * row.sigmas->x_m,
+                               mm * row.sigmas->y_m, row.sigmas->yaw_deg)
+                 : "one sigma: not told by this method";
   return {fmt::format("{} at x {:.3f} m, y {:.3f} m, z {:.3f} m, yaw {:.2f} deg (roll {:.2f}, pitch {:.2f})",
                       who, p.x(), p.y(), p.z(), in_words_deg(angles.yaw_rad), in_words_deg(angles.roll_rad),
                       in_words_deg(angles.pitch_rad)),
-          fmt::format("one sigma: x {:.1f} mm, y {:.1f} mm, yaw {:.3f} deg; from {} dots of {}",
-                      mm * row.sigma_x_m, mm * row.sigma_y_m, degrees(row.sigma_yaw_rad), row.dots,
-                      fmt::join(row.ids, "+"))};
+          fmt::format("{}; from {} dots of {}", sigmas, row.dots, fmt::join(row.ids, "+"))};
 }
 
-Overlay overlay_of(const SourceFrame& frame, std::span<const DetectedMarker> markers,
-                   const MarkerRegistry& registry, const PoseFix* fix, const std::optional<Robot>& robot) {
-  Overlay overlay{.gray = frame.gray, .markers = {}, .words = {}, .accepted = fix != nullptr};
-  for (const DetectedMarker& marker : markers)
-    overlay.markers.push_back({marker, objection_to(marker, registry, fix)});
-  if (fix != nullptr) {
-    overlay.words = words_of_pose(row_of(frame, *fix, robot), robot ? "Robot" : "Camera");
+Overlay overlay_of(const SourceFrame& frame, const LocatedFrame& located, const MarkerRegistry& registry,
+                   const std::string& why_not_used, const char* who) {
+  const std::optional<LocalizeRow>& row = located.row;
+  Overlay overlay{.gray = frame.gray, .markers = {}, .words = {}, .accepted = row.has_value()};
+  for (const DetectedMarker& marker : located.markers)
+    overlay.markers.push_back({marker, objection_to(marker, registry, row, why_not_used)});
+  if (row) {
+    overlay.words = words_of_pose(*row, who);
   } else {
     overlay.words = {words_of_refusal(overlay.markers)};
   }
@@ -159,8 +138,20 @@ Overlay overlay_of(const SourceFrame& frame, std::span<const DetectedMarker> mar
   return overlay;
 }
 
-std::optional<ExpectedView> view_expected(const SourceFrame& frame, const std::optional<PoseFix>& last) {
-  return last ? std::optional(expected_view(*last, frame.stamp - last->stamp)) : std::nullopt;
+/// As --method says.
+std::unique_ptr<FrameLocalizer> localizer_for(const LocalizeArguments& arguments,
+                                              const MarkerRegistry& registry, const CameraModel& camera,
+                                              const std::optional<Robot>& robot) {
+  if (arguments.frames.method != "paper") {
+    return default_localizer(registry, camera, robot, fix_options(arguments, robot), arguments.track);
+  }
+  if (arguments.upright || arguments.tilt_sigma_deg >= 0.0 || arguments.track) {
+    throw InputError(
+        "--method paper: found --upright, --tilt-sigma-deg or --track, wanted none of them: the paper's pose "
+        "is "
+        "from one frame alone, with the tilt free");
+  }
+  return paper_localizer(registry, camera, robot);
 }
 
 ExitCode localize(const LocalizeArguments& arguments) {
@@ -168,7 +159,7 @@ ExitCode localize(const LocalizeArguments& arguments) {
   const CameraModel camera = load_camera(arguments.camera);
   std::optional<Robot> robot;
   if (!arguments.mount.empty()) robot = load_robot(arguments.mount);
-  const PoseFixOptions options = fix_options(arguments, robot);
+  const std::unique_ptr<FrameLocalizer> localizer = localizer_for(arguments, registry, camera, robot);
   FrameInputs inputs = open_inputs(arguments.frames, camera);
   std::optional<OverlayFolder> overlays = open_overlays(arguments.frames, inputs);
 
@@ -176,20 +167,18 @@ ExitCode localize(const LocalizeArguments& arguments) {
     fmt::print(
         "file,stamp,ids,x,y,z,yaw_deg,roll_deg,pitch_deg,sigma_x,sigma_y,sigma_yaw_deg,confidence,dots\n");
   }
-  MarkerTracker tracker(registry, camera, detector_options(arguments.frames));
-  PoseFixer fixer(registry, camera);
   int frames = 0;
   int found = 0;
-  std::optional<PoseFix> last;
   while (const std::optional<SourceFrame> frame = inputs.next()) {
-    const std::span<const DetectedMarker> markers = tracker.detect(frame->gray, view_expected(*frame, last));
-    const PoseFix* const fix = fixer.fix(frame->stamp, markers, options);
+    const LocatedFrame located = localizer->locate(*frame);
     ++frames;
-    if (overlays) overlays->write(*frame, draw_overlay(overlay_of(*frame, markers, registry, fix, robot)));
-    if (fix == nullptr) continue;
+    if (overlays) {
+      overlays->write(*frame, draw_overlay(overlay_of(*frame, located, registry, localizer->why_not_used(),
+                                                      robot ? "Robot" : "Camera")));
+    }
+    if (!located.row) continue;
     ++found;
-    if (arguments.track) last = *fix;
-    print_row(arguments.format, row_of(*frame, *fix, robot));
+    print_row(arguments.format, *located.row);
     if (inputs.live()) std::fflush(stdout);
   }
   if (!arguments.frames.quiet) fmt::print(stderr, "pose in {} of {} frames\n", found, frames);
