@@ -118,7 +118,7 @@ TEST(LiveView, a_stop_finds_its_way_when_no_order_does) {
   Client client(view);
   client.send({{"type", "take"}});
   for (int i = 0; i < 40; ++i) client.send({{"type", "pause"}});
-  EXPECT_THAT(client.newest("refused")["why"], HasSubstr("has not taken the orders"));
+  EXPECT_THAT(client.newest("refused")["why"], HasSubstr("too many orders are still waiting"));
   client.send({{"type", "stop"}});
   EXPECT_TRUE(link.take_stop());
 }

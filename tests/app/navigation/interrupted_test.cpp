@@ -24,6 +24,7 @@ class Interrupted : public testing::TestWithParam<Moment> {
     run(8.0);
     is_covered = true;
     ASSERT_TRUE(run(60.0, [&] { return is_the_moment(); }));
+    changes.clear();
   }
 
   [[nodiscard]] bool is_the_moment() const {
