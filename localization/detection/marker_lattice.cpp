@@ -132,7 +132,7 @@ std::optional<DotLattice> lattice_from(std::span<const Dot> dots, const Basis& s
 
 std::optional<DotLattice> find_lattice(std::span<const Dot> dots, const LatticeOptions& options) {
   if (dots.size() < options.least_dots ||
-      dots.size() > std::min(options.most_dots, LatticeDots::static_capacity))
+      dots.size() > std::min(options.most_dots, std::size_t{LatticeDots::static_capacity}))
     return std::nullopt;
   std::optional<DotLattice> best;
   for (std::size_t a = 0; a < dots.size(); ++a) {
