@@ -24,13 +24,23 @@ using SixteenAnswers [[gnu::vector_size(16)]] = signed char;
 
 /// Bit i is set where answer i is yes. Multiplied, the eight bytes' one bits come to stand side by side in
 /// the uppermost byte.
-[[gnu::always_inline]] inline std::uint32_t bits_of(const SixteenAnswers& answers) {
+[[gnu::always_inline]] inline std::uint32_t packed_bits_of(const SixteenAnswers& answers) {
   std::array<std::uint64_t, 2> halves;
   std::memcpy(halves.data(), &answers, sizeof(answers));
   const auto packed = [](std::uint64_t bytes) {
     return static_cast<std::uint32_t>((bytes & 0x0101010101010101U) * 0x0102040810204080U >> 56U);
   };
   return packed(halves[0]) | packed(halves[1]) << 8U;
+}
+
+/// The same. x86-64 has one instruction for it, which no vector operation of the language stands for.
+[[gnu::always_inline]] inline std::uint32_t bits_of(const SixteenAnswers& answers) {
+#ifdef __SSE2__
+  using Chars [[gnu::vector_size(16)]] = char;
+  return static_cast<std::uint32_t>(__builtin_ia32_pmovmskb128(reinterpret_cast<const Chars&>(answers)));
+#else
+  return packed_bits_of(answers);
+#endif
 }
 
 }  // namespace lodestar

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "localization/detection/sixteen_pixels.hpp"
 #include "maps/random.hpp"
 
 namespace lodestar {
@@ -18,6 +19,19 @@ cv::Mat random_frame(Random& random, cv::Size size, double bright_share) {
     }
   }
   return frame;
+}
+
+TEST(SixteenPixels, have_the_same_bits_with_and_without_an_instruction_for_it) {
+  Random random(3);
+  for (int frame = 0; frame < 1000; ++frame) {
+    const cv::Mat row = random_frame(random, {16, 1}, 0.5);
+    const SixteenAnswers bright = sixteen_at(row.ptr<std::uint8_t>(0)) >= std::uint8_t{200};
+    std::uint32_t expected = 0;
+    for (unsigned i = 0; i < 16; ++i)
+      expected |= (row.at<std::uint8_t>(0, static_cast<int>(i)) >= 200 ? 1U : 0U) << i;
+    EXPECT_EQ(bits_of(bright), expected);
+    EXPECT_EQ(packed_bits_of(bright), expected);
+  }
 }
 
 cv::Mat thresholded(const cv::Mat& frame) {
