@@ -27,12 +27,11 @@ class CanLab : public testing::Test {
   void start_run(const std::string& goals);
 
   /// Once the base has come to rest: how long after `since` the navigator said that there is a fault, how
-  /// long the base was still told to move, when it was first told to stand, and how far it went. Times in
-  /// which the machine stood still are taken out. Adds a line to measured.csv.
+  /// long the base was still told to move, when it was first told to stand, and how far it went. Adds a line
+  /// to measured.csv.
   void measure(const std::string& fault, Stamp since) const;
 
-  /// `to` came so soon after `from`, or sooner. What User-Mode Linux itself takes is added, and for how long
-  /// the machine stood still meanwhile.
+  /// `to` came so soon after `from`, or sooner. What User-Mode Linux itself takes is added.
   static void expect_within(Duration bound, Stamp from, Stamp to, const std::string& what);
   /// The navigator says so, so soon after `since`.
   void expect_said_within(Duration bound, const std::string& words, Stamp since) const;

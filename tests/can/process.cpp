@@ -33,8 +33,8 @@ struct Pipe {
   FileDescriptor writing;
 };
 
-/// `lodestar` is not loaded anew: a User-Mode Linux takes seconds for the 250 libraries under it, and half a
-/// minute when its host is busy. This program has the whole of it, and a child of it begins at once.
+/// `lodestar` is not loaded anew: a User-Mode Linux takes seconds for the 250 libraries under it. This
+/// program has the whole of it, and a child of it begins at once.
 [[noreturn]] void become(std::vector<char*>& arguments) {
   if (std::string_view(arguments[0]) != LODESTAR_BINARY) {
     execvp(arguments[0], arguments.data());
