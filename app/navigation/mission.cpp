@@ -53,27 +53,15 @@ MissionStep Mission::step(const SensorInput& input) {
 
 MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& step) {
   if (step.stop && is_for_good(*step.stop)) return fail(input.now, std::string(to_string(*step.stop)));
-  switch (state_) {
-    case State::starting:
-      return start_goal(input, step);
-    case State::driving:
-      return watch_drive(input, step);
-    case State::settling:
-      return settle(input, step);
-    case State::held:
-      return hold(input);
-    case State::stopping:
-      return come_to_rest(input);
-  }
-  return MissionEvent::none;
+  // Visits a copy, since the steps assign state_.
+  return std::visit([&](const auto& state) { return advance(state, input, step); }, State(state_));
 }
 
 void Mission::start(std::vector<Goal> goals) {
   goals_ = std::move(goals);
   current_ = 0;
   path_ = {};
-  state_ = State::starting;
-  since_.reset();
+  state_ = Starting{};
   paused_ = false;
 }
 
@@ -81,12 +69,12 @@ void Mission::stop() {
   if (finished()) return;
   navigation_.look_for_markers(false);
   navigation_.cancel();
-  state_ = State::stopping;
+  state_ = Stopping{};
   paused_ = false;
 }
 
 void Mission::pause() {
-  if (finished() || state_ == State::stopping) return;
+  if (finished() || std::holds_alternative<Stopping>(state_)) return;
   navigation_.pause();
   paused_ = true;
 }
@@ -99,94 +87,89 @@ void Mission::resume() {
 MissionPhase Mission::phase() const {
   if (finished()) return MissionPhase::idle;
   if (paused_) return MissionPhase::paused;
-  switch (state_) {
-    case State::starting:
-      return MissionPhase::starting;
-    case State::driving:
-      return MissionPhase::driving;
-    case State::settling:
-      return MissionPhase::settling;
-    case State::held:
-      return MissionPhase::waiting_for_base;
-    case State::stopping:
-      break;
-  }
+  if (std::holds_alternative<Starting>(state_)) return MissionPhase::starting;
+  if (std::holds_alternative<Driving>(state_)) return MissionPhase::driving;
+  if (std::holds_alternative<Settling>(state_)) return MissionPhase::settling;
+  if (std::holds_alternative<Held>(state_)) return MissionPhase::waiting_for_base;
   return MissionPhase::stopping;
 }
 
-MissionEvent Mission::come_to_rest(const SensorInput& input) {
+MissionEvent Mission::advance(Stopping, const SensorInput& input, const NavigationStep&) {
   if (input.base.state == BaseState::ready && !at_rest(input.base)) return MissionEvent::none;
   goals_.resize(current_ + 1);
   return fail(input.now, "stopped by the operator");
 }
 
-MissionEvent Mission::start_goal(const SensorInput& input, const NavigationStep& step) {
-  if (!since_) since_ = input.now;
+MissionEvent Mission::advance(Starting state, const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault && options_.hold_on_base_fault) return hold(input);
   if (paused_) {
     navigation_.look_for_markers(false);
-    since_.reset();
+    state_ = Starting{};
     return MissionEvent::none;
   }
+  if (!state.since) state.since = input.now;
+  state_ = state;
   const bool may_start = !step.stop && input.base.state == BaseState::ready && at_rest(input.base);
-  if (!may_start) {
-    navigation_.look_for_markers(input.base.state == BaseState::ready);
-    if (input.now - *since_ < options_.max_wait_for_start) return MissionEvent::none;
-    if (input.base.state != BaseState::ready) {
-      return fail(input.now, fmt::format("the base is not ready: {}",
-                                         to_string(input.base.fault.value_or(BaseFault::feedback_lost))));
-    }
-    return fail(input.now,
-                fmt::format("cannot start: {}", step.stop ? to_string(*step.stop) : "not at rest"));
-  }
+  if (!may_start) return wait_to_start(state, input, step);
   navigation_.look_for_markers(false);
-  state_ = State::driving;
-  since_.reset();
-  drive_ends_ = input.now + options_.max_time_more;
+  const Driving driving{.ends = input.now + options_.max_time_more, .stopped_since = std::nullopt};
+  state_ = driving;
   const std::optional<RouteUpdate> route = navigation_.go_to(goals_[current_]);
-  return route ? take_route(input, step, *route) : MissionEvent::none;
+  return route ? apply_route(driving, input, step, *route) : MissionEvent::none;
 }
 
-MissionEvent Mission::take_route(const SensorInput& input, const NavigationStep& step,
-                                 const RouteUpdate& route) {
-  if (!route.failure) {
-    follow_path(input, step, route.route.path);
-    return MissionEvent::path_planned;
+MissionEvent Mission::wait_to_start(const Starting& state, const SensorInput& input,
+                                    const NavigationStep& step) {
+  const bool is_ready = input.base.state == BaseState::ready;
+  navigation_.look_for_markers(is_ready);
+  if (input.now - *state.since < options_.max_wait_for_start) return MissionEvent::none;
+  if (!is_ready) {
+    return fail(input.now, fmt::format("the base is not ready: {}",
+                                       to_string(input.base.fault.value_or(BaseFault::feedback_lost))));
   }
-  const std::string_view why = to_string(*route.failure);
-  const bool never_had_one = route.change == RouteChange::new_goal;
-  return fail(input.now,
-              never_had_one ? std::string(why) : fmt::format("{}: {}", to_string(route.change), why));
+  return fail(input.now, fmt::format("cannot start: {}", step.stop ? to_string(*step.stop) : "not at rest"));
 }
 
-void Mission::follow_path(const SensorInput& input, const NavigationStep& step, Path path) {
-  path_ = std::move(path);
+MissionEvent Mission::apply_route(Driving state, const SensorInput& input, const NavigationStep& step,
+                                  const RouteUpdate& route) {
+  if (route.failure) {
+    const std::string_view why = to_string(*route.failure);
+    const bool never_had_one = route.change == RouteChange::new_goal;
+    return fail(input.now,
+                never_had_one ? std::string(why) : fmt::format("{}: {}", to_string(route.change), why));
+  }
+  path_ = route.route.path;
   ideal_s_ = ideal_travel_time_s(path_, step.estimate->map_from_base.yaw_rad, goals_[current_].heading_rad,
                                  drive_options_);
-  drive_ends_ = input.now + from_seconds(options_.max_time_factor * ideal_s_) + options_.max_time_more;
+  state.ends = input.now + from_seconds(options_.max_time_factor * ideal_s_) + options_.max_time_more;
+  state_ = state;
+  return MissionEvent::path_planned;
 }
 
-MissionEvent Mission::watch_drive(const SensorInput& input, const NavigationStep& step) {
+MissionEvent Mission::advance(Driving state, const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
-  if (step.reroute) return take_route(input, step, *step.reroute);
+  if (step.reroute) return apply_route(state, input, step, *step.reroute);
   if (navigation_.arrived()) {
-    state_ = State::settling;
-    since_.reset();
+    state_ = Settling{};
     return MissionEvent::none;
   }
   if (paused_) {
-    drive_ends_ += input.now - last_step_;
-    since_.reset();
+    state_ = Driving{.ends = state.ends + (input.now - last_step_), .stopped_since = std::nullopt};
     return MissionEvent::none;
   }
-  if (input.now > drive_ends_) return fail(input.now, "no progress: the robot is stuck");
+  if (input.now > state.ends) return fail(input.now, "no progress: the robot is stuck");
   if (!step.stop) {
-    since_.reset();
-    return MissionEvent::none;
+    state.stopped_since.reset();
+  } else if (!state.stopped_since) {
+    state.stopped_since = input.now;
   }
-  if (!since_) since_ = input.now;
-  if (input.now - *since_ < options_.max_stop) return MissionEvent::none;
+  state_ = state;
+  if (!step.stop || input.now - *state.stopped_since < options_.max_stop) return MissionEvent::none;
   return fail(input.now, fmt::format("stopped for too long: {}", to_string(*step.stop)));
+}
+
+MissionEvent Mission::advance(Held, const SensorInput& input, const NavigationStep&) {
+  return hold(input);
 }
 
 /// Where a stopped robot stands is not where its path is: once the base is ready again, it plans anew.
@@ -197,16 +180,16 @@ MissionEvent Mission::hold(const SensorInput& input) {
                                        input.base.fault ? to_string(*input.base.fault) : "no cause known"));
   }
   navigation_.halt();
-  state_ = input.base.state == BaseState::ready ? State::starting : State::held;
-  since_.reset();
+  state_ = input.base.state == BaseState::ready ? State(Starting{}) : State(Held{});
   return MissionEvent::none;
 }
 
 /// What the wheels alone have told is no arrival: they may have slipped on the last of the way.
-MissionEvent Mission::settle(const SensorInput& input, const NavigationStep& step) {
+MissionEvent Mission::advance(Settling state, const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
-  if (!since_ || !at_rest(input.base)) since_ = input.now;
-  const Duration settled = input.now - *since_;
+  if (!state.still_since || !at_rest(input.base)) state.still_since = input.now;
+  state_ = state;
+  const Duration settled = input.now - *state.still_since;
   if (settled < options_.settle) return MissionEvent::none;
   if (step.stop || step.rolled_unseen_m > options_.max_rolled_unseen_m) {
     if (settled < options_.max_stop) return MissionEvent::none;
@@ -216,8 +199,7 @@ MissionEvent Mission::settle(const SensorInput& input, const NavigationStep& ste
   const double distance_m = (step.estimate->map_from_base.position_m - goals_[current_].position_m).norm();
   if (distance_m > options_.max_distance_at_arrival_m) {
     if (++attempt_ >= options_.attempts) return fail(input.now, "does not come near enough to the goal");
-    state_ = State::starting;
-    since_.reset();
+    state_ = Starting{};
     return MissionEvent::none;
   }
   return end_goal(input.now, MissionEvent::goal_arrived);
@@ -227,8 +209,7 @@ MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   ++current_;
   paused_ = false;
   attempt_ = 0;
-  state_ = State::starting;
-  since_ = now;
+  state_ = Starting{.since = now};
   return event;
 }
 

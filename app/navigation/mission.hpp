@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "app/navigation/navigation.hpp"
@@ -70,30 +71,46 @@ class Mission {
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
  private:
-  enum class State { starting, driving, settling, held, stopping };
+  /// About to drive to the present goal, as soon as it may.
+  struct Starting {
+    std::optional<Stamp> since;
+  };
+  struct Driving {
+    Stamp ends;                          ///< at the latest
+    std::optional<Stamp> stopped_since;  ///< while there is a reason not to move
+  };
+  /// At the goal; arrival is claimed once it has stood for a while and seen where.
+  struct Settling {
+    std::optional<Stamp> still_since;
+  };
+  /// The base has a fault.
+  struct Held {};
+  /// The operator has cancelled; comes to rest, then the goal fails.
+  struct Stopping {};
+  using State = std::variant<Starting, Driving, Settling, Held, Stopping>;
 
   MissionEvent advance(const SensorInput& input, const NavigationStep& step);
+  MissionEvent advance(Starting state, const SensorInput& input, const NavigationStep& step);
+  MissionEvent advance(Driving state, const SensorInput& input, const NavigationStep& step);
+  MissionEvent advance(Settling state, const SensorInput& input, const NavigationStep& step);
+  MissionEvent advance(Held state, const SensorInput& input, const NavigationStep& step);
+  MissionEvent advance(Stopping state, const SensorInput& input, const NavigationStep& step);
+  MissionEvent wait_to_start(const Starting& state, const SensorInput& input, const NavigationStep& step);
   MissionEvent hold(const SensorInput& input);
-  MissionEvent start_goal(const SensorInput& input, const NavigationStep& step);
-  MissionEvent take_route(const SensorInput& input, const NavigationStep& step, const RouteUpdate& route);
-  void follow_path(const SensorInput& input, const NavigationStep& step, Path path);
-  MissionEvent watch_drive(const SensorInput& input, const NavigationStep& step);
-  MissionEvent come_to_rest(const SensorInput& input);
-  MissionEvent settle(const SensorInput& input, const NavigationStep& step);
+  MissionEvent apply_route(Driving state, const SensorInput& input, const NavigationStep& step,
+                           const RouteUpdate& route);
   MissionEvent end_goal(Stamp now, MissionEvent event);
   MissionEvent fail(Stamp now, std::string why);
 
   Navigation navigation_;
   std::vector<Goal> goals_;
   MissionOptions options_;
-  State state_ = State::starting;
+  State state_ = Starting{};
   std::size_t current_ = 0;
   DriveOptions drive_options_;
-  int attempt_ = 0;   ///< at the present goal
-  Stamp drive_ends_;  ///< at the latest
-  bool paused_ = false;
+  int attempt_ = 0;      ///< at the present goal
+  bool paused_ = false;  ///< as the operator wishes, in any of these states
   Stamp last_step_;
-  std::optional<Stamp> since_;  ///< of the present state, or of the present stop while driving
   Path path_;
   double ideal_s_ = 0.0;
   std::string failure_;
