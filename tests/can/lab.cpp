@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -21,6 +22,20 @@ bool is_in_user_mode_linux() {
 std::vector<std::string> words_in(const std::string& line) {
   std::istringstream in(line);
   return {std::istream_iterator<std::string>(in), {}};
+}
+
+bool a_guard_is_there() {
+  return std::ranges::any_of(std::filesystem::directory_iterator("/proc"), [](const auto& process) {
+    std::string name;
+    return std::getline(std::ifstream(process.path() / "comm"), name) && name == "lodestar-guard";
+  });
+}
+
+/// A guard commands the base to stop for a while after its navigator has ended, also on the next test's
+/// interface.
+void wait_until_guards_have_ended() {
+  const Stamp end = monotonic_now() + 5s;
+  while (a_guard_is_there() && monotonic_now() < end) std::this_thread::sleep_for(5ms);
 }
 
 constexpr Duration kernel_slack = 25ms;  ///< of User-Mode Linux: two and a half of its ticks
@@ -45,6 +60,7 @@ void CanLab::TearDown() {
   if (HasFailure() && run) std::printf("--- run:\n%s\n", run->output().c_str());
   if (HasFailure() && base) std::printf("--- base:\n%s\n", base->output().c_str());
   run.reset();
+  wait_until_guards_have_ended();
   base.reset();
   witness.reset();
   if (is_in_user_mode_linux()) take_cable_away();
