@@ -1,10 +1,14 @@
 #include "app/commands/program.hpp"
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <fmt/core.h>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/strict_arguments.hpp"
 #include "app/hosting/hosting.hpp"
 #include "maps/input_error.hpp"
 
@@ -28,9 +32,7 @@ ExitCode run_chosen(const std::vector<Command>& commands) {
   return unusable_input;  // unreachable: a subcommand is required
 }
 
-}  // namespace
-
-int program(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   cv::setNumThreads(1);  // no hidden threads: parallelism is arranged by in_parallel()
   cv::utils::logging::setLogLevel(
       cv::utils::logging::LOG_LEVEL_SILENT);  // errors are reported by this program
@@ -38,6 +40,11 @@ int program(int argc, char** argv) {
   app.set_version_flag("--version", LODESTAR_VERSION);
   app.require_subcommand(1);
   const std::vector<Command> commands = all_commands(app);
+  refuse_unusual_numbers(app);
+  if (const std::optional<std::string> unknown = unknown_command(app, argc, argv)) {
+    fmt::print(stderr, "lodestar: {}\n", *unknown);
+    return unusable_input;
+  }
   try {
     app.parse(argc, argv);
     return run_chosen(commands);
@@ -50,6 +57,16 @@ int program(int argc, char** argv) {
     fmt::print(stderr, "lodestar: internal error: {}\n", error.what());
     return job_failed;
   }
+}
+
+}  // namespace
+
+int program(int argc, char** argv) {
+  const int exit_code = run_program(argc, argv);
+  const bool is_printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (is_printed) return exit_code;
+  fmt::print(stderr, "lodestar: not all of the output could be written ({})\n", std::strerror(errno));
+  return exit_code == done ? job_failed : exit_code;
 }
 
 }  // namespace lodestar

@@ -1,5 +1,7 @@
+#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include "maps/random.hpp"
 
@@ -134,7 +136,19 @@ TEST_P(BadArguments, are_refused) {
 INSTANTIATE_TEST_SUITE_P(
     Options, BadArguments,
     ::testing::Values(
-        BadCommand{"no_command", "", "subcommand"}, BadCommand{"unknown_command", "fly", "subcommand"},
+        BadCommand{"no_command", "", "subcommand"},
+        BadCommand{"unknown_command", "fly", "found 'fly', wanted"},
+        BadCommand{"misspelt_command", "replya", "found 'replya', wanted replay\\?"},
+        BadCommand{"radius_nan", "plan --map LAB/map.yaml --start 1,1 --goal 2,2 --radius nan",
+                   "--radius: found 'nan', wanted a finite number"},
+        BadCommand{"minutes_nan", "soak --minutes nan", "--minutes: found 'nan'"},
+        BadCommand{"unequal_wheels_nan", "replay --unequal-wheels nan", "--unequal-wheels: found 'nan'"},
+        BadCommand{"share_infinite", "replay --lose-frames inf", "--lose-frames: .*inf"},
+        BadCommand{"seed_negative", "replay --seed -1",
+                   "--seed: found '-1', wanted a whole number, 0 or more"},
+        BadCommand{"seed_of_65_bits", "replay --seed 18446744073709551616",
+                   "--seed: found '18446744073709551616'"},
+        BadCommand{"mission_of_67_bits", "campaign --mission 99999999999999999999", "--mission: found"},
         BadCommand{"unknown_option", "replay --fast", "--fast"},
         BadCommand{"seed_as_word", "replay --seed one", "seed"},
         BadCommand{"no_runs", "replay --runs 0", "runs"},
@@ -208,6 +222,11 @@ TEST(CommandLine, is_refused_in_words_whatever_it_is) {
     EXPECT_EQ(ran.exit_code, 2) << line << ran.err;
     EXPECT_FALSE(ran.err.empty()) << line;
   }
+}
+
+TEST(Output, that_a_full_disk_does_not_take_is_an_error) {
+  const int status = std::system("'" LODESTAR_BINARY "' --help >/dev/full 2>/dev/null </dev/null");
+  EXPECT_EQ(WEXITSTATUS(status), 1);
 }
 
 }  // namespace
