@@ -156,6 +156,11 @@ LoadedMap load_map(const fs::path& yaml_file) {
 }
 
 void save_map(const OccupancyMap& map, const fs::path& yaml_file) {
+  const std::string extension = yaml_file.extension().string();
+  if (extension != ".yaml" && extension != ".yml") {
+    throw InputError(fmt::format("{}: found '{}', wanted the name of a YAML file: .yaml or .yml",
+                                 yaml_file.string(), extension));
+  }
   // Do not overwrite the image that the file names at present: until the YAML file is replaced, the old map
   // is valid.
   const std::string stem = yaml_file.stem().string();

@@ -141,6 +141,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"misspelt_command", "replya", "found 'replya', wanted replay\\?"},
         BadCommand{"radius_nan", "plan --map LAB/map.yaml --start 1,1 --goal 2,2 --radius nan",
                    "--radius: found 'nan', wanted a finite number"},
+        BadCommand{"map_converted_to_its_image", "map convert LAB/map.yaml -o out/map.pgm",
+                   "out/map.pgm: found '.pgm', wanted the name of a YAML file"},
         BadCommand{"minutes_nan", "soak --minutes nan", "--minutes: found 'nan'"},
         BadCommand{"unequal_wheels_nan", "replay --unequal-wheels nan", "--unequal-wheels: found 'nan'"},
         BadCommand{"share_infinite", "replay --lose-frames inf", "--lose-frames: .*inf"},
