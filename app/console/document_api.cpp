@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fmt/format.h>
 
+#include "app/common/json_parse.hpp"
 #include "app/common/whole_number.hpp"
 #include "app/console/registry_edit.hpp"
 #include "app/console/registry_json.hpp"
@@ -271,7 +272,7 @@ HttpResponse DocumentApi::post(const HttpRequest& request) const {
     if (request.target == "/api/markers/deviations") {
       return {.body = coverage_.deviations(site_, registry_from_json(request.body)).dump()};
     }
-    const json body = json::parse(request.body);
+    const json body = parse_json(request.body);
     if (request.target == "/api/markers/export") return exported(body);
     if (request.target == "/api/markers/import") return imported(body);
     if (request.target == "/api/markers/print") return printed(body);

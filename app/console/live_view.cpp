@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/common/json_parse.hpp"
 #include "app/console/live_json.hpp"
 #include "drivers/system/clock.hpp"
 #include "maps/input_error.hpp"
@@ -32,7 +33,7 @@ class LiveView::Session : public SocketSession {
   Session& operator=(const Session&) = delete;
 
   void receive(const std::string& bytes, bool /*binary*/) override {
-    view_.receive(client_, json::parse(bytes), monotonic_now());
+    view_.receive(client_, parse_json(bytes), monotonic_now());
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "app/common/json_parse.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
 
@@ -79,7 +80,7 @@ ordered_json registry_json(const MarkerRegistry& registry) {
 }
 
 MarkerRegistry registry_from_json(const std::string& text) {
-  const json root = json::parse(text, nullptr, false);
+  const json root = parse_json(text);
   if (!root.is_object() || root.size() != 2 || !root.contains("alignment") || !root.contains("markers") ||
       !root["markers"].is_array()) {
     throw InputError("found something else, wanted {\"alignment\": {...}, \"markers\": [...]}");

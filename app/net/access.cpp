@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/common/json_parse.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -50,6 +52,15 @@ std::optional<Role> role_for(const std::string& offered, const AccessRules& rule
   compare(rules.edit_token, Role::edit);
   compare(rules.token, Role::drive);
   return role;
+}
+
+/// Of {"token": "..."}; empty for all else.
+std::string offered_token(const std::string& body) {
+  try {
+    return parse_json(body).at("token").get<std::string>();
+  } catch (const std::exception&) {
+    return "";
+  }
 }
 
 HttpResponse session_of(Role role) {
@@ -126,9 +137,7 @@ HttpResponse answer_session(const HttpRequest& request, const AccessRules& rules
     const std::optional<Role> role = role_of(request, rules);
     return role ? session_of(*role) : refusal(401, "found no valid token, wanted it");
   }
-  const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
-  const bool is_text = body.is_object() && body.contains("token") && body["token"].is_string();
-  const std::string offered = is_text ? body["token"].get<std::string>() : "";
+  const std::string offered = offered_token(request.body);
   const std::optional<Role> role = role_for(offered, rules);
   if (!role) return refusal(401, "found another token");
   HttpResponse response = session_of(*role);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <yaml-cpp/yaml.h>
 
+#include "app/common/json_parse.hpp"
 #include "app/placement/formats.hpp"
 #include "app/placement/poses.hpp"
 #include "maps/input_error.hpp"
@@ -182,10 +183,18 @@ void read_geojson(const json& root, Intake& intake) {
   }
 }
 
+json json_of(const std::string& text, const fs::path& file) {
+  try {
+    return parse_json(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
 MarkerRegistry read_json(const std::string& text, const fs::path& file, void (*read)(const json&, Intake&)) {
   Intake intake(file);
   try {
-    read(json::parse(text), intake);
+    read(json_of(text, file), intake);
   } catch (const json::exception& error) {
     throw InputError(file, 0, error.what(), "the format's keys and numbers");
   } catch (const std::out_of_range&) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "app/common/json_parse.hpp"
 #include "app/common/whole_number.hpp"
 
 namespace lodestar {
@@ -49,7 +50,7 @@ class FoxgloveHub::Viewer : public SocketSession {
 
   void receive(const std::string& bytes, bool binary) override {
     if (binary) return complain("this server takes no messages from viewers");
-    const auto request = nlohmann::json::parse(bytes);
+    const auto request = parse_json(bytes);
     const auto operation = request.at("op").get<std::string>();
     if (operation == "subscribe") {
       for (const auto& wish : request.at("subscriptions"))

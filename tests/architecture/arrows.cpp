@@ -49,7 +49,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"drivers/stand_in", {"drivers/simulation"}},
 
       {"app/common", {"maps"}},
-      {"app/net", {"maps"}},
+      {"app/net", {"app/common"}},
       {"app/site", {"drivers/base", "planning"}},
       {"app/frames", {"app/common", "drivers/camera", "localization/detection"}},
       {"app/navigation", {"app/site", "control", "localization/integrity"}},

@@ -280,6 +280,19 @@ TEST_F(ConsoleTest, exports_imports_and_prints) {
   EXPECT_EQ(post("/api/markers/print", {{"ids", "all"}}).status, 422);
 }
 
+/// To print such a value into an answer recurses on its levels, and would end the process.
+TEST_F(ConsoleTest, refuses_what_is_nested_deeper_than_a_stack) {
+  const std::string nested = std::string(200'000, '[') + std::string(200'000, ']');
+  for (const char* target : {"/api/markers/print", "/api/markers/export", "/api/markers/import",
+                             "/api/markers/check", "/api/markers/deviations"}) {
+    for (const std::string& body : {nested, R"({"ids":)" + nested + "}", R"({"format":)" + nested + "}"}) {
+      const HttpResponse response = console().answer({.method = "POST", .target = target, .body = body});
+      EXPECT_EQ(response.status, 422) << target;
+      EXPECT_THAT(response.body, HasSubstr("nested deeper than 32 levels")) << target;
+    }
+  }
+}
+
 TEST(RegistryEdit, keeps_comments_and_rewrites_what_is_not_one_a_line) {
   const TemporaryFolder folder;
   const std::string text =
