@@ -45,11 +45,13 @@ TEST(ForwardClearance, never_says_more_than_is_free) {
   const ForwardClearance way(map, 0.25, 0.0);
   const DistanceField distances(map);
   Random random(7);
+  int ways = 0;
   for (int i = 0; i < 500; ++i) {
     const Pose2 pose{{random.uniform(-0.5, 2.5), random.uniform(-0.5, 1.5)}, random.uniform(-3.1, 3.1)};
     const double ahead_m = way.ahead_m(pose, 2.0);
     if (ahead_m == 0.0 || way.ahead_m({pose.position_m, pose.yaw_rad + radians(180.0)}, 0.01) == 0.0)
       continue;
+    ++ways;
     const Vec2 end = pose.position_m + ahead_m * Vec2(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad));
     for (int row = 28; row < 32; ++row) {
       for (int column = 50; column < 54; ++column) {
@@ -58,6 +60,7 @@ TEST(ForwardClearance, never_says_more_than_is_free) {
       }
     }
   }
+  EXPECT_GT(ways, 250);
 }
 
 }  // namespace

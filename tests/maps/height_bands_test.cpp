@@ -54,7 +54,9 @@ TEST_F(HeightBandsTest, bands_are_as_high_as_it_takes_to_reach_the_top) {
 
 TEST_F(HeightBandsTest, what_is_below_above_or_beside_is_left_out) {
   const auto file = octomap({{1.25, 0.65, 0.55}, {1.25, 0.65, 7.05}, {-1.0, 0.65, 1.55}, {1.25, 9.0, 1.55}});
-  for (const std::uint32_t bits : height_bands(file, floor_map(), 1.0, 4.2).cells) EXPECT_EQ(bits, 0U);
+  const std::vector<std::uint32_t> cells = height_bands(file, floor_map(), 1.0, 4.2).cells;
+  EXPECT_EQ(cells.size(), floor_map().cells.size());
+  for (const std::uint32_t bits : cells) EXPECT_EQ(bits, 0U);
 }
 
 TEST_F(HeightBandsTest, a_large_voxel_covers_all_cells_below_it) {

@@ -68,7 +68,8 @@ TEST(JumpSearch, is_as_short_as_dijkstra_with_scanning) {
 }
 
 TEST(JumpSearch, gives_a_path_of_straight_and_diagonal_legs_that_cut_no_corner) {
-  on_random_maps(14, 40, [](Random& random, const OccupancyMap&, const CollisionChecker& space) {
+  int paths = 0;
+  on_random_maps(14, 40, [&](Random& random, const OccupancyMap&, const CollisionChecker& space) {
     const JumpTable jumps(space);
     JumpSearch search(jumps);
     const auto start = clear_cell(random, space);
@@ -90,7 +91,9 @@ TEST(JumpSearch, gives_a_path_of_straight_and_diagonal_legs_that_cut_no_corner) 
     }
     EXPECT_EQ(counted.straight, path->steps.straight);
     EXPECT_EQ(counted.diagonal, path->steps.diagonal);
+    ++paths;
   });
+  EXPECT_GT(paths, 10);
 }
 
 TEST(JumpSearch, counts_steps_so_that_the_length_is_exact_on_a_very_long_way) {

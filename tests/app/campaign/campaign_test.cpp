@@ -76,10 +76,11 @@ TEST(Campaign, misleads_no_robot_that_has_seen_nothing_yet) {
 // blurred camera its wheels.
 TEST(Campaign, touches_nothing_in_missions_that_once_did) {
   const TemporaryFolder folder;
-  for (const std::uint64_t mission : {6692U, 8476U}) {
+  for (const auto& [mission, fault] : {std::pair{6692U, "wheel_slip"}, std::pair{8476U, "camera_blurred"}}) {
     const auto outcomes = run_campaign(lab(), {.first = mission, .missions = 1},
                                        folder / std::to_string(mission), [](double) {});
     ASSERT_EQ(outcomes.size(), 1U);
+    EXPECT_THAT(outcomes.front().faults, testing::Contains(fault));
     EXPECT_EQ(outcomes.front().contacts, 0) << mission;
   }
 }

@@ -19,7 +19,7 @@ class VideoCameraTest : public testing::Test {
   void SetUp() override {
     const std::string file = (folder / "drive.avi").string();
     cv::VideoWriter writer(file, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20.0, {64, 48}, false);
-    if (!writer.isOpened()) GTEST_SKIP() << "this OpenCV writes no video";
+    ASSERT_TRUE(writer.isOpened()) << "motion JPEG is OpenCV's own, it is always there";
     for (int i = 0; i < 5; ++i) writer.write(cv::Mat(48, 64, CV_8UC1, cv::Scalar(40 * i)));
   }
 

@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <atomic>
+#include <cerrno>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -41,16 +42,25 @@ class Served {
   [[nodiscard]] unsigned short port() const { return server_.port(); }
   [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(port()); }
 
+  /// What came back for some bytes, and who had enough.
+  struct Answer {
+    std::string bytes;
+    bool ended_by_server = false;
+  };
+
   /// All that comes back for these bytes until the server closes or nothing comes for a while.
   [[nodiscard]] std::string send(const std::string& bytes) const {
+    return send(bytes, std::chrono::seconds(2)).bytes;
+  }
+  [[nodiscard]] Answer send(const std::string& bytes, std::chrono::seconds patience) const {
     const int client = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port());
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    timeval patience{.tv_sec = 2, .tv_usec = 0};
-    setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    std::string answer;
+    const timeval wait{.tv_sec = patience.count(), .tv_usec = 0};
+    setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
+    Answer answer;
     if (connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
       std::size_t sent = 0;
       while (sent < bytes.size()) {
@@ -59,9 +69,11 @@ class Served {
         sent += static_cast<std::size_t>(more);
       }
       std::array<char, 4096> buffer{};
-      for (ssize_t n = 0; (n = recv(client, buffer.data(), buffer.size(), 0)) > 0;) {
-        answer.append(buffer.data(), static_cast<std::size_t>(n));
+      ssize_t n = 0;
+      while ((n = recv(client, buffer.data(), buffer.size(), 0)) > 0) {
+        answer.bytes.append(buffer.data(), static_cast<std::size_t>(n));
       }
+      answer.ended_by_server = n == 0 || errno == ECONNRESET;
     }
     close(client);
     return answer;
@@ -188,9 +200,16 @@ TEST(HttpServer, survives_what_is_no_http) {
 TEST(HttpServer, lets_nobody_hold_all_its_connections_for_long) {
   const Served served({.max_connections = 4, .patience = std::chrono::seconds(1)});
   const std::string never_finished = "GET / HTTP/1.1\r\nHost: ";
+  std::atomic<int> turned_out = 0;
   std::vector<std::thread> idlers;
-  for (int i = 0; i < 4; ++i) idlers.emplace_back([&] { (void)served.send(never_finished); });
-  for (std::thread& idler : idlers) idler.join();  // turned out, not waited for
+  for (int i = 0; i < 4; ++i) {
+    idlers.emplace_back([&] {
+      // Far more patient than the server: it is the server that ends this.
+      if (served.send(never_finished, std::chrono::seconds(20)).ended_by_server) ++turned_out;
+    });
+  }
+  for (std::thread& idler : idlers) idler.join();
+  EXPECT_EQ(turned_out, 4);
   EXPECT_THAT(served.ask("GET /", "Host: " + served.host() + "\r\n"), StartsWith("HTTP/1.1 200"));
 }
 

@@ -1,85 +1,18 @@
 #include "drivers/simulation/simulated_base.hpp"
 
-#include <cmath>
-#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 #include <sstream>
 
-#include "drivers/base/base_driver.hpp"
-#include "drivers/can/candump.hpp"
-#include "drivers/can/in_process_bus.hpp"
-#include "drivers/simulation/simulated_motion.hpp"
-
+#include "tests/drivers/base/base_on_a_bus.hpp"
 #include "tests/drivers/perfect_base.hpp"
 
 namespace lodestar {
 namespace {
 
+using namespace testing;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-/// Loses frames at random, either way.
-class LossyBus final : public CanBus {
- public:
-  LossyBus(CanBus& bus, double loss) : bus_(bus), loss_(loss) {}
-  bool send(const CanFrame& frame) override { return random_.uniform() < loss_ || bus_.send(frame); }
-  std::optional<StampedCanFrame> poll() override {
-    auto frame = bus_.poll();
-    while (frame && random_.uniform() < loss_) frame = bus_.poll();
-    return frame;
-  }
-
- private:
-  CanBus& bus_;
-  double loss_;
-  Random random_{9};
-};
-
-/// The base on one end of a bus, the navigator's driver on the other: they know each other by frames only.
-struct World {
-  explicit World(const SimulatedBaseOptions& options = {}, std::uint64_t seed = 1,
-                 std::optional<SimulatedMotion::Surroundings> surroundings = std::nullopt, double loss = 0.0)
-      : bus({.latency = options.can_latency}),
-        navigator_end(bus.attach(), loss),
-        motion(options, {}, seed, std::move(surroundings)),
-        base(bus.attach(), motion, options) {
-    bus.on_frame([this](const StampedCanFrame& frame) { log.write(frame); });
-  }
-
-  /// Runs for some time; the navigator polls every 20 ms and commands what it is told, if anything.
-  void run(Duration time, const std::function<std::optional<BodyVelocity>()>& navigator) {
-    for (const Stamp end = now + time; now < end;) {
-      now += milliseconds(1);
-      motion.step(milliseconds(1));
-      bus.advance(now);
-      base.step(now);
-      if (now.time_since_epoch() % milliseconds(20) != Duration::zero()) continue;
-      feedback = driver.poll(now);
-      if (!feedback.travel.empty()) travel = feedback.travel.back();
-      if (const auto velocity = navigator()) driver.command(*velocity);
-    }
-  }
-  void drive(const BodyVelocity& velocity, Duration time) {
-    run(time, [&] { return velocity; });
-  }
-  void wait(Duration time) {
-    run(time, [] { return std::nullopt; });
-  }
-
-  const Pose2& truth() const { return motion.true_map_from_base(); }
-
-  std::ostringstream log_text;
-  CandumpWriter log{log_text};
-  InProcessBus bus;
-  LossyBus navigator_end;
-  BaseDriver driver{navigator_end};
-  SimulatedMotion motion;
-  SimulatedBase base;
-  Stamp now;
-  BaseFeedback feedback;
-  WheelTravel travel;
-};
 
 TEST(SimulatedBase, is_handed_over_by_the_handshake) {
   World world;
@@ -195,23 +128,6 @@ TEST(SimulatedBase, turns_on_the_spot_as_commanded) {
   EXPECT_NEAR((world.travel.right_m - world.travel.left_m) / 0.40, world.truth().yaw_rad, 0.01);
 }
 
-TEST(SimulatedBase, follows_the_exact_arc) {
-  SimulatedBaseOptions options = perfect_base();
-  options.motor_lag_s = 0.0;
-  options.max_wheel_acceleration_mps2 = 1e9;
-  const double radius_m = 0.5 / 0.8;
-  SimulatedMotion motion(options, {}, 1);
-  motion.set_wheel_targets(0.5 - 0.8 * 0.2, 0.5 + 0.8 * 0.2);
-  motion.step(milliseconds(1));
-  const Pose2 start = motion.true_map_from_base();
-  const Vec2 centre = start * Vec2(0.0, radius_m);
-  for (int i = 0; i < 5000; ++i) {
-    motion.step(milliseconds(1));
-    ASSERT_NEAR((motion.true_map_from_base().position_m - centre).norm(), radius_m, 1e-9);
-  }
-  EXPECT_NEAR(wrap_angle(motion.true_map_from_base().yaw_rad - start.yaw_rad - 0.8 * 5.0), 0.0, 1e-9);
-}
-
 TEST(SimulatedBase, comes_to_rest_when_the_commands_stop) {
   World world(perfect_base());
   world.wait(milliseconds(200));
@@ -228,22 +144,6 @@ TEST(SimulatedBase, comes_to_rest_when_the_commands_stop) {
   EXPECT_EQ(world.feedback.state, BaseState::ready) << "which is no fault of the base";
 }
 
-TEST(SimulatedBase, never_accelerates_beyond_what_its_motors_can) {
-  const SimulatedBaseOptions options = perfect_base();
-  SimulatedMotion motion(options, {}, 1);
-  motion.set_wheel_targets(1.0, 1.0);
-  double speed_mps = 0.0;
-  double x_m = 0.0;
-  for (int i = 0; i < 2000; ++i) {
-    motion.step(milliseconds(1));
-    const double now_mps = (motion.true_map_from_base().position_m.x() - x_m) / 0.001;
-    x_m = motion.true_map_from_base().position_m.x();
-    EXPECT_LE(now_mps - speed_mps, options.max_wheel_acceleration_mps2 * 0.001 + 1e-9);
-    speed_mps = now_mps;
-  }
-  EXPECT_NEAR(speed_mps, 1.0, 1e-3);
-}
-
 TEST(SimulatedBase, unequal_wheels_bend_what_the_odometer_believes_straight) {
   SimulatedBaseOptions options = perfect_base();
   options.left_wheel_scale = 1.006;
@@ -256,39 +156,6 @@ TEST(SimulatedBase, unequal_wheels_bend_what_the_odometer_believes_straight) {
   const double rolled_m = world.travel.left_m;
   EXPECT_NEAR(world.truth().yaw_rad, -0.012 * rolled_m / options.true_track_width_m, 1e-3);
   EXPECT_LT(world.truth().position_m.y(), -0.04);
-}
-
-TEST(SimulatedBase, slips_with_the_square_root_of_the_way_whatever_the_step) {
-  SimulatedBaseOptions options = perfect_base();
-  options.slip_sigma_per_sqrt_m = 0.002;
-  for (const int step_ms : {1, 4}) {
-    double squares = 0.0;
-    constexpr int runs = 200;
-    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
-      SimulatedMotion motion(options, {}, seed);
-      motion.set_wheel_targets(1.0, 1.0);
-      for (int ms = 0; ms < 4000; ms += step_ms) motion.step(milliseconds(step_ms));
-      const double turned_m = motion.true_map_from_base().yaw_rad * options.true_track_width_m;
-      squares += turned_m * turned_m / (motion.left_encoder_m() + motion.right_encoder_m());
-    }
-    // Both wheels slip by 2 mm each in a metre; 200 runs tell the deviation to 5 %.
-    EXPECT_NEAR(std::sqrt(squares / runs), 0.002, 4 * 0.0001) << "at a step of " << step_ms << " ms";
-  }
-}
-
-TEST(SimulatedBase, counts_its_wheels_in_encoder_steps) {
-  SimulatedBaseOptions options = perfect_base();
-  options.encoder_step_m = 0.01;
-  SimulatedMotion motion(options, {}, 1);
-  motion.set_wheel_targets(0.3, -0.3);
-  for (int i = 0; i < 500; ++i) {
-    motion.step(milliseconds(1));
-    const double steps = motion.left_encoder_m() / 0.01;
-    EXPECT_NEAR(steps, std::round(steps), 1e-9);
-    EXPECT_LE(motion.left_encoder_m(), motion.true_map_from_base().position_m.norm() + 1.0);
-  }
-  EXPECT_GT(motion.left_encoder_m(), 0.08);
-  EXPECT_LT(motion.right_encoder_m(), -0.08);
 }
 
 TEST(SimulatedBase, odometer_may_wrap_around_on_the_way) {

@@ -112,16 +112,19 @@ TEST(P3p, agrees_with_opencvs_ap3p) {
 
 TEST(P3p, gives_only_poses_that_show_the_points_where_they_are_seen) {
   Random random(4);
+  int solutions = 0;
   for (int i = 0; i < 2000; ++i) {
     const Eigen::Isometry3d view = random_view(random, radians(40.0), random.uniform(0.5, 3.0), 0.5);
     const Points rays = rays_to(view, marker);
     for (const Eigen::Isometry3d& solution : solve_p3p(rays, marker)) {
+      ++solutions;
       EXPECT_TRUE(solution.matrix().allFinite());
       EXPECT_NEAR(solution.linear().determinant(), 1.0, 1e-9);
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_LT(((solution * marker[k]).normalized() - rays[k]).norm(), 1e-3);
     }
   }
+  EXPECT_GT(solutions, 2000);
 }
 
 TEST(P3p, has_no_answer_for_points_on_a_line_or_equal_rays) {

@@ -1,0 +1,240 @@
+#include <gtest/gtest.h>
+
+#include "drivers/base/base_driver.hpp"
+
+#include "tests/drivers/base/base_driver_fixture.hpp"
+
+// What the driver latches as a fault, what it bears with, and when it resumes.
+namespace lodestar {
+namespace {
+
+using namespace testing;
+using agilex::ControlMode;
+using agilex::VehicleState;
+using std::chrono::milliseconds;
+
+TEST_F(BaseDriverTest, latches_silence_within_100_ms_and_says_stop) {
+  make_ready();
+  base_silent = true;
+  EXPECT_EQ(periods(5).state, BaseState::ready) << "100 ms old is not too old yet";
+  const BaseFeedback feedback = period();
+  ASSERT_EQ(bus.sent.size(), 1U);
+  EXPECT_EQ(bus.sent[0], agilex::encode_motion_command({}));
+  expect_latched(BaseFault::feedback_lost, feedback);
+  EXPECT_FALSE(driver.resume(now)) << "nobody is there to resume";
+  base_silent = false;
+  EXPECT_EQ(periods(50).state, BaseState::fault) << "a fault stays until somebody resumes";
+}
+
+TEST_F(BaseDriverTest, latches_when_one_kind_of_feedback_stays_away) {
+  make_ready();
+  base_silent = true;
+  BaseFeedback feedback;
+  for (int i = 0; i < 16; ++i) {
+    now += milliseconds(20);
+    hear(agilex::encode_system_state(system));
+    ++system.counter;
+    hear(agilex::encode_motion_state(measured));
+    ASSERT_NE(feedback.state, BaseState::fault) << "at 300 ms it may still come";
+    feedback = driver.poll(now);
+  }
+  expect_latched(BaseFault::feedback_lost, feedback);
+}
+
+TEST_F(BaseDriverTest, takes_a_counter_that_stands_still_for_silence) {
+  make_ready();
+  counter_runs = false;
+  EXPECT_EQ(periods(14).state, BaseState::ready);
+  expect_latched(BaseFault::feedback_lost, periods(4));
+  EXPECT_GE(driver.counts().counter_repeats, 15U);
+}
+
+TEST_F(BaseDriverTest, leaves_a_base_that_somebody_took_over_alone) {
+  make_ready();
+  system.mode = ControlMode::remote;
+  const BaseFeedback feedback = period();
+  EXPECT_TRUE(bus.sent.empty()) << "neither a stop nor a request for CAN mode";
+  expect_latched(BaseFault::left_can_mode, feedback);
+  periods(50);
+  EXPECT_TRUE(bus.sent.empty());
+  EXPECT_FALSE(driver.resume(now)) << "while the remote control has it";
+
+  system.mode = ControlMode::standby;
+  EXPECT_EQ(periods(10).state, BaseState::fault);
+  EXPECT_TRUE(driver.resume(now));
+  EXPECT_EQ(period().state, BaseState::asking_for_can_mode);
+  system.mode = ControlMode::can;
+  EXPECT_EQ(period().state, BaseState::ready);
+}
+
+TEST_F(BaseDriverTest, latches_an_emergency_stop_even_when_it_is_over_before_the_next_poll) {
+  make_ready();
+  system.vehicle = VehicleState::emergency_stop;
+  base_speaks();
+  system.vehicle = VehicleState::normal;
+  expect_latched(BaseFault::emergency_stop, period());
+}
+
+TEST_F(BaseDriverTest, does_not_resume_before_the_cause_is_gone) {
+  make_ready();
+  system.vehicle = VehicleState::emergency_stop;
+  expect_latched(BaseFault::emergency_stop, period());
+  EXPECT_FALSE(driver.resume(now));
+  EXPECT_EQ(period().state, BaseState::fault);
+  system.vehicle = VehicleState::normal;
+  EXPECT_EQ(period().state, BaseState::fault) << "releasing the button moves nothing";
+  EXPECT_TRUE(driver.resume(now));
+  EXPECT_EQ(period().state, BaseState::ready);
+}
+
+TEST_F(BaseDriverTest, latches_exceptions_fault_bits_and_what_it_does_not_know) {
+  const auto fault_after = [this](VehicleState vehicle, ControlMode mode, std::uint16_t bits) {
+    BaseDriver fresh(bus);
+    system = {VehicleState::normal, ControlMode::can, 26.0, 0, 0};
+    base_speaks();
+    EXPECT_EQ(fresh.poll(now).state, BaseState::ready);
+    system.vehicle = vehicle;
+    system.mode = mode;
+    system.fault_bits = bits;
+    base_speaks();
+    return fresh.poll(now).fault;
+  };
+  EXPECT_EQ(fault_after(VehicleState::exception, ControlMode::can, 0), BaseFault::vehicle_exception);
+  EXPECT_EQ(fault_after(VehicleState::unknown, ControlMode::can, 0), BaseFault::vehicle_exception);
+  EXPECT_EQ(fault_after(VehicleState::normal, ControlMode::can, 0x8000), BaseFault::fault_bits);
+  EXPECT_EQ(fault_after(VehicleState::normal, ControlMode::unknown, 0), BaseFault::left_can_mode);
+  EXPECT_EQ(fault_after(VehicleState::normal, ControlMode::standby, 0), BaseFault::left_can_mode);
+}
+
+TEST_F(BaseDriverTest, gives_up_after_three_failed_sends_in_a_row) {
+  make_ready();
+  bus.takes_frames = false;
+  driver.command({});
+  driver.command({});
+  bus.takes_frames = true;
+  driver.command({});
+  bus.takes_frames = false;
+  driver.command({});
+  driver.command({});
+  EXPECT_EQ(period().state, BaseState::ready);
+  driver.command({});
+  bus.takes_frames = true;
+  expect_latched(BaseFault::send_failed, period());
+  EXPECT_GE(driver.counts().failed_sends, 5U);
+  EXPECT_TRUE(driver.resume(now));
+  EXPECT_EQ(period().state, BaseState::ready);
+}
+
+TEST_F(BaseDriverTest, latches_a_base_that_runs_away) {
+  make_ready();
+  measured = {0.6, 0.0};
+  for (int i = 0; i < 10; ++i) {
+    driver.command({});
+    EXPECT_EQ(period().state, BaseState::ready);
+  }
+  driver.command({});
+  expect_latched(BaseFault::not_following, periods(2));
+}
+
+/// Turning slowly about a wheel that stands still, as an encoder that is stuck has it, is no more than a
+/// small error; but it does not pass.
+TEST_F(BaseDriverTest, latches_a_wheel_that_stands_while_the_robot_creeps) {
+  make_ready();
+  measured = {0.0, 0.0};
+  BaseFeedback feedback;
+  int periods_until_fault = 0;
+  for (; feedback.state != BaseState::fault && periods_until_fault < 100; ++periods_until_fault) {
+    driver.command({0.12, -0.57});
+    feedback = period();
+  }
+  EXPECT_EQ(feedback.fault, BaseFault::not_following);
+  // 0.12 s until even the slowest base turns at 0.35 rad/s, and 1 s of patience.
+  EXPECT_NEAR(periods_until_fault, 56, 2);
+}
+
+TEST_F(BaseDriverTest, bears_with_a_base_that_is_a_little_slow) {
+  make_ready();
+  measured = {0.4, 0.8};
+  for (int i = 0; i < 200; ++i) {
+    driver.command({0.5, 1.1});
+    ASSERT_EQ(period().state, BaseState::ready);
+  }
+}
+
+TEST_F(BaseDriverTest, latches_a_base_that_ignores_its_commands) {
+  make_ready();
+  BaseFeedback feedback;
+  int periods_until_fault = 0;
+  for (; feedback.state != BaseState::fault && periods_until_fault < 100; ++periods_until_fault) {
+    driver.command({0.6, 0.0});
+    feedback = period();
+  }
+  EXPECT_EQ(feedback.fault, BaseFault::not_following);
+  // 0.3 s until even the slowest base moves at 0.3 m/s, and 0.2 s of patience.
+  EXPECT_NEAR(periods_until_fault, 25, 2);
+}
+
+TEST_F(BaseDriverTest, blames_no_base_for_a_pause_of_its_own) {
+  make_ready();
+  driver.command({0.6, 0.0});
+  period();
+  now += milliseconds(400);  // in which even the slowest base would have sped up
+  base_speaks();
+  EXPECT_EQ(driver.poll(now).state, BaseState::ready);
+  driver.command({0.6, 0.0});
+  EXPECT_EQ(period().state, BaseState::ready);
+  measured = {0.5, 0.0};
+  EXPECT_EQ(periods(40).state, BaseState::ready);
+}
+
+TEST_F(BaseDriverTest, latches_when_somebody_else_commands_the_base) {
+  make_ready();
+  hear(agilex::encode_motion_command({0.5, 0.0}));
+  expect_latched(BaseFault::second_master, period());
+}
+
+TEST_F(BaseDriverTest, latches_what_becomes_of_the_bus_and_does_not_resume_before_it_is_well) {
+  for (const auto& [state, fault] :
+       {std::pair{BusState::stalled, BaseFault::bus_stalled},
+        std::pair{BusState::bus_off, BaseFault::bus_off}, std::pair{BusState::down, BaseFault::bus_down},
+        std::pair{BusState::missing, BaseFault::bus_missing},
+        std::pair{BusState::guard_lost, BaseFault::guard_lost}}) {
+    make_ready();
+    bus.state = state;
+    expect_latched(fault, period());
+    EXPECT_FALSE(driver.resume(now));
+    bus.state = BusState::up;
+    expect_latched(fault, period());
+    EXPECT_TRUE(driver.resume(now));
+  }
+}
+
+TEST_F(BaseDriverTest, asks_a_guard_that_holds_back_to_let_go_only_on_resume) {
+  make_ready();
+  bus.state = BusState::held;
+  expect_latched(BaseFault::guard_stopped, periods(10));
+  EXPECT_EQ(bus.resumes, 0);
+  EXPECT_TRUE(driver.resume(now));
+  EXPECT_EQ(bus.resumes, 1);
+  EXPECT_NE(period().state, BaseState::ready) << "the guard has not let go yet";
+  bus.state = BusState::up;
+  EXPECT_EQ(period().state, BaseState::ready);
+}
+
+TEST_F(BaseDriverTest, releases_a_base_that_somebody_else_has_taken) {
+  make_ready();
+  system.mode = ControlMode::remote;
+  expect_latched(BaseFault::left_can_mode, period());
+  EXPECT_EQ(bus.releases, 1) << "so that no guard stops it in our name";
+}
+
+TEST_F(BaseDriverTest, gives_a_base_one_more_period_after_a_pause_of_its_own) {
+  make_ready();
+  now += milliseconds(300);
+  EXPECT_EQ(driver.poll(now).state, BaseState::ready);
+  now += milliseconds(20);
+  expect_latched(BaseFault::feedback_lost, driver.poll(now));
+}
+
+}  // namespace
+}  // namespace lodestar
