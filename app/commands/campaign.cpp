@@ -7,9 +7,10 @@
 
 #include "app/campaign/campaign_report.hpp"
 #include "app/commands/commands.hpp"
+#include "app/commands/recorded_run.hpp"
 #include "app/common/progress.hpp"
-#include "app/report/run_folder.hpp"
 #include "maps/atomic_file.hpp"
+#include "maps/input_error.hpp"
 
 namespace lodestar {
 namespace {
@@ -41,13 +42,16 @@ ExitCode verdict(const std::vector<MissionOutcome>& outcomes) {
 }
 
 ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const fs::path& output) {
-  const CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number);
+  CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number);
+  RecordedRun recorded(output / fmt::format("mission-{}", number), mission.site, mission.replay.camera,
+                       {.can_wait = true});
+  mission.replay.watch = recorded.watcher();
   RunRecord record = simulate_drive(mission.site, mission.replay);
   const MissionOutcome outcome = outcome_of(number, record);
   record.repeat = repeat_command(outcome);
-  const fs::path folder = output / fmt::format("mission-{}", number);
-  write_run_folder(folder, record, mission.site.map.map, mission.site.registry);
-  fmt::print("{}\nrun folder: {}\n", as_json(outcome).dump(2), folder.string());
+  const RunFolderEnd end = recorded.finish(record);
+  if (!end.loss.empty()) throw InputError(end.loss);
+  fmt::print("{}\nrun folder: {}\n", as_json(outcome).dump(2), recorded.folder().string());
   return verdict({outcome});
 }
 

@@ -1,8 +1,10 @@
 #include "app/commands/console_service.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "app/common/log.hpp"
 #include "app/viewers/foxglove_view.hpp"
 #include "drivers/system/clock.hpp"
 
@@ -25,6 +27,7 @@ ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* l
   channels_.push_back(std::make_unique<LiveView>(documents_.site(), link, options.live));
   channels_.push_back(std::make_unique<FoxgloveView>(documents_.site()));
   documents_.on_saved_markers([this](const MarkerRegistry& saved) {
+    log_info(fmt::format("{} markers were saved through the console", saved.markers.size()));
     for (const auto& channel : channels_) channel->take_markers(saved);
   });
   server_ = std::make_unique<HttpServer>(

@@ -2,22 +2,44 @@
 
 #include <fmt/core.h>
 
-#include "app/navigation/navigation_setup.hpp"
-#include "app/report/run_folder.hpp"
+#include "app/common/log.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
+namespace {
 
-KeptRuns::KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site,
-                   const std::string& camera, const RunMcapOptions& mcap)
+void warn(const std::string& loss) {
+  log_warning("the run is not recorded as a whole: " + loss);
+}
+
+}  // namespace
+
+KeptRuns::KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site, std::string camera,
+                   RunFolderOptions options)
     : first_(std::move(first)),
       replaces_first_(replaces_first),
       site_(site),
-      world_(known_world(site, camera)),
-      mcap_options_(mcap) {}
+      camera_(std::move(camera)),
+      options_(std::move(options)),
+      writer_({.most_waiting = 4, .tell = warn}, [](const Ended& ended) {
+        const RunFolderEnd end = ended.run->finish(ended.record);
+        if (!end.loss.empty()) warn(end.loss);
+        if (end.has_report) log_info("run folder: " + ended.run->folder().string());
+      }) {
+  options_.tell = warn;
+}
 
-KeptRuns::~KeptRuns() {
-  if (writing_.valid()) writing_.wait();
+DriveWatcher KeptRuns::watcher() {
+  return {.step =
+              [this](const DriveMoment& moment) {
+                begin();
+                if (run_) watcher_.step(moment);
+              },
+          .can_frame =
+              [this](const StampedCanFrame& frame) {
+                begin();
+                if (run_) watcher_.can_frame(frame);
+              }};
 }
 
 std::filesystem::path KeptRuns::next_folder() const {
@@ -29,46 +51,24 @@ std::filesystem::path KeptRuns::next_folder() const {
   return folder;
 }
 
-const std::filesystem::path& KeptRuns::present_folder() {
-  if (!folder_) folder_ = next_folder();
-  return *folder_;
-}
-
-void KeptRuns::watch(const DriveMoment& moment) {
-  if (mcap_refused_) return;
+void KeptRuns::begin() {
+  if (std::exchange(has_begun_, true)) return;
+  if (!writer_.accepts()) return warn("the disk has not taken the four drives before it");
   try {
-    if (!mcap_)
-      mcap_ = std::make_unique<RunMcap>(present_folder(), world_, body_of(site_.robot), mcap_options_);
-    mcap_->watch(moment);
+    run_ = std::make_unique<RecordedRun>(next_folder(), site_, camera_, options_);
+    watcher_ = run_->watcher();
+    log_debug("recording to " + run_->folder().string());
   } catch (const InputError& error) {
-    mcap_refused_ = true;
-    fmt::print(stderr, "lodestar: warning: {}\n", error.what());
+    warn(error.what());
   }
 }
 
 void KeptRuns::keep(RunRecord record) {
-  mcap_refused_ = false;
-  if (writing_.valid()) writing_.wait();
-  const std::filesystem::path folder = present_folder();
-  folder_.reset();
+  begin();  // a drive that ended before its first step leaves a folder too
+  has_begun_ = false;
   ++count_;
-  writing_ =
-      std::async(std::launch::async, [this, folder, kept = std::move(record), mcap = std::move(mcap_)] {
-        std::string lost;
-        if (mcap) mcap->add_truth(kept);
-        if (mcap && !mcap->finish()) lost = RunMcap::words_of_loss;
-        try {
-          if (mcap_options_.is_full && mcap_options_.is_full()) throw InputError("the disk is full");
-          write_run_folder(folder, kept, site_.map.map, site_.registry);
-        } catch (const InputError& error) {
-          lost = error.what();
-        }
-        if (lost.empty()) {
-          fmt::print(stderr, "run folder: {}\n", folder.string());
-        } else {
-          fmt::print(stderr, "lodestar: warning: the run is not recorded as a whole: {}\n", lost);
-        }
-      });
+  watcher_ = {};
+  if (run_) writer_.put({std::exchange(run_, nullptr), std::move(record)});
 }
 
 }  // namespace lodestar

@@ -1,49 +1,53 @@
 #pragma once
 
 #include <filesystem>
-#include <future>
+#include <memory>
+#include <optional>
 
+#include "app/commands/recorded_run.hpp"
+#include "app/common/background_writer.hpp"
 #include "app/report/run_record.hpp"
 #include "app/site/site.hpp"
-#include "app/viewers/run_mcap.hpp"
 
 namespace lodestar {
 
 /// Writes run folders in the background: the first under the given name, those of later drives beside it as
-/// NAME-2, NAME-3, the first free name.
+/// NAME-2, NAME-3, the first free name. A failure to write is logged as a warning; the drive goes on.
 class KeptRuns {
  public:
   /// `replaces_first`: an existing first folder is overwritten; else it too gets a free name.
-  KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site, const std::string& camera,
-           const RunMcapOptions& mcap = {});
-  ~KeptRuns();
-  KeptRuns(const KeptRuns&) = delete;
-  KeptRuns& operator=(const KeptRuns&) = delete;
+  KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site, std::string camera,
+           RunFolderOptions options = {});
 
-  /// Call at each step of a drive, for its run.mcap.
-  void watch(const DriveMoment& moment);
+  /// For all drives, one after the other. A drive's folder is created with its first step or frame.
+  [[nodiscard]] DriveWatcher watcher();
 
-  /// Call at its end. Waits while the previous run is still being written, then returns at once. A failure to
-  /// write is reported on standard error and does not stop the program.
+  /// Call at the end of a drive: its folder is completed in the background. While four wait for a slow disk,
+  /// no further drive is recorded.
   void keep(RunRecord record);
 
-  /// Number of runs kept.
+  /// Number of drives that have ended.
   [[nodiscard]] int count() const { return count_; }
 
  private:
+  struct Ended {
+    std::unique_ptr<RecordedRun> run;
+    RunRecord record;
+  };
+
   [[nodiscard]] std::filesystem::path next_folder() const;
-  const std::filesystem::path& present_folder();
+  void begin();
 
   std::filesystem::path first_;
   bool replaces_first_;
   const Site& site_;
-  KnownWorld world_;
-  RunMcapOptions mcap_options_;
-  std::unique_ptr<RunMcap> mcap_;                ///< of the present drive
-  std::optional<std::filesystem::path> folder_;  ///< of the present drive, once it has one
-  bool mcap_refused_ = false;
+  std::string camera_;
+  RunFolderOptions options_;
+  std::unique_ptr<RecordedRun> run_;  ///< of the present drive, if it is recorded
+  DriveWatcher watcher_;              ///< of run_
+  bool has_begun_ = false;
   int count_ = 0;
-  std::future<void> writing_;
+  BackgroundWriter<Ended> writer_;
 };
 
 }  // namespace lodestar

@@ -9,6 +9,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/frame_arguments.hpp"
 #include "app/commands/localize_methods.hpp"
+#include "app/common/rounding.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -103,10 +104,9 @@ std::string words_of_refusal(const std::vector<OverlayMarker>& markers) {
   return registered ? "REFUSED: the dots agree with no pose" : "REFUSED: no marker that is registered once";
 }
 
-/// To hundredths of a degree, and never minus zero.
+/// To hundredths of a degree.
 double in_words_deg(double angle_rad) {
-  constexpr double per_degree = 100.0;
-  return std::round(degrees(angle_rad) * per_degree) / per_degree + 0.0;
+  return rounded(degrees(angle_rad), 100.0);
 }
 
 std::vector<std::string> words_of_pose(const LocalizeRow& row, const char* who) {

@@ -9,6 +9,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/strict_arguments.hpp"
+#include "app/common/log.hpp"
 #include "app/hosting/hosting.hpp"
 #include "maps/input_error.hpp"
 
@@ -23,6 +24,19 @@ std::vector<Command> all_commands(CLI::App& app) {
     for (Command& command : make(app)) all.push_back(std::move(command));
   }
   return all;
+}
+
+/// Of the commands that say something while they run.
+void add_log_option(CLI::App& app) {
+  for (const char* name : {"run", "serve", "replay", "base", "soak"}) {
+    app.get_subcommand(name)
+        ->add_option_function<std::string>(
+            "--log-level",
+            [](const std::string& level) { program_log().set_least(severity_named(level).value()); },
+            "What to say on standard error while it runs: debug, info, warning or error; info when left out")
+        ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+        ->envname("LODESTAR_LOG_LEVEL");
+  }
 }
 
 ExitCode run_chosen(const std::vector<Command>& commands) {
@@ -40,6 +54,7 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", LODESTAR_VERSION);
   app.require_subcommand(1);
   const std::vector<Command> commands = all_commands(app);
+  add_log_option(app);
   refuse_unusual_numbers(app);
   if (const std::optional<std::string> unknown = unknown_command(app, argc, argv)) {
     fmt::print(stderr, "lodestar: {}\n", *unknown);

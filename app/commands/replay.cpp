@@ -7,19 +7,20 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/console_options.hpp"
 #include "app/commands/console_service.hpp"
+#include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/commands/recorded_run.hpp"
 #include "app/common/interruption.hpp"
+#include "app/common/log.hpp"
 #include "app/common/progress.hpp"
 #include "app/live/operator_session.hpp"
 #include "app/navigation/navigation_setup.hpp"
-#include "app/report/run_folder.hpp"
 #include "app/simulate/fault_files.hpp"
 #include "app/simulate/run_table.hpp"
 #include "app/simulate/simulated_drive.hpp"
 #include "app/simulate/simulated_drives.hpp"
 #include "app/site/arguments.hpp"
-#include "app/viewers/run_mcap.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 
@@ -152,51 +153,29 @@ ExitCode replay_many(const Site& site, const SimulatedDriveOptions& options,
   return std::ranges::all_of(runs, succeeded) ? done : job_failed;
 }
 
-void print_goals(const RunRecord& record) {
-  for (std::size_t i = 0; i < record.goals.size(); ++i) {
-    const GoalRecord& goal = record.goals[i];
-    const Vec2& at = goal.goal.position_m;
-    if (!goal.arrived) {
-      fmt::print("({:.2f}, {:.2f}): not reached: {}\n", at.x(), at.y(), goal.failure);
-      continue;
-    }
-    const ArrivalScore score = record.score_of(i).value();
-    fmt::print("({:.2f}, {:.2f}): reached after {:.1f} s and {:.2f} m, {:.1f} mm", at.x(), at.y(),
-               seconds(goal.travel_time), length_m(goal.planned), 1000.0 * score.position_error_m);
-    if (score.heading_error_rad) fmt::print(" and {:.2f} deg", degrees(*score.heading_error_rad));
-    fmt::print(" off by the truth\n");
-  }
-}
-
 fs::path output_folder(const Site& site, const ReplayArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   return fs::path("runs") / fmt::format("{}-{}", site.name, arguments.seed);
 }
 
-RunMcapOptions run_mcap_options(const SimulatedDisk& disk) {
+DiskState disk_state(const SimulatedDisk& disk) {
   return {.is_full = [&disk] { return disk.full(); }, .delay = [&disk] { return disk.delay(); }};
 }
 
 ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
-  const fs::path folder = output_folder(site, arguments);
+  RecordedRun recorded(output_folder(site, arguments), site, options.camera,
+                       {.can_wait = true, .disk = disk_state(*options.disk)});
   RunRecord record;
-  bool streamed = false;
   {
     Progress progress("replay", arguments.quiet);
     options.progress = [&progress](double share) { progress.show(share); };
-    RunMcapOptions mcap_options = run_mcap_options(*options.disk);
-    mcap_options.can_wait = true;
-    RunMcap mcap(folder, known_world(site, options.camera), body_of(site.robot), mcap_options);
-    options.watch = [&mcap](const DriveMoment& moment) { mcap.watch(moment); };
+    options.watch = recorded.watcher();
     record = simulate_drive(site, options);
-    mcap.add_truth(record);
-    streamed = mcap.finish();
   }
   record.repeat = repeat_command(arguments, options);
-  const bool is_full = options.disk->full();
-  if (is_full) fmt::print(stderr, "lodestar: warning: the run is not recorded: the disk is full\n");
-  const bool written = !is_full && leave_run_folder(folder, record, site.map.map, site.registry);
-  if (written && !streamed) fmt::print(stderr, "lodestar: warning: {}\n", RunMcap::words_of_loss);
+  const RunFolderEnd end = recorded.finish(record);
+  if (!end.loss.empty())
+    fmt::print(stderr, "lodestar: warning: the run is not recorded as a whole: {}\n", end.loss);
   const RunSummary summary = summarize(record);
   if (arguments.json) {
     fmt::print("{}\n", as_json(summary).dump(2));
@@ -204,10 +183,10 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
     print_goals(record);
     fmt::print("seed {}: {} contacts, 95 % of the track within {:.1f} mm of the path; run folder: {}\n",
                record.seed, record.contacts, 1000.0 * summary.path_p95_m,
-               written ? folder.string() : "not written");
+               end.has_report ? recorded.folder().string() : "not written");
   }
   fmt::print(stderr, "{:.1f} s driven in {:.1f} s\n", summary.drive_s, summary.wall_s);
-  return succeeded(summary) && written && streamed ? done : job_failed;
+  return succeeded(summary) && end.loss.empty() ? done : job_failed;
 }
 
 /// Simulates with the console in a browser, until Ctrl-C.
@@ -219,9 +198,9 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
   console.runs = fs::absolute(folder).parent_path();
   LiveLink link;
   ConsoleService service(console, &link);
-  OperatorSession session(link, [](const std::string& words) { fmt::print(stderr, "{}\n", words); });
-  KeptRuns runs(folder, true, site, options.camera, run_mcap_options(*options.disk));
-  options.watch = [&runs](const DriveMoment& moment) { runs.watch(moment); };
+  OperatorSession session(link, log_info);
+  KeptRuns runs(folder, true, site, options.camera, {.disk = disk_state(*options.disk)});
+  options.watch = runs.watcher();
   bool all_arrived = true;
 
   const Interruption interruption;

@@ -1,8 +1,6 @@
 #include "app/drive/run.hpp"
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fmt/chrono.h>
 #include <fmt/core.h>
@@ -11,30 +9,22 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/console_options.hpp"
 #include "app/commands/console_service.hpp"
+#include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
+#include "app/common/interruption.hpp"
+#include "app/common/log.hpp"
 #include "app/drive/camera_setup.hpp"
 #include "app/drive/operator_input.hpp"
 #include "app/live/operator_session.hpp"
-#include "app/navigation/navigation_setup.hpp"
-#include "app/recording/can_log.hpp"
-#include "app/report/run_folder.hpp"
 #include "app/site/arguments.hpp"
 #include "app/site/base_setup.hpp"
-#include "app/viewers/run_mcap.hpp"
 #include "drivers/base/guard.hpp"
-#include "drivers/can/recorded_bus.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
 namespace {
 
 namespace fs = std::filesystem;
-
-volatile std::sig_atomic_t told_to_stop = 0;
-
-void take_signal(int /*signal*/) {
-  told_to_stop = 1;
-}
 
 struct RunArguments {
   std::string site;
@@ -56,32 +46,21 @@ GuardOptions guard_options(const BaseProtocol& protocol) {
 }
 
 OperatorWish wish_of(OperatorInput& input) {
-  if (told_to_stop != 0) return OperatorWish::stop;
+  if (Interruption::asked()) return OperatorWish::stop;
   const auto word = input.poll();
   if (!word) return OperatorWish::none;
   return *word == OperatorWord::resume ? OperatorWish::resume : OperatorWish::stop;
 }
 
-void print_ends(const RunRecord& record) {
-  for (const GoalRecord& goal : record.goals) {
-    const Vec2& at = goal.goal.position_m;
-    if (goal.arrived) {
-      fmt::print("({:.2f}, {:.2f}): reached after {:.1f} s\n", at.x(), at.y(), seconds(goal.travel_time));
-    } else {
-      fmt::print("({:.2f}, {:.2f}): not reached: {}\n", at.x(), at.y(),
-                 goal.failure.empty() ? "never started" : goal.failure);
-    }
-  }
-}
-
 /// The console of a driving robot, and the run folders of its drives.
 class ServedRun {
  public:
-  ServedRun(const Site& site, const RunArguments& arguments, RunOptions& options)
+  ServedRun(const Site& site, const std::string& interface, const RunArguments& arguments,
+            RunOptions& options)
       : service_(console_options(site, arguments), &link_),
         runs_(arguments.output.empty() ? fs::path(arguments.runs) / site.name : fs::path(arguments.output),
-              !arguments.output.empty(), site, options.camera) {
-    options.watch = [this](const DriveMoment& moment) { runs_.watch(moment); };
+              !arguments.output.empty(), site, options.camera, {.interface = interface}) {
+    options.watch = runs_.watcher();
     options.session = &session_;
     options.hold_on_base_fault = true;
     options.keep = [this](RunRecord record) { keep(std::move(record)); };
@@ -114,21 +93,6 @@ class ServedRun {
   std::optional<ConsoleThread> thread_;  // destroyed before what it serves
 };
 
-void say(const std::string& words) {
-  fmt::print(stderr, "{}\n", words);
-}
-
-/// Warns once when the run cannot be recorded; the drive goes on.
-class DiskWarning {
- public:
-  void operator()(const std::string& words) {
-    if (!said_.exchange(true)) say("warning: the run is not recorded as a whole: " + words);
-  }
-
- private:
-  std::atomic<bool> said_ = false;
-};
-
 /// The run folder of this drive.
 fs::path run_folder(const RunArguments& arguments, const Site& site) {
   if (!arguments.output.empty()) return arguments.output;
@@ -144,52 +108,22 @@ struct DriveParts {
   Camera& camera;
 };
 
-/// run.mcap of a drive. When it cannot be created, warns before the drive, which goes on without it.
-class RunViewersFile {
- public:
-  RunViewersFile(const fs::path& folder, const Site& site, RunOptions& options, DiskWarning& warn)
-      : warn_(warn) {
-    try {
-      mcap_.emplace(folder, known_world(site, options.camera), body_of(site.robot));
-      options.watch = [this](const DriveMoment& moment) { mcap_->watch(moment); };
-    } catch (const InputError& error) {
-      warn(error.what());
-    }
-  }
-  ~RunViewersFile() {
-    if (mcap_ && !mcap_->finish()) warn_(RunMcap::words_of_loss);
-  }
-  RunViewersFile(const RunViewersFile&) = delete;
-  RunViewersFile& operator=(const RunViewersFile&) = delete;
-
- private:
-  DiskWarning& warn_;
-  std::optional<RunMcap> mcap_;
-};
-
 ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
                     const RunArguments& arguments) {
-  DiskWarning warn;
-  const fs::path folder = run_folder(arguments, parts.site);
-  const RunRecord record = [&] {
-    const RunViewersFile mcap(folder, parts.site, options, warn);
-    CanLog log(folder / "can.log", parts.interface, std::ref(warn));
-    RecordedBus logged(parts.bus, [&log](const StampedCanFrame& frame) { log.take(frame); });
-    return run(parts.site, logged, std::move(protocol), parts.camera, options);
-  }();
-  try {
-    write_run_folder(folder, record, parts.site.map.map, parts.site.registry);
-  } catch (const InputError& error) {
-    warn(error.what());
-  }
-  print_ends(record);
-  return record.arrived() ? done : job_failed;
+  KeptRuns runs(run_folder(arguments, parts.site), true, parts.site, options.camera,
+                {.interface = parts.interface});
+  options.watch = runs.watcher();
+  RunRecord record = run(parts.site, parts.bus, std::move(protocol), parts.camera, options);
+  print_goals(record);
+  const bool has_arrived = record.arrived();
+  runs.keep(std::move(record));
+  return has_arrived ? done : job_failed;
 }
 
 /// Drives with the console, until it is told to stop.
 ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
                       const RunArguments& arguments) {
-  ServedRun served(parts.site, arguments, options);
+  ServedRun served(parts.site, parts.interface, arguments, options);
   served.keep(run(parts.site, parts.bus, std::move(protocol), parts.camera, options));
   return served.all_arrived() ? done : job_failed;
 }
@@ -199,12 +133,13 @@ ExitCode run_command(const RunArguments& arguments) {
   const Site site = load_site(arguments.site);
   const BaseConnection connection = connection_of(site, arguments.interface);
   OperatorInput input;
-  RunOptions options{.camera = site.default_camera,
-                     .goals = {},
-                     .pictures_hz = arguments.pictures_hz,
-                     .hold_on_base_fault = true,
-                     .operator_wish = [&input] { return wish_of(input); },
-                     .tell = say};
+  RunOptions options{
+      .camera = site.default_camera,
+      .goals = {},
+      .pictures_hz = arguments.pictures_hz,
+      .hold_on_base_fault = true,
+      .operator_wish = [&input] { return wish_of(input); },
+      .tell = [](Severity severity, const std::string& words) { program_log().say(severity, words); }};
   for (const std::string& text : arguments.goals) options.goals.push_back(parse_goal("--goal", text));
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
@@ -212,8 +147,7 @@ ExitCode run_command(const RunArguments& arguments) {
   std::unique_ptr<BaseProtocol> protocol = make_protocol(connection, site.robot);
   GuardedBus bus(connection.interface, guard_options(*protocol));
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
-  std::signal(SIGINT, take_signal);
-  std::signal(SIGTERM, take_signal);
+  const Interruption interruption;
   const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};
   return arguments.serve ? drive_served(parts, std::move(protocol), options, arguments)
                          : drive_once(parts, std::move(protocol), options, arguments);

@@ -7,6 +7,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/common/interruption.hpp"
+#include "app/common/log.hpp"
 #include "app/common/process_health.hpp"
 #include "app/common/stopwatch.hpp"
 #include "app/console/document_api.hpp"
@@ -121,7 +122,11 @@ ExitCode soak(const SoakArguments& arguments) {
     SimulatedDriveOptions options = mission(site, arguments, result);
     options.seed = static_cast<std::uint64_t>(++result.missions);
     const RunRecord record = simulate_drive(site, options);
-    if (!record.arrived() || record.contacts > 0) ++result.failed;
+    if (!record.arrived() || record.contacts > 0) {
+      ++result.failed;
+      log_warning(
+          fmt::format("mission {}: {}", result.missions, record.contacts > 0 ? "a contact" : "not arrived"));
+    }
     result.last = process_health();
     if (result.warm.resident_kb == 0 && watch.seconds() >= warm_share * wanted_s) result.warm = result.last;
     write_file_atomically(fs::path(arguments.output) / "soak.json",

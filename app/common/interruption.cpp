@@ -6,30 +6,37 @@ namespace lodestar {
 namespace {
 
 volatile std::sig_atomic_t was_asked = 0;  // a signal's handler reaches nothing else
+int living = 0;
+struct sigaction before_int;
+struct sigaction before_term;
 
 void handle(int /*signal*/) {
   was_asked = 1;
 }
 
 /// SA_RESETHAND: the second signal does what it does by default. No SA_RESTART: waiting calls return.
-void install(void (*handler)(int)) {
+struct sigaction asking() {
   struct sigaction action{};
-  action.sa_handler = handler;
+  action.sa_handler = handle;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  return action;
 }
 
 }  // namespace
 
 Interruption::Interruption() {
+  if (++living > 1) return;
   was_asked = 0;
-  install(handle);
+  const struct sigaction action = asking();
+  sigaction(SIGINT, &action, &before_int);
+  sigaction(SIGTERM, &action, &before_term);
 }
 
 Interruption::~Interruption() {
-  install(SIG_DFL);
+  if (--living > 0) return;
+  sigaction(SIGINT, &before_int, nullptr);
+  sigaction(SIGTERM, &before_term, nullptr);
 }
 
 bool Interruption::asked() {

@@ -1,19 +1,18 @@
 #include "app/console/camera_picture.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
+
+#include "app/common/picture_file.hpp"
+#include "app/common/rounding.hpp"
 
 namespace lodestar {
 namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int jpeg_quality = 75;
-
 ordered_json point_json(const Vec2& px) {
-  return {std::round(px.x() * 10.0) / 10.0, std::round(px.y() * 10.0) / 10.0};
+  return {rounded(px.x(), 10.0), rounded(px.y(), 10.0)};
 }
 
 ordered_json marker_json(const DetectedMarker& marker) {
@@ -37,17 +36,15 @@ std::optional<std::string> CameraPicture::message(const Frame& frame) {
                     {"markers", ordered_json::array()}};
   for (const DetectedMarker& marker : detector_.detect(frame.gray))
     head["markers"].push_back(marker_json(marker));
-  std::vector<unsigned char> jpeg;
-  if (!cv::imencode(".jpg", frame.gray, jpeg, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality})) return std::nullopt;
+  const std::string jpeg = jpeg_bytes(frame.gray);
+  if (jpeg.empty()) return std::nullopt;
 
   const std::string text = head.dump();
   std::string message;
   for (unsigned shift = 0; shift < 32; shift += 8) {
     message += static_cast<char>((static_cast<std::uint32_t>(text.size()) >> shift) & 0xFFU);
   }
-  message += text;
-  message.append(jpeg.begin(), jpeg.end());
-  return message;
+  return message + text + jpeg;
 }
 
 }  // namespace lodestar

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/common/rounding.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -10,13 +11,14 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-double rounded(double value, double per_unit = 1e4) {
-  return std::round(value * per_unit) / per_unit;
+/// To 0.1 mm, 0.1 mm/s or 1e-4 degrees.
+double short_number(double value) {
+  return rounded(value, 1e4);
 }
 
 ordered_json velocity_json(const BodyVelocity& velocity) {
-  return {{"forward_mps", rounded(velocity.forward_mps)},
-          {"turn_degps", rounded(degrees(velocity.turn_radps))}};
+  return {{"forward_mps", short_number(velocity.forward_mps)},
+          {"turn_degps", short_number(degrees(velocity.turn_radps))}};
 }
 
 ordered_json estimate_json(const PoseEstimate& estimate) {
@@ -26,12 +28,12 @@ ordered_json estimate_json(const PoseEstimate& estimate) {
           {"y_m", rounded(pose.position_m.y(), 1e5)},
           {"yaw_deg", rounded(degrees(pose.yaw_rad), 1e3)},
           {"covariance_m2", {covariance(0, 0), covariance(0, 1), covariance(1, 1)}},
-          {"sigma_yaw_deg", rounded(degrees(std::sqrt(std::max(covariance(2, 2), 0.0))))}};
+          {"sigma_yaw_deg", short_number(degrees(std::sqrt(std::max(covariance(2, 2), 0.0))))}};
 }
 
 ordered_json goal_json(const Goal& goal) {
   ordered_json numbers{goal.position_m.x(), goal.position_m.y()};
-  if (goal.heading_rad) numbers.push_back(rounded(degrees(*goal.heading_rad)));
+  if (goal.heading_rad) numbers.push_back(short_number(degrees(*goal.heading_rad)));
   return numbers;
 }
 
@@ -60,40 +62,41 @@ Goal goal_from_json(const json& goal) {
 }  // namespace
 
 ordered_json state_json(const RobotState& state) {
-  ordered_json out{
-      {"type", "state"},
-      {"time_s", rounded(seconds(state.now))},
-      {"pose", state.estimate ? estimate_json(*state.estimate) : ordered_json(nullptr)},
-      {"commanded", velocity_json(state.commanded)},
-      {"measured", state.measured ? velocity_json(*state.measured) : ordered_json(nullptr)},
-      {"phase", to_string(state.phase)},
-      {"moving", state.phase != MissionPhase::idle},
-      {"paused", state.phase == MissionPhase::paused},
-      {"goals", ordered_json::array()},
-      {"current", state.current},
-      {"stop", state.stop ? ordered_json(to_string(*state.stop)) : ordered_json(nullptr)},
-      {"base", to_string(state.base)},
-      {"base_ready", state.base == BaseState::ready},
-      {"fault", state.fault ? ordered_json(to_string(*state.fault)) : ordered_json(nullptr)},
-      {"battery_v", or_null(state.battery_v)},
-      {"markers", state.markers},
-      {"confidence", rounded(state.confidence)},
-      {"seen_s", state.last_seen ? ordered_json(rounded(seconds(*state.last_seen))) : ordered_json(nullptr)},
-      {"distrusted", ordered_json::array()},
-      {"error_m", or_null(state.error_m)},
-      {"events", ordered_json::array()}};
+  ordered_json out{{"type", "state"},
+                   {"time_s", short_number(seconds(state.now))},
+                   {"pose", state.estimate ? estimate_json(*state.estimate) : ordered_json(nullptr)},
+                   {"commanded", velocity_json(state.commanded)},
+                   {"measured", state.measured ? velocity_json(*state.measured) : ordered_json(nullptr)},
+                   {"phase", to_string(state.phase)},
+                   {"moving", state.phase != MissionPhase::idle},
+                   {"paused", state.phase == MissionPhase::paused},
+                   {"goals", ordered_json::array()},
+                   {"current", state.current},
+                   {"stop", state.stop ? ordered_json(to_string(*state.stop)) : ordered_json(nullptr)},
+                   {"base", to_string(state.base)},
+                   {"base_ready", state.base == BaseState::ready},
+                   {"fault", state.fault ? ordered_json(to_string(*state.fault)) : ordered_json(nullptr)},
+                   {"battery_v", or_null(state.battery_v)},
+                   {"markers", state.markers},
+                   {"confidence", short_number(state.confidence)},
+                   {"seen_s", state.last_seen ? ordered_json(short_number(seconds(*state.last_seen)))
+                                              : ordered_json(nullptr)},
+                   {"distrusted", ordered_json::array()},
+                   {"error_m", or_null(state.error_m)},
+                   {"events", ordered_json::array()}};
   for (const Goal& goal : state.goals) out["goals"].push_back(goal_json(goal));
   for (const DistrustedMarker& marker : state.distrusted) out["distrusted"].push_back(marker.id);
   for (const DriveEvent& event : state.events) {
     out["events"].push_back(
-        {{"number", event.number}, {"time_s", rounded(seconds(event.stamp))}, {"words", event.words}});
+        {{"number", event.number}, {"time_s", short_number(seconds(event.stamp))}, {"words", event.words}});
   }
   return out;
 }
 
 ordered_json points_json(const Path& path) {
   ordered_json points = ordered_json::array();
-  for (const Vec2& point : path.waypoints_m) points.push_back({rounded(point.x()), rounded(point.y())});
+  for (const Vec2& point : path.waypoints_m)
+    points.push_back({short_number(point.x()), short_number(point.y())});
   return points;
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/common/json_parse.hpp"
+#include "app/common/rounding.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
 
@@ -56,8 +57,7 @@ class Numbers {
 };
 
 double tidy_degrees(double angle_rad) {
-  constexpr double per_degree = 1e9;
-  return std::round(degrees(angle_rad) * per_degree) / per_degree;
+  return rounded(degrees(angle_rad), 1e9);
 }
 
 }  // namespace

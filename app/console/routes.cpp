@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "app/common/rounding.hpp"
 #include "app/console/document_history.hpp"
 #include "maps/strict_yaml.hpp"
 
@@ -45,7 +46,7 @@ std::vector<std::string> places_of(StrictYaml& yaml, const std::set<std::string>
 }
 
 double tidy(double value) {
-  return std::round(value * 1e9) / 1e9;
+  return rounded(value, 1e9);
 }
 
 std::string place_line(const Place& place) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "app/common/rounding.hpp"
 #include "app/console/document_history.hpp"
 #include "maps/geometry.hpp"
 #include "maps/input_error.hpp"
@@ -41,10 +42,6 @@ std::vector<std::string> pictures_in(const fs::path& folder) {
 std::size_t stride_of(const std::string& text, std::size_t most) {
   const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
   return (lines + most - 1) / most;
-}
-
-double rounded(double value, double per_unit) {
-  return std::round(value * per_unit) / per_unit;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/common/rounding.hpp"
 #include "app/placement/site_floor.hpp"
 #include "app/placement/visibility.hpp"
 
@@ -51,7 +52,7 @@ ordered_json SiteCoverage::deviations(const Site& site, const MarkerRegistry& re
       const Cell middle = options.cell_in_stride(map, {column, row});
       const std::optional<CellView>& cell = seen.cells[map.index(middle)];
       const bool is_known = cell && cell->position_sigma_m;
-      sigmas.push_back(is_known ? ordered_json(std::round(1e3 * mm_per_m * *cell->position_sigma_m) / 1e3)
+      sigmas.push_back(is_known ? ordered_json(rounded(mm_per_m * *cell->position_sigma_m, 1e3))
                                 : ordered_json(nullptr));
     }
   }

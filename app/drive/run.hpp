@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "app/common/log.hpp"
 #include "app/recording/drive_moment.hpp"
 #include "app/report/run_record.hpp"
 #include "app/site/site.hpp"
@@ -21,11 +22,11 @@ enum class OperatorWish { none, resume, stop };
 struct RunOptions {
   std::string camera;  ///< a profile of the site
   std::vector<Goal> goals;
-  double pictures_hz = 0.0;                      ///< camera frames to keep in the record
-  bool hold_on_base_fault = true;                ///< wait for resume; else the goal fails
-  std::function<OperatorWish()> operator_wish;   ///< asked at every step
-  std::function<void(const std::string&)> tell;  ///< reports events, in words
-  DriveWatcher watch;                            ///< called at every step of a drive, if there
+  double pictures_hz = 0.0;                                ///< camera frames to keep in the record
+  bool hold_on_base_fault = true;                          ///< wait for resume; else the goal fails
+  std::function<OperatorWish()> operator_wish;             ///< asked at every step
+  std::function<void(Severity, const std::string&)> tell;  ///< reports events, in words
+  DriveWatcher watch;                                      ///< called during each drive
   /// The console's operator session, if any: after the goals the robot waits for more from it, until
   /// `operator_wish` says stop.
   OperatorSession* session = nullptr;

@@ -1,10 +1,11 @@
 #include <charconv>
-#include <csignal>
 #include <fmt/core.h>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "app/common/interruption.hpp"
+#include "app/common/log.hpp"
 #include "app/hosting/hosting.hpp"
 #include "app/site/site.hpp"
 #include "drivers/simulation/hosted_base.hpp"
@@ -12,12 +13,6 @@
 
 namespace lodestar {
 namespace {
-
-volatile std::sig_atomic_t told_to_stop = 0;
-
-void take_signal(int /*signal*/) {
-  told_to_stop = 1;
-}
 
 struct BaseArguments {
   std::string interface;
@@ -83,10 +78,9 @@ ExitCode base_command(const BaseArguments& arguments) {
   if (arguments.interface.empty())
     throw InputError("--can: found nothing, wanted the name of a CAN interface");
   HostedBase base(options_from(arguments));
-  std::signal(SIGINT, take_signal);
-  std::signal(SIGTERM, take_signal);
-  fmt::print(stderr, "lodestar: a simulated base runs on {}; Ctrl-C ends it\n", arguments.interface);
-  const HostedDrive drive = base.run([] { return told_to_stop != 0; });
+  const Interruption interruption;
+  log_info(fmt::format("a simulated base runs on {}; Ctrl-C ends it", arguments.interface));
+  const HostedDrive drive = base.run([] { return Interruption::asked(); });
   const Pose2& end = drive.map_from_base;
   fmt::print("at {:.4f} {:.4f} {:.3f} driven {:.3f} contacts {}\n", end.position_m.x(), end.position_m.y(),
              degrees(end.yaw_rad), drive.driven_m, drive.contacts);

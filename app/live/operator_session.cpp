@@ -19,11 +19,7 @@ std::string in_words(const std::vector<Goal>& goals) {
 
 /// What keeps the robot from moving, or "ready to drive".
 std::string condition_of(const SensorInput& input, const NavigationStep& step) {
-  if (input.base.state != BaseState::ready) {
-    std::string words = fmt::format("base: {}", to_string(input.base.state));
-    if (input.base.fault) words += fmt::format(": {}", to_string(*input.base.fault));
-    return words;
-  }
+  if (input.base.state != BaseState::ready) return "base: " + in_words(input.base.state, input.base.fault);
   return step.stop ? fmt::format("must not move: {}", to_string(*step.stop)) : "ready to drive";
 }
 

@@ -1,49 +1,34 @@
 #include "app/recording/can_log.hpp"
 
-#include <fmt/format.h>
-#include <fstream>
 #include <utility>
 
-#include "drivers/can/candump.hpp"
+#include "maps/input_error.hpp"
 
 namespace lodestar {
 
-CanLog::CanLog(std::filesystem::path file, std::string interface,
-               std::function<void(const std::string&)> tell)
+CanLog::CanLog(std::filesystem::path file, const CanLogOptions& options)
     : file_(std::move(file)),
-      interface_(std::move(interface)),
-      tell_(std::move(tell)),
-      thread_([this](const std::stop_token& stop) { work(stop); }) {}
-
-CanLog::~CanLog() = default;
-
-void CanLog::take(const StampedCanFrame& frame) {
-  const std::lock_guard lock(mutex_);
-  if (!ended_) frames_.push_back(frame);
+      out_(file_, std::ios::binary | std::ios::trunc),
+      lines_(out_, options.interface),
+      writer_(
+          {.most_waiting = options.most_waiting,
+           .can_wait = options.can_wait,
+           .collect = std::chrono::milliseconds(100),  // a busy bus costs ten writes a second
+           .tell = options.tell,
+           .disk = options.disk},
+          [this](const StampedCanFrame& frame) {
+            check();
+            lines_.write(frame);
+          },
+          [this] {
+            out_.flush();
+            check();
+          }) {
+  check();
 }
 
-std::vector<StampedCanFrame> CanLog::taken() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(frames_, {});
-}
-
-void CanLog::work(const std::stop_token& stop) {
-  constexpr auto period = std::chrono::milliseconds(100);
-  std::ofstream out(file_, std::ios::binary);
-  CandumpWriter writer(out, interface_);
-  for (bool is_last = false; out && !is_last;) {
-    is_last = stop.stop_requested();  // asked before the last frames are fetched
-    for (const StampedCanFrame& frame : taken()) writer.write(frame);
-    out.flush();
-    if (!is_last) std::this_thread::sleep_for(period);
-  }
-  if (out) return;
-  {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    frames_.clear();
-  }
-  tell_(fmt::format("{}: cannot be written", file_.string()));
+void CanLog::check() const {
+  if (!out_) throw InputError(file_, 0, "a file that cannot be written", "one that can");
 }
 
 }  // namespace lodestar

@@ -32,4 +32,8 @@ std::string in_words(const Mission& mission, MissionEvent event) {
   return "";
 }
 
+std::string in_words(BaseState state, const std::optional<BaseFault>& fault) {
+  return fault ? fmt::format("{} ({})", to_string(state), to_string(*fault)) : std::string(to_string(state));
+}
+
 }  // namespace lodestar

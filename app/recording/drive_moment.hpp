@@ -5,6 +5,7 @@
 
 #include "app/navigation/mission.hpp"
 #include "app/recording/drive_record.hpp"
+#include "drivers/can/can_bus.hpp"
 
 namespace lodestar {
 
@@ -16,10 +17,16 @@ struct DriveMoment {
   std::optional<KeptPicture> picture;  ///< that the record keeps of this step, if any
 };
 
-/// Called after each step, once its command has been sent.
-using DriveWatcher = std::function<void(const DriveMoment&)>;
+/// Callbacks during a recorded drive, from the thread of the control loop, which they must not delay.
+struct DriveWatcher {
+  std::function<void(const DriveMoment&)> step;           ///< after each step, once its command has been sent
+  std::function<void(const StampedCanFrame&)> can_frame;  ///< each frame on the base's bus
+};
 
 /// The event of the present goal in words; empty for none.
 std::string in_words(const Mission& mission, MissionEvent event);
+
+/// The base's state, and its fault in brackets.
+std::string in_words(BaseState state, const std::optional<BaseFault>& fault);
 
 }  // namespace lodestar

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/site/goal.hpp"
-#include "drivers/can/can_bus.hpp"
 #include "localization/integrity/marker_trust.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/motion.hpp"
@@ -36,8 +35,9 @@ struct FixRecord {
 
 /// A camera frame kept in the record.
 struct KeptPicture {
-  Stamp stamp;                           ///< capture
-  std::shared_future<std::string> jpeg;  ///< encoded in the background, see PictureKeeper
+  Stamp stamp;  ///< capture
+  std::shared_future<std::string>
+      jpeg;  ///< encoded in the background, see PictureKeeper; empty when that failed
 };
 
 /// How one goal ended.
@@ -69,8 +69,8 @@ struct DriveRecord {
   std::vector<StepRecord> steps;
   std::vector<FixRecord> fixes;
   std::vector<KeptPicture> pictures;         ///< a few a second, where wanted
+  int dropped_pictures = 0;                  ///< that were due and found no room, see PictureKeeper
   std::vector<DistrustedMarker> distrusted;  ///< at the end
-  std::vector<StampedCanFrame> can_frames;
   std::vector<NoticeRecord> notices;
   int frames = 0;            ///< that arrived from the camera
   double wall_time_s = 0.0;  ///< never written to a file that must repeat byte for byte

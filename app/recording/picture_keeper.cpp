@@ -4,17 +4,18 @@
 
 namespace lodestar {
 
-PictureKeeper::PictureKeeper(PictureKeeperOptions options) : options_(std::move(options)) {}
-
-PictureKeeper::~PictureKeeper() {
-  if (!worker_.joinable()) return;
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-  }
-  changed_.notify_all();
-  worker_.join();
-}
+PictureKeeper::PictureKeeper(PictureKeeperOptions options)
+    : options_(std::move(options)),
+      encoder_({.most_waiting = options_.most_waiting, .can_wait = options_.can_wait}, [this](Waiting& next) {
+        std::string jpeg;
+        try {
+          jpeg = options_.jpeg_of(next.gray);
+        } catch (...) {
+          next.jpeg.set_value({});  // those who wait for it must not wait for ever
+          throw;
+        }
+        next.jpeg.set_value(std::move(jpeg));
+      }) {}
 
 std::optional<KeptPicture> PictureKeeper::keep(DriveRecord& record, std::span<const Frame> frames) {
   std::optional<KeptPicture> last;
@@ -24,7 +25,10 @@ std::optional<KeptPicture> PictureKeeper::keep(DriveRecord& record, std::span<co
     const bool is_due = record.pictures.empty() || frame.stamp - record.pictures.back().stamp >= period;
     if (!is_due || frame.gray.empty()) continue;
     std::optional<KeptPicture> kept = hand_over(frame);
-    if (!kept) continue;
+    if (!kept) {
+      ++record.dropped_pictures;
+      continue;
+    }
     record.pictures.push_back(*kept);
     last = std::move(kept);
   }
@@ -32,32 +36,10 @@ std::optional<KeptPicture> PictureKeeper::keep(DriveRecord& record, std::span<co
 }
 
 std::optional<KeptPicture> PictureKeeper::hand_over(const Frame& frame) {
-  if (!worker_.joinable()) worker_ = std::thread([this] { work(); });
   Waiting waiting{.gray = frame.gray, .jpeg = {}};
   KeptPicture kept{.stamp = frame.stamp, .jpeg = waiting.jpeg.get_future().share()};
-  {
-    std::unique_lock lock(mutex_);
-    const auto has_room = [this] { return waiting_.size() < options_.most_waiting; };
-    if (options_.can_wait) changed_.wait(lock, has_room);
-    if (!has_room()) return std::nullopt;
-    waiting_.push_back(std::move(waiting));
-  }
-  changed_.notify_all();
+  if (!encoder_.put(std::move(waiting))) return std::nullopt;
   return kept;
-}
-
-void PictureKeeper::work() {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
-    Waiting next = std::move(waiting_.front());
-    lock.unlock();
-    next.jpeg.set_value(options_.jpeg_of(next.gray));
-    lock.lock();
-    waiting_.pop_front();  // only now: a picture being encoded counts as waiting
-    changed_.notify_all();
-  }
 }
 
 }  // namespace lodestar

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <future>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
 
+#include "app/common/background_writer.hpp"
 #include "app/common/picture_file.hpp"
 #include "app/recording/drive_record.hpp"
 #include "maps/frame.hpp"
@@ -28,13 +25,11 @@ struct PictureKeeperOptions {
 /// of its own, off the control loop.
 class PictureKeeper {
  public:
+  /// All that was kept becomes a JPEG before it is destroyed.
   explicit PictureKeeper(PictureKeeperOptions options);
-  PictureKeeper(const PictureKeeper&) = delete;
-  PictureKeeper& operator=(const PictureKeeper&) = delete;
-  /// Encodes all that was kept.
-  ~PictureKeeper();
 
-  /// Adds the frames that are due to the record. Returns the last of them, if any.
+  /// Adds those that are due to the record, and counts there what found no room. Gives the last of them, if
+  /// any.
   std::optional<KeptPicture> keep(DriveRecord& record, std::span<const Frame> frames);
 
  private:
@@ -44,14 +39,9 @@ class PictureKeeper {
   };
 
   std::optional<KeptPicture> hand_over(const Frame& frame);
-  void work();
 
   PictureKeeperOptions options_;
-  std::mutex mutex_;  ///< of the next two
-  std::deque<Waiting> waiting_;
-  bool ends_ = false;
-  std::condition_variable changed_;
-  std::thread worker_;  ///< started with the first picture
+  BackgroundWriter<Waiting> encoder_;
 };
 
 }  // namespace lodestar

@@ -1,6 +1,7 @@
 #include "app/recording/run_recorder.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace lodestar {
 namespace {
@@ -12,12 +13,6 @@ NoticeRecord notice_of(const SensorInput& input, const NavigationStep& step) {
   if (step.stop) return {input.now, std::string(to_string(*step.stop)), true};
   if (step.camera) return {input.now, std::string(to_string(*step.camera)), false};
   return {input.now, {}, false};
-}
-
-}  // namespace
-
-bool DriveRecord::arrived() const {
-  return std::ranges::all_of(goals, &GoalRecord::arrived);
 }
 
 void record_step(DriveRecord& record, const SensorInput& input, const NavigationStep& step) {
@@ -58,6 +53,50 @@ void record_event(DriveRecord& record, const Mission& mission, MissionEvent even
   goal.ended = now;
   goal.arrived = event == MissionEvent::goal_arrived;
   if (!goal.arrived) goal.failure = mission.failure();
+}
+
+}  // namespace
+
+bool DriveRecord::arrived() const {
+  return std::ranges::all_of(goals, &GoalRecord::arrived);
+}
+
+RunRecorder::RunRecorder(const Site& site, RunRecorderOptions options)
+    : site_(site),
+      options_(std::move(options)),
+      pictures_({.pictures_hz = options_.pictures_hz, .can_wait = options_.pictures_wait}) {}
+
+void RunRecorder::begin(const std::vector<Goal>& goals, const Pose2& start) {
+  is_on_ = true;
+  watch_ = {};
+  record_ = {};
+  record_.site = site_.name;
+  record_.camera = options_.camera;
+  record_.seed = options_.seed;
+  record_.start = start;
+  record_.robot_radius_m = site_.robot.radius_m;
+  for (const Goal& goal : goals) record_.goals.push_back({.goal = goal});
+}
+
+void RunRecorder::take(const StampedCanFrame& frame) {
+  if (is_on_ && options_.watch.can_frame) options_.watch.can_frame(frame);
+}
+
+void RunRecorder::take(const SensorInput& input, const MissionStep& step, const Mission& mission) {
+  if (!is_on_) return;
+  record_step(record_, input, step.navigation);
+  const std::optional<KeptPicture> picture = pictures_.keep(record_, input.frames);
+  record_event(record_, mission, step.event, input.now);
+  if (options_.watch.step)
+    options_.watch.step({.input = input, .step = step, .mission = mission, .picture = picture});
+}
+
+DriveRecord RunRecorder::end(const Mission& mission) {
+  if (!is_on_) return {};
+  is_on_ = false;
+  if (!mission.finished()) record_.goals[mission.current()].failure = "stopped by the operator";
+  record_.wall_time_s = watch_.seconds();
+  return std::exchange(record_, {});
 }
 
 }  // namespace lodestar

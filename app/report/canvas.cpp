@@ -152,4 +152,17 @@ cv::Mat Canvas::picture() const {
   return small;
 }
 
+Canvas canvas_for(const OccupancyMap& map, double width_px, const Canvas::Margins& margins) {
+  Vec2 low = map.map_from_grid.position_m;
+  Vec2 high = low;
+  for (const int column : {0, map.columns}) {
+    for (const int row : {0, map.rows}) {
+      const Vec2 corner = map.map_from_grid * Vec2(column * map.resolution_m, row * map.resolution_m);
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+  }
+  return {low, high, width_px, margins};
+}
+
 }  // namespace lodestar

@@ -64,4 +64,7 @@ class Canvas {
   cv::Mat large_;
 };
 
+/// Shows the smallest upright rectangle around a map, which may lie turned in its frame.
+Canvas canvas_for(const OccupancyMap& map, double width_px, const Canvas::Margins& margins = {});
+
 }  // namespace lodestar

@@ -8,6 +8,7 @@
 
 #include "app/report/canvas.hpp"
 #include "app/report/run_statistics.hpp"
+#include "app/report/ticks.hpp"
 #include "app/report/visibility_figure.hpp"
 #include "maps/marker.hpp"
 
@@ -30,30 +31,6 @@ constexpr double track_radius_px = 5.0;
 constexpr double track_spacing_m = 0.2;
 const Vec3 middle_of_marker(1.5 * marker_pitch_m, 1.5 * marker_pitch_m, 0.0);
 
-/// The axis-aligned bounding box of a map, which may be rotated in its frame.
-Canvas canvas_for(const OccupancyMap& map) {
-  Vec2 low = Vec2::Constant(1e300);
-  Vec2 high = -low;
-  for (const int column : {0, map.columns}) {
-    for (const int row : {0, map.rows}) {
-      const Vec2 corner = map.map_from_grid * Vec2(column * map.resolution_m, row * map.resolution_m);
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-  }
-  return {low, high, figure_width_px, {}};
-}
-
-/// A round number of metres between ticks, so that there are about ten.
-double tick_spacing_m(double extent_m) {
-  const double rough = extent_m / 10.0;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * power >= rough) return step * power;
-  }
-  return 10.0 * power;
-}
-
 std::vector<double> ticks(double low_m, double high_m, double spacing_m) {
   std::vector<double> result;
   const int last = static_cast<int>(std::floor(high_m / spacing_m + 1e-9));
@@ -66,7 +43,7 @@ std::vector<double> ticks(double low_m, double high_m, double spacing_m) {
 void draw_axes(Canvas& canvas) {
   canvas.draw_frame();
   const Vec2 low = canvas.pixel(canvas.low_m());
-  const double spacing = tick_spacing_m((canvas.high_m() - canvas.low_m()).maxCoeff());
+  const double spacing = tick_spacing((canvas.high_m() - canvas.low_m()).maxCoeff(), 10.0);
   for (const double x : ticks(canvas.low_m().x(), canvas.high_m().x(), spacing)) {
     const double at = canvas.pixel({x, 0.0}).x();
     canvas.draw_line_px({at, low.y()}, {at, low.y() + 8.0}, faint, 1.5);
@@ -193,7 +170,7 @@ Legend legend_of(Canvas& canvas) {
 }  // namespace
 
 cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const MarkerRegistry& registry) {
-  Canvas canvas = canvas_for(map);
+  Canvas canvas = canvas_for(map, figure_width_px);
   canvas.draw_map(map);
   draw_axes(canvas);
   draw_markers(canvas, registry);
@@ -224,7 +201,7 @@ cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const 
 
 cv::Mat draw_plan(const OccupancyMap& map, const MarkerRegistry& registry, const Vec2& start_m,
                   const Vec2& goal_m, const Path& path, const Visibility* visibility) {
-  Canvas canvas = canvas_for(map);
+  Canvas canvas = canvas_for(map, figure_width_px);
   canvas.draw_map(map);
   if (visibility != nullptr) draw_visible_cells(canvas, *visibility);
   draw_axes(canvas);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "app/report/ticks.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -19,15 +21,6 @@ struct Extent {
   Vec2 low = Vec2::Constant(1e300);
   Vec2 high = Vec2::Constant(-1e300);
 };
-
-double round_step(double extent, double count) {
-  const double rough = std::max(extent, 1e-9) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * power >= rough) return step * power;
-  }
-  return 10.0 * power;
-}
 
 /// Values as plotted: unchanged, or as decimal logarithms.
 std::vector<PlotSeries> scaled(std::vector<PlotSeries> series, bool logarithmic) {
@@ -85,13 +78,13 @@ Vec2 on_sheet(const Vec2& point, const Extent& extent) {
 
 std::string grid_svg(const Extent& extent, bool logarithmic) {
   std::string svg;
-  const double step_x = round_step(extent.high.x() - extent.low.x(), 10.0);
+  const double step_x = tick_spacing(extent.high.x() - extent.low.x(), 10.0);
   for (double x = std::ceil(extent.low.x() / step_x) * step_x; x <= extent.high.x(); x += step_x) {
     const double at = on_sheet({x, 0.0}, extent).x();
     svg += fmt::format("<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g}</text>", at,
                        height - bottom + 16.0, x);
   }
-  const double step_y = logarithmic ? 1.0 : round_step(extent.high.y() - extent.low.y(), 5.0);
+  const double step_y = logarithmic ? 1.0 : tick_spacing(extent.high.y() - extent.low.y(), 5.0);
   for (int k = static_cast<int>(std::ceil(extent.low.y() / step_y)); k * step_y <= extent.high.y(); ++k) {
     const double at = on_sheet({0.0, k * step_y}, extent).y();
     svg += fmt::format("<line class='grid' x1='{0:.1f}' x2='{1:.1f}' y1='{2:.1f}' y2='{2:.1f}'/>", left,

@@ -8,7 +8,6 @@
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_statistics.hpp"
-#include "drivers/can/candump.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 
@@ -71,14 +70,10 @@ void write_pictures(const std::filesystem::path& folder, const RunRecord& record
   if (record.pictures.empty()) return;
   make_run_folder(folder);
   for (const KeptPicture& picture : record.pictures) {
-    write_file_atomically(folder / fmt::format("{:.3f}.jpg", seconds(picture.stamp)), picture.jpeg.get());
+    const std::string& jpeg = picture.jpeg.get();
+    if (jpeg.empty()) continue;
+    write_file_atomically(folder / fmt::format("{:.3f}.jpg", seconds(picture.stamp)), jpeg);
   }
-}
-
-std::string can_log(const RunRecord& record) {
-  std::string text;
-  for (const StampedCanFrame& frame : record.can_frames) text += candump_line(frame) + "\n";
-  return text;
 }
 
 }  // namespace
@@ -101,19 +96,7 @@ void write_run_folder(const std::filesystem::path& folder, const RunRecord& reco
   write_file_atomically(folder / "steps.csv", steps_csv(record));
   write_file_atomically(folder / "fixes.csv", fixes_csv(record));
   write_pictures(folder / "pictures", record);
-  write_file_atomically(folder / "can.log", can_log(record));
   write_file_atomically(folder / "report.html", report_html(record, picture));
-}
-
-bool leave_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
-                      const MarkerRegistry& registry) {
-  try {
-    write_run_folder(folder, record, map, registry);
-    return true;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "lodestar: warning: the run is not recorded: {}\n", error.what());
-    return false;
-  }
 }
 
 }  // namespace lodestar

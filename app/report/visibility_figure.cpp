@@ -14,20 +14,6 @@ const std::array cell_words{"none", "one", "two", "three or more markers, at eve
 const cv::Scalar ink(40, 40, 40);
 const cv::Scalar marker_color(0, 140, 255);
 
-Canvas canvas_for(const OccupancyMap& map) {
-  Vec2 low = map.map_from_grid.position_m;
-  Vec2 high = low;
-  for (const int column : {0, map.columns}) {
-    for (const int row : {0, map.rows}) {
-      const Vec2 corner = map.map_from_grid * Vec2(column * map.resolution_m, row * map.resolution_m);
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-  }
-  constexpr double width_px = 1800.0;
-  return {low, high, width_px, {.left_px = 40.0, .right_px = 40.0, .top_px = 40.0, .bottom_px = 90.0}};
-}
-
 void draw_legend(Canvas& canvas) {
   Vec2 at = canvas.pixel(canvas.low_m()) + Vec2(0.0, 45.0);
   constexpr double text_px = 20.0;
@@ -58,7 +44,9 @@ void draw_visible_cells(Canvas& canvas, const Visibility& visibility) {
 }
 
 cv::Mat draw_visibility(const Visibility& visibility, const MarkerRegistry& registry) {
-  Canvas canvas = canvas_for(visibility.map);
+  constexpr double width_px = 1800.0;
+  Canvas canvas = canvas_for(visibility.map, width_px,
+                             {.left_px = 40.0, .right_px = 40.0, .top_px = 40.0, .bottom_px = 90.0});
   canvas.draw_map(visibility.map);
   draw_visible_cells(canvas, visibility);
   canvas.draw_frame();

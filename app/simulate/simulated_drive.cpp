@@ -6,7 +6,6 @@
 #include "app/live/operator_session.hpp"
 #include "app/navigation/mission.hpp"
 #include "app/navigation/navigation_setup.hpp"
-#include "app/recording/picture_keeper.hpp"
 #include "app/recording/run_recorder.hpp"
 #include "app/report/run_statistics.hpp"
 #include "drivers/simulation/simulation.hpp"
@@ -49,19 +48,8 @@ SensorInput sense(Simulation& simulation, BaseDriver& base) {
   return input;
 }
 
-/// Reports a goal's outcome to the scorer, and records its score.
-void judge(RunRecord& record, Scorer& scorer, const Mission& mission, MissionEvent event) {
-  if (event == MissionEvent::path_planned) scorer.claim_path(mission.path());
-  if (event != MissionEvent::goal_arrived) return;
-  const std::size_t ended = mission.current() - 1;
-  const Goal& goal = record.goals.at(ended).goal;
-  scorer.claim_arrival(goal.position_m, goal.heading_rad);
-  record.scores.resize(ended);  // goals before it that did not arrive have none
-  record.scores.emplace_back(scorer.arrivals().back());
-}
-
 /// The share of the goals done, the present one by the distance still to go.
-double share_done(const RunRecord& record, const Mission& mission,
+double share_done(const DriveRecord& record, const Mission& mission,
                   const std::optional<PoseEstimate>& estimate) {
   const auto total = static_cast<double>(record.goals.size());
   const auto done = static_cast<double>(mission.current());
@@ -82,8 +70,13 @@ class SimulatedDrive {
         simulation_(world_.map, remaining_markers(site, options), world_.camera,
                     made_harder(simulation_options(site, options), options.disturbances)),
         base_(simulation_.can()),
-        mission_(world_, replay_navigation(site, options), options.goals) {
-    simulation_.on_can_frame([this](const StampedCanFrame& frame) { take(frame); });
+        mission_(world_, replay_navigation(site, options), options.goals),
+        recorder_(site, {.camera = options.camera,
+                         .seed = options.seed,
+                         .pictures_hz = options.pictures_hz,
+                         .pictures_wait = true,
+                         .watch = options.watch}) {
+    simulation_.on_can_frame([this](const StampedCanFrame& frame) { recorder_.take(frame); });
   }
 
   void step(OperatorSession* session = nullptr) {
@@ -94,16 +87,13 @@ class SimulatedDrive {
     if (options_.on_step) options_.on_step(computing.elapsed());
     base_.command(step.navigation.command);
     if (session != nullptr) session->show(input, step, mission_, [&] { return error_of(step.navigation); });
-    if (!recording_) return simulation_.scorer().forget();
+    if (!recorder_.is_on()) return simulation_.scorer().forget();
 
-    record_step(record_, input, step.navigation);
-    const std::optional<KeptPicture> picture = pictures_.keep(record_, input.frames);
-    record_event(record_, mission_, step.event, simulation_.now());
-    judge(record_, simulation_.scorer(), mission_, step.event);
+    recorder_.take(input, step, mission_);
+    score(step.event);
     score_backtrack(step.navigation.backtracks);
-    if (options_.watch)
-      options_.watch({.input = input, .step = step, .mission = mission_, .picture = picture});
-    if (options_.progress) options_.progress(share_done(record_, mission_, step.navigation.estimate));
+    if (options_.progress)
+      options_.progress(share_done(recorder_.record(), mission_, step.navigation.estimate));
   }
 
   /// From now on, for the mission's goals.
@@ -111,44 +101,44 @@ class SimulatedDrive {
     const std::vector<TruePose>& track = simulation_.scorer().track();
     const Pose2 start = track.empty() ? site_.start : track.back().map_from_base;
     simulation_.scorer().forget();
-    recording_ = true;
-    record_ = {};
-    record_.site = site_.name;
-    record_.camera = options_.camera;
-    record_.seed = options_.seed;
-    record_.start = start;
-    record_.robot_radius_m = site_.robot.radius_m;
-    for (const Goal& goal : mission_.goals()) record_.goals.push_back({.goal = goal});
-    watch_ = {};
+    scores_.clear();
+    recorder_.begin(mission_.goals(), start);
   }
 
   RunRecord end_record() {
-    recording_ = false;
-    if (!mission_.finished()) record_.goals[mission_.current()].failure = "stopped by the operator";
     const Scorer& scorer = simulation_.scorer();
-    record_.truth = scorer.track();
-    record_.path_distances_m = scorer.path_distances_m();
-    record_.contacts = scorer.contacts();
-    record_.faults = simulation_.faults();
-    record_.wall_time_s = watch_.seconds();
-    return std::move(record_);
+    RunRecord record{recorder_.end(mission_)};
+    record.scores = std::move(scores_);
+    record.truth = scorer.track();
+    record.path_distances_m = scorer.path_distances_m();
+    record.contacts = scorer.contacts();
+    record.faults = simulation_.faults();
+    return record;
   }
 
   Mission& mission() { return mission_; }
   BaseDriver& base() { return base_; }
   [[nodiscard]] Stamp now() const { return simulation_.now(); }
-  [[nodiscard]] bool recording() const { return recording_; }
+  [[nodiscard]] bool recording() const { return recorder_.is_on(); }
 
  private:
+  /// Reports a goal's outcome to the scorer, and records its score.
+  void score(MissionEvent event) {
+    Scorer& scorer = simulation_.scorer();
+    if (event == MissionEvent::path_planned) scorer.claim_path(mission_.path());
+    if (event != MissionEvent::goal_arrived) return;
+    const std::size_t ended = mission_.current() - 1;
+    const Goal& goal = mission_.goals().at(ended);
+    scorer.claim_arrival(goal.position_m, goal.heading_rad);
+    scores_.resize(ended);  // goals before it that did not arrive have none
+    scores_.emplace_back(scorer.arrivals().back());
+  }
+
   /// While it backtracks, the track is not scored against the path.
   void score_backtrack(bool goes_back) {
     if (goes_back) simulation_.scorer().claim_path({});
     if (!goes_back && went_back_) simulation_.scorer().claim_path(mission_.path());
     went_back_ = goes_back;
-  }
-
-  void take(const StampedCanFrame& frame) {
-    if (recording_) record_.can_frames.push_back(frame);
   }
 
   /// Of an estimate that was made just now.
@@ -168,12 +158,11 @@ class SimulatedDrive {
   Simulation simulation_;
   BaseDriver base_;
   Mission mission_;
-  RunRecord record_;
-  PictureKeeper pictures_{{.pictures_hz = options_.pictures_hz, .can_wait = true}};
-  bool recording_ = false;
+  RunRecorder recorder_;
+  std::vector<std::optional<ArrivalScore>> scores_;
   bool went_back_ = false;
-  Stopwatch watch_;
 };
+
 /// Keeps simulated time no faster than wall time.
 class Pace {
  public:

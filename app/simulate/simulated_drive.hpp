@@ -30,7 +30,7 @@ struct SimulatedDriveOptions {
   /// Called after each step of the navigator with the wall time that it took.
   std::function<void(std::chrono::nanoseconds)> on_step;
   std::function<void(double)> progress;  ///< called repeatedly with the completed share, 0..1
-  DriveWatcher watch;                    ///< called at every step, if set
+  DriveWatcher watch;                    ///< called during the drive
 };
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "app/common/rounding.hpp"
 #include "app/report/run_statistics.hpp"
 #include "app/viewers/foxglove_schemas.hpp"
 
@@ -36,20 +37,13 @@ Message message(DriveChannel channel, Stamp stamp, const MessageJson& json) {
 
 /// Six decimals are enough for plots.
 double short_number(double value) {
-  constexpr double per_unit = 1e6;
-  return std::round(value * per_unit) / per_unit + 0.0;
+  return rounded(value, 1e6);
 }
 
 double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance.topLeftCorner<2, 2>(),
                                                               Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
-}
-
-std::string base_words(BaseState state, const std::optional<BaseFault>& fault) {
-  std::string words(to_string(state));
-  if (fault) words += fmt::format(" ({})", to_string(*fault));
-  return words;
 }
 
 double yaw_sigma_rad(const PoseEstimate& estimate) {
@@ -70,7 +64,7 @@ MessageJson drive_json(const EstimateMoment& moment) {
           {"commanded_degps", short_number(degrees(moment.commanded.turn_radps))},
           {"measured_mps", short_number(measured.forward_mps)},
           {"measured_degps", short_number(degrees(measured.turn_radps))},
-          {"base", base_words(moment.base, moment.fault)},
+          {"base", in_words(moment.base, moment.fault)},
           {"stop", moment.stop ? std::string(to_string(*moment.stop)) : ""}};
 }
 
@@ -226,7 +220,7 @@ void DriveMessages::say_distrust(const DriveMoment& moment, std::vector<Message>
 
 void DriveMessages::say_base(const DriveMoment& moment, std::vector<Message>& messages) {
   const BaseFeedback& base = moment.input.base;
-  const std::string words = "base: " + base_words(base.state, base.fault);
+  const std::string words = "base: " + in_words(base.state, base.fault);
   if (words == base_said_) return;
   base_said_ = words;
   const bool bad = base.state == BaseState::fault;

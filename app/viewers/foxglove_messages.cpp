@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/common/base64.hpp"
+#include "app/common/rounding.hpp"
 #include "maps/marker.hpp"
 
 namespace lodestar {
@@ -15,10 +16,6 @@ using Json = MessageJson;
 constexpr const char* map_frame = "map";
 constexpr const char* base_frame = "base_link";
 constexpr const char* camera_frame = "camera";
-
-double rounded(double value, double per_unit) {
-  return std::round(value * per_unit) / per_unit + 0.0;  // no -0
-}
 
 Json vector_json(const Vec3& v) {
   constexpr double per_m = 1e6;

@@ -3,19 +3,21 @@
 #include <utility>
 
 #include "app/report/run_folder.hpp"
+#include "maps/input_error.hpp"
 
 namespace lodestar {
 
 RunMcap::RunMcap(const std::filesystem::path& folder, const KnownWorld& world, RobotBody body,
                  const RunMcapOptions& options)
-    : options_(options), messages_(world, std::move(body)) {
+    : messages_(world, std::move(body)),
+      file_name_(folder / "run.mcap"),
+      writer_({.most_waiting = options.most_waiting_bytes,
+               .can_wait = options.can_wait,
+               .tell = options.tell,
+               .disk = options.disk},
+              [this](const Portion& portion) { write(portion); }) {
   make_run_folder(folder);
-  file_ = std::make_unique<McapFile>(folder / "run.mcap", drive_channels());
-  writer_ = std::thread([this] { work(); });
-}
-
-RunMcap::~RunMcap() {
-  (void)finish();
+  file_ = std::make_unique<McapFile>(file_name_, drive_channels());
 }
 
 void RunMcap::watch(const DriveMoment& moment) {
@@ -27,59 +29,24 @@ void RunMcap::add_truth(const RunRecord& record) {
 }
 
 void RunMcap::take(Portion portion) {
-  if (options_.is_full && options_.is_full()) {
-    has_skipped_ = true;
-    return;
-  }
   constexpr std::size_t bytes_of_picture = 64U << 10U;  // estimate: it may not have been encoded yet
   std::size_t bytes = portion.picture ? bytes_of_picture : 0;
   for (const Message& message : portion.messages) bytes += message.json.size();
-  {
-    std::unique_lock lock(mutex_);
-    const auto has_room = [&] { return waiting_bytes_ < options_.most_waiting_bytes; };
-    if (options_.can_wait) changed_.wait(lock, has_room);
-    if (!has_room()) {
-      has_skipped_ = true;
-      return;
-    }
-    waiting_bytes_ += bytes;
-    waiting_.push_back(std::move(portion));
-  }
-  changed_.notify_all();
-}
-
-void RunMcap::work() {
-  for (bool is_last = false; !is_last;) {
-    std::vector<Portion> portions;
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
-      is_last = ends_;
-      portions = std::exchange(waiting_, {});
-      waiting_bytes_ = 0;
-    }
-    changed_.notify_all();
-    if (options_.delay) std::this_thread::sleep_for(options_.delay());
-    for (const Portion& portion : portions) write(portion);
-  }
+  writer_.put(std::move(portion), bytes);
 }
 
 void RunMcap::write(const Portion& portion) {
   for (const Message& message : portion.messages) file_->write(message);
-  if (portion.picture) file_->write(camera_message(portion.picture->stamp, portion.picture->jpeg.get()));
+  const std::string jpeg = portion.picture ? portion.picture->jpeg.get() : "";
+  if (!jpeg.empty()) file_->write(camera_message(portion.picture->stamp, jpeg));
+  if (!file_->healthy()) throw InputError(file_name_, 0, "a file that cannot be written", "one that can");
 }
 
-bool RunMcap::finish() {
-  if (writer_.joinable()) {
-    {
-      const std::lock_guard lock(mutex_);
-      ends_ = true;
-    }
-    changed_.notify_all();
-    writer_.join();
-    file_->finish();
-  }
-  return file_->healthy() && !has_skipped_;
+std::string RunMcap::finish() {
+  WriterCounts counts = writer_.finish();
+  file_->finish();
+  if (!file_->healthy() && counts.error.empty()) counts.error = file_name_.string() + ": cannot be written";
+  return counts.loss("run.mcap");
 }
 
 }  // namespace lodestar

@@ -5,7 +5,7 @@
 #include "maps/occupancy_map.hpp"
 
 // A drive small enough to be followed by hand: from (1, 1) to (3, 1) and back, one metre a second, with a
-// truth, an estimate and a CAN frame each half second.
+// truth and an estimate each half second.
 namespace lodestar::sample {
 
 inline Stamp at_s(double time_s) {
@@ -60,7 +60,6 @@ inline RunRecord run() {
     const double time_s = 0.5 * i;
     const double x_m = i <= 4 ? 1.0 + time_s : 5.0 - time_s;
     record.truth.push_back({at_s(time_s), {{x_m, 1.0}, 0.0}});
-    record.can_frames.push_back({at_s(time_s), {.id = 0x221, .length = 2, .data = {0x12, 0xab}}});
     StepRecord step;
     step.estimate.stamp = at_s(time_s);
     step.estimate.map_from_base = {{x_m, 1.0 - 0.01 * i}, 0.0};

@@ -50,12 +50,24 @@ TEST(PictureKeeper, gives_no_work_to_the_thread_that_drives_and_never_holds_it_u
     for (int i = 1; i < 3; ++i) EXPECT_TRUE(keeper.keep(record, std::vector{frame_at(i, i)})) << i;
     for (int i = 3; i < 100; ++i) EXPECT_FALSE(keeper.keep(record, std::vector{frame_at(i, i)})) << i;
     EXPECT_EQ(record.pictures.size(), 3U) << "what cannot wait is not promised either";
+    EXPECT_EQ(record.dropped_pictures, 97);
     told_to_go_on.set_value();
   }
   EXPECT_EQ(made_of, first.front().gray.data) << "handed over without a copy";
   EXPECT_NE(made_by, std::this_thread::get_id());
   EXPECT_EQ(record.pictures[0].jpeg.get(), "7");
   EXPECT_EQ(record.pictures[2].jpeg.get(), "2");
+}
+
+TEST(PictureKeeper, leaves_a_picture_that_cannot_be_made_empty) {
+  DriveRecord record;
+  PictureKeeper keeper({.pictures_hz = 1.0, .jpeg_of = [](const cv::Mat& gray) {
+                          if (gray.at<unsigned char>(0, 0) == 0) throw std::runtime_error("no memory");
+                          return shade_of(gray);
+                        }});
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(keeper.keep(record, std::vector{frame_at(i, i)}));
+  EXPECT_EQ(record.pictures[0].jpeg.get(), "");
+  EXPECT_EQ(record.pictures[1].jpeg.get(), "1");
 }
 
 TEST(PictureKeeper, loses_nothing_where_the_drive_can_wait) {

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "app/report/run_statistics.hpp"
-#include "drivers/can/candump.hpp"
 #include "maps/input_error.hpp"
 
 #include "tests/app/sample_run.hpp"
@@ -19,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array file_names{"summary.json", "map.png",   "estimate.tum", "truth.tum",
-                                "steps.csv",    "fixes.csv", "can.log",      "report.html"};
+                                "steps.csv",    "fixes.csv", "report.html"};
 
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -83,15 +82,6 @@ TEST_F(RunFolder, a_repeated_estimate_is_written_once) {
   record.steps.insert(record.steps.begin() + 3, record.steps[3]);
   write(folder, record);
   EXPECT_EQ(lines_of(folder / "estimate.tum").size(), 9U);
-}
-
-TEST_F(RunFolder, can_log_can_be_played_back) {
-  write(folder);
-  EXPECT_EQ(lines_of(folder / "can.log")[1], "(0000000000.500000) can0 221#12AB");
-  const std::vector<LoggedCanFrame> frames = load_candump(folder / "can.log");
-  ASSERT_EQ(frames.size(), 9U);
-  EXPECT_EQ(frames[8].received.stamp, sample::at_s(4.0));
-  EXPECT_EQ(frames[8].received.frame, sample::run().can_frames[8].frame);
 }
 
 TEST_F(RunFolder, summary_says_what_can_be_worked_out_by_hand) {
