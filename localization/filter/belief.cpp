@@ -12,7 +12,7 @@ namespace {
 
 using Mat3 = Eigen::Matrix3d;
 
-/// A way on an arc of constant curvature.
+/// Motion on an arc of constant curvature.
 struct Arc {
   double length_m = 0.0;
   double turn_rad = 0.0;
@@ -26,7 +26,7 @@ Pose2 along(const Pose2& from, const Arc& arc) {
           wrap_angle(from.yaw_rad + arc.turn_rad)};
 }
 
-/// Derivative of the pose after an arc by its length and turn; the chord stands for the arc.
+/// Derivative of the pose after an arc by its length and turn; the chord approximates the arc.
 Eigen::Matrix<double, 3, 2> pose_by_arc(double yaw_rad, const Arc& arc) {
   const double direction = yaw_rad + 0.5 * arc.turn_rad;
   const Vec2 ahead(std::cos(direction), std::sin(direction));
@@ -36,12 +36,11 @@ Eigen::Matrix<double, 3, 2> pose_by_arc(double yaw_rad, const Arc& arc) {
   return jacobian;
 }
 
-/// What fixes about here err by in common is something else after rolling so far: about the way on which the
-/// same markers stay in view. Assumed.
+/// Correlation length of the error that nearby fixes share: about the distance on which the same markers stay
+/// in view. Assumed.
 constexpr double fix_bias_reach_m = 1.0;
 
-/// Of the error that fixes about here have in common: what is known of the site, and what this one says of
-/// its markers.
+/// Covariance of the error that nearby fixes share: the site's part, and this fix's part from its markers.
 Mat3 shared_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
   constexpr double least_sigma = 1e-6;  // m, rad: sharing() divides by it
   const double position = square(std::max(options.fix_sigma_floor_m, least_sigma));
@@ -49,14 +48,14 @@ Mat3 shared_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
   return fix.shared_covariance + Mat3(of_site.asDiagonal());
 }
 
-/// Between pose and wheel readings, for these are rounded. It is another one at each time and does not add
-/// up along the way, as it would if moved() counted it.
+/// Covariance between pose and wheel readings from the readings' rounding. It is independent at each time and
+/// must not accumulate along the way, as it would in moved().
 Mat3 rounding_covariance(const PoseFilterOptions& options) {
   const double wheel = square(options.wheel_step_m) / 12.0;
   return Vec3(0.5 * wheel, 0.5 * wheel, 2.0 * wheel / square(options.track_width_m)).asDiagonal();
 }
 
-/// Of the error that each fix has for itself.
+/// Covariance of the error that a fix does not share with others.
 Mat3 own_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
   const Mat3 own = fix.covariance - fix.shared_covariance;
   return 0.5 * (own + own.transpose()) + rounding_covariance(options);
@@ -70,8 +69,8 @@ bool rests_on(const PlanarFix& fix, int id) {
   return std::ranges::find(fix.ids, id) != fix.ids.end();
 }
 
-/// Of the error that fixes have in common this one has so much: each marker errs for itself, and one that
-/// was not seen about here brings an error of its own.
+/// Share of the common error that this fix has: each marker has its own error, so a marker not seen nearby
+/// contributes an independent one.
 double share_kept(const std::vector<MarkerOnTheWay>& markers, const PlanarFix& fix) {
   if (fix.ids.empty()) return 1.0;
   const auto known =
@@ -79,8 +78,8 @@ double share_kept(const std::vector<MarkerOnTheWay>& markers, const PlanarFix& f
   return std::sqrt(static_cast<double>(known) / static_cast<double>(fix.ids.size()));
 }
 
-/// The belief where fixes have in common what this one says: as far as its markers were seen about here, so
-/// many sigmas as it was.
+/// The belief with the common error of this fix: as far as its markers were seen nearby, the old error, at
+/// the same number of sigmas.
 Belief sharing(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   Belief result = belief;
   const double here_m = rolled_m(belief.travel);
@@ -102,7 +101,7 @@ Belief sharing(const Belief& belief, const PlanarFix& fix, const PoseFilterOptio
   return result;
 }
 
-/// A fix shows the pose plus the shared error.
+/// A fix observes the pose plus the shared error.
 struct Innovation {
   Vec3 error;
   Mat3 covariance;
@@ -120,7 +119,7 @@ Innovation innovation_of(const Belief& belief, const PlanarFix& fix, const PoseF
   return innovation;
 }
 
-/// A belief, and beside it the place that a picture of its time shows.
+/// A belief, augmented by the pose that a frame of its time shows.
 struct WithPicture {
   using State = Eigen::Matrix<double, 15, 1>;
   using Covariance = Eigen::Matrix<double, 15, 15>;
@@ -138,7 +137,7 @@ WithPicture with_picture(const Belief& belief, double sway_m, const PoseFilterOp
   return both;
 }
 
-/// The belief when the picture beside it takes the place of the one before.
+/// The frame's pose replaces the keyframe's in the belief.
 void keep_picture(const WithPicture& both, Belief& belief) {
   belief.mean << both.mean.head<9>(), both.mean.tail<3>();
   belief.covariance << both.covariance.topLeftCorner<9, 9>(), both.covariance.topRightCorner<9, 3>(),
@@ -204,7 +203,7 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   const Arc arc{0.5 * (left_scale * left_m + right_scale * right_m), turn_scale * turn_as_built};
   const Pose2 pose = along(from.map_from_base(), arc);
   const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
-  const double kept = std::exp(-way_m / fix_bias_reach_m);  // of the shared error
+  const double kept = std::exp(-way_m / fix_bias_reach_m);  // correlation of the shared error
 
   Belief to = from;
   to.travel = travel;
@@ -254,7 +253,7 @@ Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOpt
   Belief result = expected;
   result.mean += gain * innovation.error;
   result.mean[2] = wrap_angle(result.mean[2]);
-  // Joseph's form, which keeps the covariance symmetric and positive, and is right for any gain.
+  // Joseph form: keeps the covariance symmetric and positive, and is correct for any gain.
   result.covariance =
       keep * expected.covariance * keep.transpose() + gain * own_covariance(fix, options) * gain.transpose();
   return result;

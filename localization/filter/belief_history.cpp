@@ -7,9 +7,9 @@ namespace lodestar {
 
 namespace {
 
-/// By how much the variance of one of a series of fixes must grow so that the series says no more than its
-/// errors, a first-order Gauss-Markov process, let it: n of them are worth 1 + (n - 1) (1 - r) / (1 + r)
-/// independent ones, r the correlation of neighbours. FIXCORR
+/// Factor on the variance of each of a series of fixes with correlated errors (first-order Gauss-Markov
+/// process): n fixes count as 1 + (n - 1) (1 - r) / (1 + r) independent ones, with r the correlation of
+/// neighbours.
 double variance_growth(Duration between_fixes, const PoseFilterOptions& options) {
   if (options.fix_correlation <= Duration::zero()) return 1.0;
   constexpr double least_s = 1e-3;  // fixes of one time are one fix
@@ -64,7 +64,7 @@ bool BeliefHistory::add_motion(const VisualOdometryIncrement& motion, const Whee
   return true;
 }
 
-/// At its time, and lets those that follow be moved from it.
+/// Inserts the belief at its time and predicts the later ones from it.
 void BeliefHistory::put(const Belief& belief, const PoseFilterOptions& options) {
   const auto later = std::ranges::upper_bound(beliefs_, belief.travel.stamp, {},
                                               [](const Belief& other) { return other.travel.stamp; });

@@ -8,15 +8,16 @@ namespace lodestar {
 namespace {
 
 // Chosen by hand; the campaigns of docs/safety.md were driven with them.
-constexpr int fixes_to_start = 2;     // consecutive consistent fixes that a start takes
-constexpr int fixes_to_relocate = 5;  // consecutive refused fixes that agree and move the estimate
-/// Nearer than this, the fixes that move the estimate must rest on two markers or more: one that hangs
-/// elsewhere than surveyed contradicts steadily too.
+constexpr int fixes_to_start = 2;  // consecutive consistent fixes for a start
+// Consecutive refused fixes that agree with each other and relocate the estimate.
+constexpr int fixes_to_relocate = 5;
+/// Below this distance, a relocation needs fixes of two markers or more: a displaced marker contradicts the
+/// estimate steadily too.
 constexpr double relocation_by_one_marker_m = 0.7;
-/// Where so many pictures of the ceiling in a row contradict the wheels, their agreement is worth nothing
-/// until a fix agrees: one of the two is wrong.
+/// After this many consecutive refused visual-odometry increments, visual odometry is ignored until a fix
+/// agrees: either it or wheel odometry is wrong.
 constexpr int motions_refused_to_doubt = 2;
-/// Fixes newer than the wheels' last word by more are refused.
+/// Fixes that are ahead of the newest wheel reading by more are refused.
 constexpr Duration most_ahead = std::chrono::milliseconds(100);
 
 WheelTravel interpolated(const WheelTravel& before, const WheelTravel& after, Stamp stamp) {
@@ -47,8 +48,8 @@ FixOutcome PoseFilter::add_fix(const PlanarFix& fix) {
     return FixOutcome::accepted;
   }
 
-  // What the estimate contradicts may be an outlier, or the truth after the robot has been carried away. Only
-  // fixes that agree among themselves, given the wheels' travel between them, can tell.
+  // A fix that the estimate contradicts may be an outlier, or the truth after the robot has been carried
+  // away. Only several such fixes that agree with each other, given odometry, decide.
   add_to_rival(*at);
   const bool relocating = believed_.has_value();
   if (!rival_prevails()) return relocating ? FixOutcome::refused_gate : FixOutcome::collecting;
@@ -127,7 +128,7 @@ bool PoseFilter::add_motion(const VisualOdometryIncrement& motion, bool keeps) {
   return agrees;
 }
 
-/// Between readings; nothing beyond them and for what is older than the history.
+/// Interpolates between readings; nothing beyond them and for what is older than the history.
 std::optional<WheelTravel> PoseFilter::travel_at(Stamp stamp) const {
   if (readings_.size() < 2 || stamp < readings_.front().stamp || stamp > readings_.back().stamp ||
       stamp < readings_.back().stamp - belief_history) {
@@ -137,7 +138,7 @@ std::optional<WheelTravel> PoseFilter::travel_at(Stamp stamp) const {
   return after->stamp == stamp ? *after : interpolated(*std::prev(after), *after, stamp);
 }
 
-/// Nothing for a fix that is out of the readings' reach.
+/// Nothing for a fix beyond the wheels' readings.
 std::optional<PoseFilter::PlacedFix> PoseFilter::placed(const PlanarFix& fix) const {
   if (const std::optional<WheelTravel> travel = travel_at(fix.stamp)) return PlacedFix{fix, *travel};
   const bool is_ahead = readings_.size() >= 2 && fix.stamp > readings_.back().stamp &&
@@ -145,8 +146,8 @@ std::optional<PoseFilter::PlacedFix> PoseFilter::placed(const PlanarFix& fix) co
   return is_ahead ? std::optional(brought_back(fix)) : std::nullopt;
 }
 
-/// A fix that is ahead of the wheels' last word, brought back to it at the wheels' last pace. Of the way
-/// thus guessed half may be wrong.
+/// Moves a fix that is ahead of the newest wheel reading back to it, at the wheels' last speed. Half of the
+/// distance thus extrapolated counts as uncertainty.
 PoseFilter::PlacedFix PoseFilter::brought_back(const PlanarFix& fix) const {
   const WheelTravel& newest = readings_.back();
   const WheelTravel ahead = interpolated(readings_[readings_.size() - 2], newest, fix.stamp);
@@ -162,7 +163,7 @@ PoseFilter::PlacedFix PoseFilter::brought_back(const PlanarFix& fix) const {
   return placed;
 }
 
-/// The scales, once learned, outlive the robot's being carried elsewhere.
+/// Learned scales stay valid when the robot has been carried elsewhere.
 PoseFilter::Rival PoseFilter::rival_from(const PlacedFix& placed) const {
   Rival rival{BeliefHistory(belief_from(placed.fix, placed.travel, scales(), options_))};
   for (const WheelTravel& reading : readings_)
@@ -181,7 +182,8 @@ std::optional<PoseEstimate> PoseFilter::estimate() const {
 }
 
 std::optional<PoseEstimate> PoseFilter::estimate_at(Stamp stamp) const {
-  const std::optional<PlacedFix> origin = placed({.stamp = stamp});  // a robot at the map's origin then
+  // A robot at the map's origin at that time.
+  const std::optional<PlacedFix> origin = placed({.stamp = stamp});
   if (!origin || !believed_) return std::nullopt;
   const std::optional<Belief> belief = believed_->at(origin->travel, options_);
   if (!belief) return std::nullopt;

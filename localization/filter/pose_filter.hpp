@@ -15,80 +15,82 @@ namespace lodestar {
 enum class FixOutcome {
   accepted,
   started,       ///< enough fixes agree: the estimate begins
-  collecting,    ///< before the start: waiting for more fixes that agree
+  collecting,    ///< before the start: waits for more fixes that agree
   refused_gate,  ///< contradicts the estimate
-  refused_late,  ///< older than the history or the estimate, or too far ahead of the wheels' last word
-  relocated,     ///< enough refused fixes agree among themselves: the estimate has moved to them
+  refused_late,  ///< older than the history or the estimate, or too far ahead of the newest wheel reading
+  relocated,     ///< enough refused fixes agree with each other: the estimate was relocated to them
 };
 
-/// A fix beside the pose that the estimate had at its time.
+/// A fix's comparison with the estimate at its time.
 struct FixExpectation {
   Pose2 map_from_base;
   double squared_distance = 0.0;  ///< of the fix, Mahalanobis with 3 degrees of freedom
-  bool agrees = false;            ///< near enough for the filter to accept it
+  bool agrees = false;            ///< passes the filter's gate
 };
 
-/// What the estimate expects two pictures of the ceiling to show.
+/// Predicted visual-odometry increment.
 struct PictureExpectation {
-  Stamp from;  ///< when the kept one was taken
+  Stamp from;  ///< capture time of the keyframe
   Pose2 then_from_now;
 };
 
-/// Fuses wheel travel and camera fixes by covariance: an extended Kalman filter over the pose, what the
-/// wheels' readings must be scaled by, and the error that neighbouring fixes share. A fix is applied at its
-/// capture time and the travel since then is replayed over it. Where fixes are missing, pictures of the plain
-/// ceiling may tell how the robot moves. A value type: copying it copies the belief.
+/// Fuses wheel travel and camera fixes in an extended Kalman filter over the pose, the wheels' scales, and
+/// the error that nearby fixes share. A fix is applied at its capture time, and the travel since then is
+/// replayed. Between fixes, visual odometry on the ceiling may observe the motion. A value type: copying it
+/// copies the belief.
 class PoseFilter {
  public:
   explicit PoseFilter(const PoseFilterOptions& options = {})
       : options_(options), zero_velocity_(options.wheel_step_m) {}
 
-  /// Moves the belief by the wheels' travel since the last call. Stamps ascend; a reading that is not newer
-  /// than the last one is ignored.
+  /// Predicts the belief by the wheels' travel since the last call. Stamps ascend; a reading that is not
+  /// newer than the last one is ignored.
   void add_travel(const WheelTravel& reading);
 
-  /// Corrects the belief at the fix's capture time. Where one marker alone contradicts the estimate by little
-  /// it may itself have moved, and the estimate stays until a second marker says the same.
+  /// Corrects the belief at the fix's capture time. Where fixes of one marker alone contradict the estimate
+  /// by little, the marker may be displaced, and the estimate stays until fixes of a second marker agree with
+  /// them.
   FixOutcome add_fix(const PlanarFix& fix);
 
-  /// Where the picture of the ceiling that is kept was taken, and how the robot has moved since, at another
-  /// time. Nothing while none is kept, and beyond the wheels' readings.
+  /// The capture time of the keyframe, and the predicted motion from it to the given time. Nothing without a
+  /// keyframe, and beyond the wheels' readings.
   [[nodiscard]] std::optional<PictureExpectation> expected_motion(Stamp stamp) const;
 
-  /// From now on later pictures of the ceiling are laid over one of that time. False, and nothing changes,
-  /// before the start and beyond the wheels' readings.
+  /// Makes the frame of that time the keyframe of visual odometry. False, without any change, before the
+  /// start and beyond the wheels' readings.
   bool keep_picture(Stamp stamp, double sway_m);
 
-  /// Corrects the belief by what the kept picture and a later one show; `keeps`: the later one is kept
-  /// instead. False, and nothing changes, where that contradicts the wheels or another picture is kept.
+  /// Corrects the belief by a visual-odometry increment from the keyframe; `keeps`: the later frame becomes
+  /// the keyframe. False, without any change, where it contradicts odometry or starts from another keyframe.
   bool add_motion(const VisualOdometryIncrement& motion, bool keeps);
 
-  /// Begins anew at a pose that somebody vouches for, whatever was believed. False, and nothing changes, when
-  /// the fix is out of the readings' reach.
+  /// Sets the initial pose, whatever was believed. False, without any change, when the fix is beyond the
+  /// wheels' readings.
   bool start_at(const PlanarFix& fix);
 
-  /// What the estimate expected of a fix. Nothing before the start, and for a fix that would be late.
+  /// The estimate's pose at a fix's time and the fix's distance to it. Nothing before the start, and for a
+  /// fix that would be late.
   [[nodiscard]] std::optional<FixExpectation> expectation(const PlanarFix& fix) const;
 
-  /// Neither wheel has turned for a while: nothing drifts, and what an encoder on the edge of a step says is
-  /// no travel.
+  /// Zero-velocity update: neither wheel has turned for 0.3 s, so the pose does not drift, and the jitter of
+  /// an encoder at the edge of a step is not taken for travel.
   [[nodiscard]] bool standing() const { return zero_velocity_.standing(); }
 
   /// The belief at the newest wheel travel; nothing before the filter has started.
   [[nodiscard]] std::optional<PoseEstimate> estimate() const;
 
-  /// The belief at another time within the history, or a little ahead of it: what to expect of a frame taken
-  /// then. Nothing before the start and beyond that reach.
+  /// The belief at another time within the history, or up to 0.1 s after it: the prediction for a frame taken
+  /// then. Nothing before the start and beyond that range.
   [[nodiscard]] std::optional<PoseEstimate> estimate_at(Stamp stamp) const;
 
   /// Learned scales (true travel over reported travel), left and right.
   [[nodiscard]] Vec2 wheel_scales() const { return scales().mean.head<2>(); }
 
-  /// Learned scale of turns: the track width as built over the one that the floor feels.
+  /// Learned scale of turns: the track width as built over the effective one on this floor.
   [[nodiscard]] double turn_scale() const { return scales().mean.z(); }
 
  private:
-  /// A fix together with the wheels' reading at its time.
+  /// A fix with the wheels' reading at its time.
   struct PlacedFix {
     PlanarFix fix;
     WheelTravel travel;
@@ -98,7 +100,7 @@ class PoseFilter {
   struct Rival {
     BeliefHistory history;
     int fixes = 1;
-    std::set<int> ids;  ///< of the markers that the fixes rest on
+    std::set<int> ids;  ///< of the markers used by its fixes
   };
 
   [[nodiscard]] std::optional<WheelTravel> travel_at(Stamp stamp) const;
@@ -117,7 +119,8 @@ class PoseFilter {
   std::optional<Rival> rival_;
   Stamp last_fix_;
   Stamp last_agreed_;
-  int motions_refused_ = 0;  ///< in a row since a fix agreed; enough of them, and the ceiling is not heard
+  /// Consecutive refusals since a fix agreed; from `motions_refused_to_doubt` on, visual odometry is ignored.
+  int motions_refused_ = 0;
 };
 
 }  // namespace lodestar

@@ -5,8 +5,8 @@
 namespace lodestar {
 namespace {
 
-/// Without travel. Chosen by hand: a wheel that creeps at the slowest speed that moves a base (2 cm/s) passes
-/// a step of 1 mm six times within it.
+/// Time without travel. Chosen by hand: a wheel at the slowest speed that moves a base (2 cm/s) passes a step
+/// of 1 mm six times within it.
 constexpr Duration standing_after = std::chrono::milliseconds(300);
 
 }  // namespace
@@ -20,7 +20,7 @@ WheelTravel ZeroVelocityDetector::settled(const WheelTravel& reading) {
   const bool stood = standing_;
   standing_ = reading.stamp - rest_->stamp >= standing_after;
   if (!standing_) return reading;
-  if (!stood) {  // held where it is now, so that coming to rest is no jump
+  if (!stood) {  // held at the present reading, so that coming to rest causes no jump
     rest_->left_m = reading.left_m;
     rest_->right_m = reading.right_m;
   }

@@ -7,9 +7,9 @@
 
 namespace lodestar {
 
-/// Recognises a robot that stands. An encoder that has come to rest on the edge of a step reports one step to
-/// and fro for as long as it stands; a filter that took that for travel would lose its certainty on the spot.
-/// Travel beyond one step is never held back. A value type.
+/// Zero-velocity detector (ZUPT). An encoder at rest on the edge of a step reports one step to and fro; a
+/// filter that took this for travel would lose certainty while standing. Travel beyond one step passes at
+/// once. A value type.
 class ZeroVelocityDetector {
  public:
   explicit ZeroVelocityDetector(double wheel_step_m) : wheel_step_m_(wheel_step_m) {}
@@ -23,7 +23,7 @@ class ZeroVelocityDetector {
   [[nodiscard]] bool rests(const WheelTravel& reading) const;
 
   double wheel_step_m_;
-  std::optional<WheelTravel> rest_;  ///< where the wheels last began to rest
+  std::optional<WheelTravel> rest_;  ///< reading at which the wheels last came to rest
   bool standing_ = false;
 };
 
