@@ -31,7 +31,7 @@ class Backtrack {
   void saw_marker_at(const Vec2& position_in_map);
 
   /// Here it has seen none.
-  void saw_nothing_at(const Vec2& position_in_map);
+  void saw_no_marker_at(const Vec2& position_in_map);
 
   /// May another be made? Not before another marker was seen, nor when too many were made.
   [[nodiscard]] bool possible() const {
@@ -47,11 +47,11 @@ class Backtrack {
   std::optional<Vec2> begin();
 
   /// It is where the last one led to.
-  void came_back() { is_in_vain_ = !has_seen_; }
+  void reached_place() { found_no_marker_ = !has_seen_; }
 
   /// It went back to where it had seen markers, and has seen none since it left. Then it is not the ceiling:
   /// the camera sees nothing, or the robot is not where it thinks. It must not go on.
-  [[nodiscard]] bool was_in_vain() const { return is_in_vain_; }
+  [[nodiscard]] bool found_no_marker() const { return found_no_marker_; }
 
   /// Is this place of a robot that goes back far from the one it goes to? A marker seen here is another, and
   /// saves the rest of the way.
@@ -60,7 +60,7 @@ class Backtrack {
   }
 
   /// The ground on which it has seen no marker before the retreats made so far, in steps.
-  [[nodiscard]] std::span<const Vec2> blind_ground_m() const { return blind_ground_m_; }
+  [[nodiscard]] std::span<const Vec2> blind_places_m() const { return blind_places_m_; }
 
   /// To another goal.
   void new_goal() { made_ = 0; }
@@ -70,10 +70,10 @@ class Backtrack {
   std::deque<Vec2> seen_at_m_;  ///< the last places, a step apart
   Vec2 towards_m_ = Vec2::Zero();
   std::vector<Vec2> unseen_at_m_;     ///< the places since the last marker, a step apart
-  std::vector<Vec2> blind_ground_m_;  ///< those that ended in a retreat
+  std::vector<Vec2> blind_places_m_;  ///< those that ended in a retreat
   int made_ = 0;
   bool has_seen_ = false;  ///< a marker, since the last one began
-  bool is_in_vain_ = false;
+  bool found_no_marker_ = false;
 };
 
 }  // namespace lodestar

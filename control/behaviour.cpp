@@ -16,7 +16,7 @@ struct Circumstances {
   std::optional<StopReason> stop;
 
   [[nodiscard]] bool can_go_back() const { return lodestar::can_go_back(facts, places); }
-  [[nodiscard]] bool marker_would_mend() const { return stop && would_a_marker_mend(*stop); }
+  [[nodiscard]] bool marker_can_end_stop() const { return stop && can_a_marker_end(*stop); }
 };
 
 void remember(Backtrack& places, const Facts& facts) {
@@ -25,7 +25,7 @@ void remember(Backtrack& places, const Facts& facts) {
   if (facts.sees_marker) {
     places.saw_marker_at(here_m);
   } else {
-    places.saw_nothing_at(here_m);
+    places.saw_no_marker_at(here_m);
   }
 }
 
@@ -44,7 +44,7 @@ void want(Trip& trip, const PlanRequest& request) {
 
 /// What blocks a robot that is on its way lies between it and the leg's end, not on the leg.
 PlanRequest review_by(const Blocked& blocked) {
-  return {.kind = PlanKind::review, .leg_from_here = !blocked.only_by_doubt};
+  return {.kind = PlanKind::review, .leg_from_here = !blocked.only_by_uncertainty};
 }
 
 bool must_ask_first(const Trip& trip) {
@@ -92,7 +92,7 @@ BehaviourState go_on(Trip trip, const Circumstances& at) {
 /// A marker ends the stop: so it goes back to one, or turns to look for one.
 BehaviourState stop_or_go_on(Trip trip, const Circumstances& at) {
   if (!at.stop) return go_on(std::move(trip), at);
-  if (!at.marker_would_mend()) return Braking{std::move(trip), Reason::stop};
+  if (!at.marker_can_end_stop()) return Braking{std::move(trip), Reason::stop};
   if (at.can_go_back()) return Braking{std::move(trip), Reason::unsure};
   return Searching{std::move(trip), Spin(at.options.spin)};
 }
@@ -100,7 +100,7 @@ BehaviourState stop_or_go_on(Trip trip, const Circumstances& at) {
 /// While it follows nothing it looks for a marker where that is wanted.
 template <typename Resting>
 BehaviourState search_or_stay(Resting state, const Circumstances& at) {
-  if (!at.facts.may_look_around || !at.marker_would_mend()) return state;
+  if (!at.facts.may_look_around || !at.marker_can_end_stop()) return state;
   return Searching{{RotateThenDrive({}, std::nullopt, at.options.drive), std::nullopt, false},
                    Spin(at.options.spin)};
 }
@@ -127,14 +127,14 @@ BehaviourState next(Blocked state, const Circumstances& at) {
 /// back. While it brakes it may pass the narrow place that it was too unsure for.
 BehaviourState stay_unsure(Braking state, const Circumstances& at) {
   Trip& trip = state.trip;
-  if (at.facts.sees_marker && !at.marker_would_mend()) return stop_or_go_on(std::move(trip), at);
+  if (at.facts.sees_marker && !at.marker_can_end_stop()) return stop_or_go_on(std::move(trip), at);
   const bool stands = trip.drive.at_rest();
   if (!at.stop && stands && at.facts.room_ahead == RoomAhead::enough) return go_on(std::move(trip), at);
-  if (at.stop && !at.can_go_back() && !at.marker_would_mend()) return state;  // that is for later
+  if (at.stop && !at.can_go_back() && !at.marker_can_end_stop()) return state;  // that is for later
   if (!at.can_go_back()) return stop_or_go_on(std::move(trip), at);
   if (!stands) return state;
-  if (!at.stop && !trip.keeps_to_the_middle) {
-    trip.keeps_to_the_middle = true;
+  if (!at.stop && !trip.prefers_wide_margins) {
+    trip.prefers_wide_margins = true;
     want(trip, {.kind = PlanKind::another_way});
     return Braking{std::move(trip), Reason::replan};
   }
@@ -159,10 +159,10 @@ BehaviourState next(Braking state, const Circumstances& at) {
 
 BehaviourState next(Searching state, const Circumstances& at) {
   if (has_goal(state.trip)) {
-    if (at.marker_would_mend() && !at.can_go_back()) return state;
+    if (at.marker_can_end_stop() && !at.can_go_back()) return state;
     return stay_unsure({std::move(state.trip), Reason::unsure}, at);
   }
-  if (at.facts.may_look_around && at.marker_would_mend()) return state;
+  if (at.facts.may_look_around && at.marker_can_end_stop()) return state;
   return Braking{std::move(state.trip), Reason::end};
 }
 
@@ -204,7 +204,7 @@ PlanRequest review_of(const BehaviourState& state) {
 BehaviourState next(BehaviourState state, const Circumstances& at) {
   const Facts& facts = at.facts;
   if (Trip* const trip = trip_in(state)) {
-    const bool is_over = at.stop && is_for_good(*at.stop);
+    const bool is_over = at.stop && is_latched(*at.stop);
     if (is_over || facts.wish == Wish::halt) return Standing{};
     if (facts.wish == Wish::cancel) return Braking{moving_trip(std::move(state)), Reason::end};
     if (facts.map_changed && has_path(*trip)) want(*trip, review_of(state));
@@ -218,7 +218,7 @@ BehaviourState next(BehaviourState state, const Circumstances& at) {
 template <typename Driving>
 BehaviourState with_review(Driving state, const PlanAnswer& answer) {
   Trip& trip = state.trip;
-  if (!std::holds_alternative<PathIsToGo>(answer)) {
+  if (!std::holds_alternative<PathMustBeReplaced>(answer)) {
     trip.wanted.reset();
     return state;
   }
@@ -240,7 +240,8 @@ BehaviourState with_plan(Asking state, const PlanAnswer& answer, Backtrack& plac
   if (state.request.kind == PlanKind::way_back) return with_way_back(std::move(state), answer, places);
   Trip& trip = state.trip;
   trip.wanted.reset();
-  const bool holds = std::holds_alternative<PathHolds>(answer) || state.request.kind == PlanKind::another_way;
+  const bool holds =
+      std::holds_alternative<PathStaysValid>(answer) || state.request.kind == PlanKind::another_way;
   if (const auto* found = std::get_if<PathFound>(&answer)) {
     trip.drive = found->drive;
   } else if (!holds) {
@@ -293,7 +294,7 @@ Behaviour sent_to(Behaviour before, const Vec2& goal_m, std::optional<double> go
   before.places.new_goal();
   Trip trip{RotateThenDrive({}, std::nullopt, options.drive), std::nullopt, false};
   if (trip_in(before.state) != nullptr) trip = moving_trip(std::move(before.state));
-  trip.keeps_to_the_middle = false;
+  trip.prefers_wide_margins = false;
   trip.wanted =
       PlanRequest{.kind = PlanKind::new_goal, .goal_m = goal_m, .goal_heading_rad = goal_heading_rad};
   before.state = at_rest_asking(std::move(trip));

@@ -21,7 +21,7 @@ enum class Wish {
 /// Is there room straight ahead, for the disc of the robot and what it does not know of its place?
 enum class RoomAhead {
   enough,
-  too_little_in_doubt,  ///< were it sure of its place there would be
+  too_little_when_uncertain,  ///< were it sure of its place there would be
   none
 };
 
@@ -36,7 +36,7 @@ struct Facts {
   std::optional<StopReason> stop_on_backtrack;  ///< why not even back by the way that it has just come
   SpeedLimit limit;                             ///< valid while there is no `stop`
   RoomAhead room_ahead = RoomAhead::enough;     ///< likewise
-  SpeedLimit limit_on_retreat;                  ///< valid while there is no `stop_on_retreat`
+  SpeedLimit limit_on_backtrack;                ///< valid while there is no `stop_on_retreat`
   Wish wish = Wish::go_on;
   bool may_look_around = false;  ///< while it follows nothing
   bool map_changed = false;      ///< since the last step
@@ -68,13 +68,13 @@ const Trip* trip_of(const BehaviourState& state);
 bool is_under_way(const BehaviourState& state);
 
 /// What may come of a request.
-struct PathHolds {};     ///< the old path does
-struct PathIsToGo {};    ///< of a review: it is to be replaced
-struct PathNotFound {};  ///< none, or no other
+struct PathStaysValid {};      ///< the old path does
+struct PathMustBeReplaced {};  ///< of a review: it is to be replaced
+struct PathNotFound {};        ///< none, or no other
 struct PathFound {
   RotateThenDrive drive;
 };
-using PlanAnswer = std::variant<PathHolds, PathIsToGo, PathNotFound, PathFound>;
+using PlanAnswer = std::variant<PathStaysValid, PathMustBeReplaced, PathNotFound, PathFound>;
 
 /// Takes the answer to the plan that was wanted.
 Behaviour answered(Behaviour before, const PlanAnswer& answer);

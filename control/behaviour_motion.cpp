@@ -31,7 +31,7 @@ Outcome move(Following state, const Facts& facts, const BehaviourOptions&, Backt
 }
 
 Outcome move(Blocked state, const Facts& facts, const BehaviourOptions&, Backtrack& places) {
-  const bool was_blocked = !state.only_by_doubt;
+  const bool was_blocked = !state.only_by_uncertainty;
   return along_path(std::move(state.trip), was_blocked, facts, places);
 }
 
@@ -52,11 +52,12 @@ Outcome move(Searching state, const Facts& facts, const BehaviourOptions&, Backt
 Outcome move(Retreating state, const Facts& facts, const BehaviourOptions& options, Backtrack& places) {
   RotateThenDrive& way = state.way;
   const bool is_blocked = !facts.stop_on_backtrack && way.phase() == DrivePhase::driving &&
-                          facts.limit_on_retreat.forward_mps < options.drive.min_forward_mps;
+                          facts.limit_on_backtrack.forward_mps < options.drive.min_forward_mps;
   const bool must_stop = facts.stop_on_backtrack || is_blocked;
-  const BodyVelocity command = must_stop ? way.slow_down(facts.elapsed)
-                                         : way.update(*facts.estimate, facts.elapsed, facts.limit_on_retreat);
-  if (way.arrived()) places.came_back();
+  const BodyVelocity command = must_stop
+                                   ? way.slow_down(facts.elapsed)
+                                   : way.update(*facts.estimate, facts.elapsed, facts.limit_on_backtrack);
+  if (way.arrived()) places.reached_place();
   if (!way.arrived() && !(must_stop && way.at_rest())) return {command, std::move(state)};
   state.trip.drive.take_over_from(way);
   return {command, Braking{std::move(state.trip), Reason::replan}};
@@ -88,7 +89,7 @@ bool goes_back(const BehaviourState& state) {
 
 /// Is what holds it up that it knows too little of its place, though it would be allowed to move?
 bool is_unsure(const BehaviourState& state) {
-  if (const auto* blocked = std::get_if<Blocked>(&state)) return blocked->only_by_doubt;
+  if (const auto* blocked = std::get_if<Blocked>(&state)) return blocked->only_by_uncertainty;
   const auto* braking = std::get_if<Braking>(&state);
   if (braking == nullptr) return false;
   const std::optional<PlanRequest>& wanted = braking->trip.wanted;
@@ -114,7 +115,7 @@ Shown shown(const Behaviour& decided, const Behaviour& moved, const Facts& facts
 }
 
 std::optional<StopReason> reason_to_stay(const Facts& facts, const Backtrack& places) {
-  if (!facts.stop && places.was_in_vain()) return StopReason::pose_stale;
+  if (!facts.stop && places.found_no_marker()) return StopReason::pose_stale;
   return facts.stop;
 }
 

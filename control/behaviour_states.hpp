@@ -33,7 +33,7 @@ struct PlanRequest {
 struct Trip {
   RotateThenDrive drive;              ///< what moves the robot along the path, or to rest, or around
   std::optional<PlanRequest> wanted;  ///< a plan that it needs before it goes on; a review can wait
-  bool keeps_to_the_middle = false;   ///< has been too unsure on the way to this goal
+  bool prefers_wide_margins = false;  ///< has been too unsure on the way to this goal
 };
 
 /// Follows nothing.
@@ -50,7 +50,7 @@ struct Following {
 /// Is on its path, turned along it, and has no room to go on: it waits until it has.
 struct Blocked {
   Trip trip;
-  bool only_by_doubt = false;  ///< were it sure of its place it would have room; and it cannot go back
+  bool only_by_uncertainty = false;  ///< were it sure of its place it would have room; and it cannot go back
 };
 
 /// Comes to rest, and stays there until what it brakes for is over.

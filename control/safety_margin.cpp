@@ -24,7 +24,7 @@ constexpr double sigmas_on_the_way_back = 2.0;
 
 }  // namespace
 
-SafetyMargin room_for_doubt(const Eigen::Matrix3d& covariance) {
+SafetyMargin margin_for_uncertainty(const Eigen::Matrix3d& covariance) {
   const double sigma_m = larger_sigma_m(covariance);
   if (sigma_m < usual_sigma_m) return {};
   const double taken_back = std::min(sigma_m / usual_sigma_m - 1.0, 1.0);
@@ -32,8 +32,9 @@ SafetyMargin room_for_doubt(const Eigen::Matrix3d& covariance) {
           .per_m = sigmas * std::sqrt(std::max(covariance(2, 2), 0.0))};
 }
 
-SafetyMargin room_on_the_way_back(const Eigen::Matrix3d& covariance) {
-  return {.here_m = sigmas_on_the_way_back / sigmas * room_for_doubt(covariance).here_m, .per_m = 0.0};
+SafetyMargin margin_on_the_way_back(const Eigen::Matrix3d& covariance) {
+  return {.here_m = sigmas_on_the_way_back / sigmas * margin_for_uncertainty(covariance).here_m,
+          .per_m = 0.0};
 }
 
 }  // namespace lodestar

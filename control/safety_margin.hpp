@@ -13,9 +13,9 @@ struct SafetyMargin {
 /// What an unsure robot keeps, by the covariance of its (x_m, y_m, yaw_rad): 2.3 times the deviation of its
 /// position, beyond the usual half centimetre for which paths have room; and no longer the tolerance that a
 /// disc is otherwise taken to be smaller by. On its way the error of its heading makes it less sure.
-SafetyMargin room_for_doubt(const Eigen::Matrix3d& covariance);
+SafetyMargin margin_for_uncertainty(const Eigen::Matrix3d& covariance);
 
 /// As it goes back by which it has come, much of its error is what it was then: two deviations.
-SafetyMargin room_on_the_way_back(const Eigen::Matrix3d& covariance);
+SafetyMargin margin_on_the_way_back(const Eigen::Matrix3d& covariance);
 
 }  // namespace lodestar

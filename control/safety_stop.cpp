@@ -57,11 +57,11 @@ std::string_view to_string(StopReason reason) {
   return "";
 }
 
-bool is_for_good(StopReason reason) {
+bool is_latched(StopReason reason) {
   return reason == StopReason::carried_away || reason == StopReason::wheels_broken;
 }
 
-bool would_a_marker_mend(StopReason reason) {
+bool can_a_marker_end(StopReason reason) {
   return reason == StopReason::no_pose || reason == StopReason::pose_stale ||
          reason == StopReason::pose_uncertain;
 }

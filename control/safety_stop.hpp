@@ -38,10 +38,10 @@ enum class StopReason {
 std::string_view to_string(StopReason reason);
 
 /// Nothing that the robot sees later ends such a stop: somebody must look after it and start it again.
-bool is_for_good(StopReason reason);
+bool is_latched(StopReason reason);
 
 /// Would a marker in view end the stop?
-bool would_a_marker_mend(StopReason reason);
+bool can_a_marker_end(StopReason reason);
 
 /// Why the robot must not move now, for what it knows of itself; nothing when it may. The robot never drives
 /// on a guess.

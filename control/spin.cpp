@@ -5,7 +5,7 @@
 namespace lodestar {
 
 std::optional<double> Spin::update(Stamp now, const std::optional<StopReason>& stop, double turned_rad) {
-  if (!options_.allowed || !stop || !would_a_marker_mend(*stop)) {
+  if (!options_.allowed || !stop || !can_a_marker_end(*stop)) {
     stopped_since_.reset();
     begun_at_rad_.reset();
     return std::nullopt;

@@ -42,7 +42,8 @@ FootprintPlanner::FootprintPlanner(const OccupancyMap& map, const Footprint& foo
       inner_(map, for_disc(options, footprint.inner_radius_m())),
       outer_(map, for_disc(options, footprint.outer_radius_m())),
       search_(std::make_unique<FootprintSearch>(space_, options.limits)) {
-  if (options.pose_keeping) sure_.emplace(space_.inner(), even_, *options.pose_keeping);
+  if (options.uncertainty_constraint)
+    constrained_.emplace(space_.inner(), even_, *options.uncertainty_constraint);
 }
 
 PlanResult FootprintPlanner::plan(const Vec2& start_m, const Vec2& goal_m,
@@ -101,8 +102,8 @@ PlanResult FootprintPlanner::sampled(const Query& query) const {
 PlanResult FootprintPlanner::plan_over(std::vector<Vec2> points, std::size_t expanded,
                                        const Query& query) const {
   std::vector<Vec2> few = space_.with_fewer_legs(points, query.headings);
-  if (sure_ && !sure_->holds(few)) few = std::move(points);
-  if (sure_ && !sure_->holds(few)) return PlanFailure::unsure;
+  if (constrained_ && !constrained_->holds(few)) few = std::move(points);
+  if (constrained_ && !constrained_->holds(few)) return PlanFailure::unsure;
   Plan plan{.path = {}, .expanded = expanded};
   for (const Vec2& point : few)
     plan.path.waypoints_m.emplace_back(map_.map_from_grid * Vec2(point * map_.resolution_m));

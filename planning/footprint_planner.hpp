@@ -36,7 +36,7 @@ class FootprintPlanner {
   GridPlanner outer_;
   std::unique_ptr<FootprintSearch> search_;
   CellCosts even_;
-  std::optional<UncertaintyConstrainedPlanner> sure_;
+  std::optional<UncertaintyConstrainedPlanner> constrained_;
 };
 
 }  // namespace lodestar

@@ -69,7 +69,7 @@ struct GridPlanner::Searches {
   std::optional<JumpSearch<JumpTable>> shortest;  ///< on the grid
   std::optional<GridSearch> cheapest;             ///< on the grid, when cells cost differently
   std::optional<VisibilityGraphSearch> turns;
-  std::optional<UncertaintyConstrainedPlanner> sure;
+  std::optional<UncertaintyConstrainedPlanner> constrained;
 };
 
 GridPlanner::GridPlanner(const OccupancyMap& map, const GridPlannerOptions& options)
@@ -86,10 +86,10 @@ GridPlanner::~GridPlanner() = default;
 
 void GridPlanner::weigh_cells() {
   const bool keeps_clear = options_.clearance_weight > 0.0 && options_.preferred_clearance_m > 0.0;
-  if (!keeps_clear && options_.shunned.places_m.empty()) return;
+  if (!keeps_clear && options_.avoided.places_m.empty()) return;
   costs_.assign(map_.cells.size(), 1.0F);
   if (keeps_clear) weigh_near_obstacles();
-  weigh_shunned();
+  weigh_avoided();
 }
 
 /// A cell costs 1 when it is as far from obstacles as preferred, and linearly more the nearer it is.
@@ -105,25 +105,26 @@ void GridPlanner::weigh_near_obstacles() {
 }
 
 /// Once, however many of the places are near.
-void GridPlanner::weigh_shunned() {
-  const ShunnedGround& shunned = options_.shunned;
-  const double within = shunned.within_m / map_.resolution_m;
-  std::vector<bool> is_shunned(costs_.size(), false);
-  for (const Vec2& place_m : shunned.places_m) {
+void GridPlanner::weigh_avoided() {
+  const AvoidedArea& avoided = options_.avoided;
+  const double within = avoided.within_m / map_.resolution_m;
+  std::vector<bool> is_avoided(costs_.size(), false);
+  for (const Vec2& place_m : avoided.places_m) {
     const Vec2 place = in_grid(place_m);
     const Cell low = cell_at(place - Vec2::Constant(within));
     const Cell high = cell_at(place + Vec2::Constant(within));
     for (int row = std::max(low.row, 0); row <= std::min(high.row, map_.rows - 1); ++row)
       for (int column = std::max(low.column, 0); column <= std::min(high.column, map_.columns - 1); ++column)
-        if ((center_of({column, row}) - place).norm() <= within) is_shunned[map_.index({column, row})] = true;
+        if ((center_of({column, row}) - place).norm() <= within) is_avoided[map_.index({column, row})] = true;
   }
   for (std::size_t i = 0; i < costs_.size(); ++i)
-    if (is_shunned[i]) costs_[i] *= static_cast<float>(1.0 + shunned.weight);
+    if (is_avoided[i]) costs_[i] *= static_cast<float>(1.0 + avoided.weight);
 }
 
 void GridPlanner::prepare_searches() {
   Searches& searches = *searches_;
-  if (options_.pose_keeping) searches.sure.emplace(searches.space, costs_, *options_.pose_keeping);
+  if (options_.uncertainty_constraint)
+    searches.constrained.emplace(searches.space, costs_, *options_.uncertainty_constraint);
   if (sampling_method(options_.kind)) return;
   if (costs_.empty()) {
     searches.jumps.emplace(searches.space);
@@ -224,7 +225,8 @@ PlanResult GridPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const Plan
   if (!ends.starts_clear) plan.path.waypoints_m.push_back(start_m);
   std::optional<std::vector<Vec2>> points = legs_between(ends, headings, plan.expanded);
   if (!points) return PlanFailure::limit_reached;
-  if (searches_->sure && !searches_->sure->holds(*points)) points = sure_legs(ends, plan.expanded);
+  if (searches_->constrained && !searches_->constrained->holds(*points))
+    points = legs_within_constraint(ends, plan.expanded);
   if (!points) return PlanFailure::unsure;
   for (const Vec2& point : *points) plan.path.waypoints_m.push_back(in_map(point));
   plan.path.waypoints_m.front() = start_m;  // to the last bit what was asked for
@@ -255,12 +257,13 @@ std::vector<Vec2> GridPlanner::jump_path(const Ends& ends, std::size_t& expanded
   return points_over(found.turns, ends);
 }
 
-std::optional<std::vector<Vec2>> GridPlanner::sure_legs(const Ends& ends, std::size_t& expanded) const {
+std::optional<std::vector<Vec2>> GridPlanner::legs_within_constraint(const Ends& ends,
+                                                                     std::size_t& expanded) const {
   const Vec2 start = ends.starts_clear ? ends.start : center_of(ends.first);
-  const std::optional<GridPath> found = searches_->sure->find(start, ends.first, ends.last, ends.goal);
+  const std::optional<GridPath> found = searches_->constrained->find(start, ends.first, ends.last, ends.goal);
   if (!found) return std::nullopt;
   expanded += found->expanded;
-  return searches_->sure->shortened(points_over(found->cells, ends), options_.turn_cost_m);
+  return searches_->constrained->shortened(points_over(found->cells, ends), options_.turn_cost_m);
 }
 
 std::vector<Vec2> GridPlanner::few_legs(const Ends& ends, std::size_t& expanded) const {

@@ -21,7 +21,7 @@ namespace lodestar {
 class FootprintPlanner;
 
 /// Ground to keep away from where there is another way: it costs as much as if it were longer.
-struct ShunnedGround {
+struct AvoidedArea {
   std::vector<Vec2> places_m;  ///< in the map frame
   double within_m = 1.0;       ///< cells nearer than this to one of them
   double weight = 10.0;        ///< cost (1 + weight) times as much
@@ -34,13 +34,13 @@ struct GridPlannerOptions {
   double preferred_clearance_m =
       0.15;                       ///< beyond the radius, cells nearer than this to an obstacle cost more
   double clearance_weight = 1.0;  ///< how much more: up to (1 + weight) times at the very edge; 0: shortest
-  ShunnedGround shunned;          ///< not by a footprint
+  AvoidedArea avoided;            ///< not by a footprint
   double turn_cost_m = 0.2;  ///< of `astar`: the way that a turn is worth to a robot that stops to rotate
   MotionLimits limits;       ///< of `fastest`
   SamplingOptions sampling;  ///< of the planners of OMPL
   /// When given, a path on which the robot would grow less sure of its position than this allows is not
   /// taken: then the shortest 8-connected one that keeps to it, shortened as far as it still does.
-  std::optional<PoseKeeping> pose_keeping;
+  std::optional<UncertaintyConstraint> uncertainty_constraint;
 };
 
 enum class PlanFailure {
@@ -49,7 +49,7 @@ enum class PlanFailure {
   start_occupied,
   goal_occupied,
   no_path,       ///< there is none
-  unsure,        ///< there are some, but on each the pose grows less sure than PoseKeeping allows
+  unsure,        ///< there are some, but on each the pose grows less sure than UncertaintyConstraint allows
   limit_reached  ///< a sampling planner found none within its limits, though there is one
 };
 
@@ -110,7 +110,8 @@ class GridPlanner {
   [[nodiscard]] std::optional<Cell> way_out(const Vec2& start_in_grid) const;
   [[nodiscard]] std::optional<std::vector<Vec2>> legs_between(const Ends& ends, const PlanHeadings& headings,
                                                               std::size_t& expanded) const;
-  [[nodiscard]] std::optional<std::vector<Vec2>> sure_legs(const Ends& ends, std::size_t& expanded) const;
+  [[nodiscard]] std::optional<std::vector<Vec2>> legs_within_constraint(const Ends& ends,
+                                                                        std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> few_legs(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> cheapest_legs(const Ends& ends, const PlanHeadings& headings,
                                                 std::size_t& expanded) const;
@@ -119,7 +120,7 @@ class GridPlanner {
   [[nodiscard]] std::vector<Vec2> jump_path(const Ends& ends, std::size_t& expanded) const;
   void weigh_cells();
   void weigh_near_obstacles();
-  void weigh_shunned();
+  void weigh_avoided();
   void prepare_searches();
 
   OccupancyMap map_;

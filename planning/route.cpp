@@ -40,7 +40,7 @@ std::string_view to_string(RouteChange change) {
       return "the path was blocked";
     case RouteChange::left_path:
       return "the robot had left the path";
-    case RouteChange::surer:
+    case RouteChange::more_certain:
       return "planned anew after too long a way without a marker";
     case RouteChange::new_goal:
       return "planned to another goal";

@@ -16,13 +16,13 @@ struct RouteOptions {
 
 /// What became of the path.
 enum class RouteChange {
-  kept,       ///< still clear, nothing clearly better
-  better,     ///< a clearly faster one was found
-  blocked,    ///< something stands in its way; replaced
-  left_path,  ///< the robot is not on it; replaced
-  surer,      ///< it led too far without a marker; planned anew
-  new_goal,   ///< the first to another goal; where there is none, failure says why
-  lost        ///< it cannot be followed and there is no other: failure says why
+  kept,          ///< still clear, nothing clearly better
+  better,        ///< a clearly faster one was found
+  blocked,       ///< something stands in its way; replaced
+  left_path,     ///< the robot is not on it; replaced
+  more_certain,  ///< it led too far without a marker; planned anew
+  new_goal,      ///< the first to another goal; where there is none, failure says why
+  lost           ///< it cannot be followed and there is no other: failure says why
 };
 std::string_view to_string(RouteChange change);
 

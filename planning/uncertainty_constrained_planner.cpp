@@ -24,14 +24,15 @@ struct UncertaintyConstrainedPlanner::Label {
 };
 
 UncertaintyConstrainedPlanner::UncertaintyConstrainedPlanner(const CollisionChecker& space,
-                                                             const CellCosts& costs, PoseKeeping keeping)
-    : space_(space), costs_(costs), keeping_(std::move(keeping)) {}
+                                                             const CellCosts& costs,
+                                                             UncertaintyConstraint constraint)
+    : space_(space), costs_(costs), constraint_(std::move(constraint)) {}
 
 double UncertaintyConstrainedPlanner::after_step(double sigma_m, double length_cells, Cell to) const {
   const OccupancyMap& map = space_.map();
   if (!map.contains(to)) return std::numeric_limits<double>::infinity();
-  const double drifted_m = sigma_m + keeping_.drift_m_per_m * length_cells * map.resolution_m;
-  return std::min(drifted_m, static_cast<double>(keeping_.fix_sigma_m[map.index(to)]));
+  const double drifted_m = sigma_m + constraint_.drift_m_per_m * length_cells * map.resolution_m;
+  return std::min(drifted_m, static_cast<double>(constraint_.fix_sigma_m[map.index(to)]));
 }
 
 std::optional<double> UncertaintyConstrainedPlanner::along(double sigma_m, const Vec2& from,
@@ -42,13 +43,13 @@ std::optional<double> UncertaintyConstrainedPlanner::along(double sigma_m, const
     const Vec2 at = from + (to - from) * (static_cast<double>(i) / steps);
     const Cell cell = cell_at(at);
     sigma_m = after_step(sigma_m, length / steps, cell);
-    if (sigma_m > keeping_.limit_m) return std::nullopt;
+    if (sigma_m > constraint_.limit_m) return std::nullopt;
   }
   return sigma_m;
 }
 
 bool UncertaintyConstrainedPlanner::holds(std::span<const Vec2> points) const {
-  std::optional<double> sigma_m = along(keeping_.at_start_m, points.front(), points.front());
+  std::optional<double> sigma_m = along(constraint_.at_start_m, points.front(), points.front());
   for (std::size_t i = 1; i < points.size() && sigma_m; ++i) {
     sigma_m = along(*sigma_m, points[i - 1], points[i]);
   }
@@ -147,7 +148,7 @@ class UncertaintyConstrainedPlanner::Search {
 
 std::optional<GridPath> UncertaintyConstrainedPlanner::find(const Vec2& start, Cell first, Cell last,
                                                             const Vec2& goal) const {
-  const std::optional<double> at_start_m = along(keeping_.at_start_m, start, start);
+  const std::optional<double> at_start_m = along(constraint_.at_start_m, start, start);
   const std::optional<double> sigma_m =
       at_start_m ? along(*at_start_m, start, center_of(first)) : std::nullopt;
   if (!sigma_m) return std::nullopt;
@@ -159,7 +160,7 @@ std::vector<Vec2> UncertaintyConstrainedPlanner::shortened(const std::vector<Vec
   if (points.size() < 3) return points;
   const PathCost cost(space_.map(), costs_, std::nullopt);
   const std::vector<Vec2> at = leg_ends(points);
-  std::vector<Label> labels{{.sigma_m = along(keeping_.at_start_m, at[0], at[0]).value()}};
+  std::vector<Label> labels{{.sigma_m = along(constraint_.at_start_m, at[0], at[0]).value()}};
   std::vector<std::vector<std::size_t>> labels_at(at.size());
   labels_at[0].push_back(0);
   for (std::size_t to = 1; to < at.size(); ++to) {

@@ -10,7 +10,7 @@
 namespace lodestar {
 
 /// How sure of its position a robot can be in each cell of a map, and how sure it must stay all the way.
-struct PoseKeeping {
+struct UncertaintyConstraint {
   /// Standard deviation of a fix at the worst heading, row by row as the map's cells; infinity where some
   /// heading sees nothing.
   std::vector<float> fix_sigma_m;
@@ -25,7 +25,8 @@ struct PoseKeeping {
 class UncertaintyConstrainedPlanner {
  public:
   /// `costs` may be empty: every cell costs 1.
-  UncertaintyConstrainedPlanner(const CollisionChecker& space, const CellCosts& costs, PoseKeeping keeping);
+  UncertaintyConstrainedPlanner(const CollisionChecker& space, const CellCosts& costs,
+                                UncertaintyConstraint constraint);
 
   /// The deviation at the end of a leg that is entered with `sigma_m`, looked at twice a cell; nothing when
   /// it passes the limit on the way.
@@ -52,7 +53,7 @@ class UncertaintyConstrainedPlanner {
 
   const CollisionChecker& space_;
   const CellCosts& costs_;
-  PoseKeeping keeping_;
+  UncertaintyConstraint constraint_;
 };
 
 }  // namespace lodestar

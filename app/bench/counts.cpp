@@ -38,8 +38,8 @@ FrameCounts count_scene(HardFrames kind, BenchMethod& method, int frames, Random
   const HardScene scene = some_hard_scene(kind, random);
   const CameraModel camera = bench_camera();
   ImageFormer former(scene.registry, camera, scene.light, random.bits());
-  for (const PrintedSquare& patch : scene.sun) former.hang(patch);
-  method.hang(scene.registry, former);
+  for (const PrintedSquare& patch : scene.sun) former.add(patch);
+  method.install(scene.registry, former);
   const double pitch_px = camera.fx_px * marker_pitch_m / scene.ceiling_m;
 
   FrameCounts counts;

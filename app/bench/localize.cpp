@@ -141,7 +141,7 @@ ScenePoint measure(const BenchScene& scene, const MethodChoice& choice, int tria
   ImageFormer ours(registry, camera, light_of(scene), random.stream(ceiling_of_scene).bits());
   ImageFormer former = ours;
   const std::unique_ptr<BenchMethod> method = choice.make();
-  method->hang(registry, former);
+  method->install(registry, former);
 
   ScenePoint point;
   Score upright;

@@ -19,7 +19,7 @@ std::vector<ReadMarker> readings_of(std::span<const DetectedMarker> markers) {
 
 class Lodestar final : public BenchMethod {
  public:
-  void hang(const MarkerRegistry& registry, ImageFormer& /*former*/) override {
+  void install(const MarkerRegistry& registry, ImageFormer& /*former*/) override {
     detector_ = MarkerDetector(expecting(registry));
     fixer_.emplace(registry, bench_camera());
   }

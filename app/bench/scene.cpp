@@ -31,7 +31,7 @@ RegisteredMarker marker_about(int id, const Vec3& middle_m, double yaw_rad) {
   return marker;
 }
 
-Vec3 middle_of(const MarkerRegistry& registry, std::size_t marker) {
+Vec3 center_in_map(const MarkerRegistry& registry, std::size_t marker) {
   return map_from_marker(registry, registry.markers[marker]) * marker_middle;
 }
 
@@ -98,7 +98,7 @@ BenchView some_view(const BenchScene& scene, const MarkerRegistry& registry, Ran
 
   Vec3 middle = Vec3::Zero();
   for (int i = 0; i < scene.markers; ++i)
-    middle += middle_of(registry, view.first_marker + static_cast<std::size_t>(i)) / scene.markers;
+    middle += center_in_map(registry, view.first_marker + static_cast<std::size_t>(i)) / scene.markers;
   constexpr double few_pixels_m = 0.01;
   const double aside = random.below(2) == 0 ? scene.off_axis_m : -scene.off_axis_m;
   const Vec3 from_marker = heading * Vec3(aside + random.uniform(-few_pixels_m, few_pixels_m),

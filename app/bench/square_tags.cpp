@@ -18,7 +18,7 @@ Eigen::Isometry3d map_from_tag(const MarkerRegistry& registry, std::size_t i) {
   return map_from_marker(registry, registry.markers[i]) * Eigen::Translation3d(marker_middle);
 }
 
-Vec2 middle_of(const TagSighting& tag) {
+Vec2 center_of(const TagSighting& tag) {
   Vec2 sum = Vec2::Zero();
   for (const Vec2& corner : tag.corners_px) sum += 0.25 * corner;
   return sum;
@@ -27,7 +27,7 @@ Vec2 middle_of(const TagSighting& tag) {
 std::vector<ReadMarker> readings_of(const std::vector<TagSighting>& tags) {
   std::vector<ReadMarker> readings;
   readings.reserve(tags.size());
-  for (const TagSighting& tag : tags) readings.push_back({tag.id, middle_of(tag), std::nullopt});
+  for (const TagSighting& tag : tags) readings.push_back({tag.id, center_of(tag), std::nullopt});
   return readings;
 }
 
@@ -49,14 +49,14 @@ std::array<Vec3, 4> tag_corners() {
   return {Vec3(-h, h, 0.0), Vec3(h, h, 0.0), Vec3(h, -h, 0.0), Vec3(-h, -h, 0.0)};
 }
 
-void SquareTags::hang(const MarkerRegistry& registry, ImageFormer& former) {
+void SquareTags::install(const MarkerRegistry& registry, ImageFormer& former) {
   former.take_markers_down();
   for (std::size_t i = 0; i < registry.markers.size(); ++i) {
     const TagPattern tag = pattern(id_at(registry, i));
     PrintedSquare paper{.map_from_square = map_from_tag(registry, i), .modules = tag.modules};
     paper.side_m = tag_side_m * tag.modules / (tag.modules - 2);
     for (const bool white : tag.white) paper.gray.push_back(white ? paper_gray : ink_gray);
-    former.hang(paper);
+    former.add(paper);
   }
 }
 

@@ -8,7 +8,7 @@
 #include "app/common/picture_file.hpp"
 #include "app/common/stopwatch.hpp"
 #include "app/navigation/navigation_setup.hpp"
-#include "app/placement/pose_keeping.hpp"
+#include "app/placement/uncertainty_constraint.hpp"
 #include "app/report/figure.hpp"
 #include "app/site/arguments.hpp"
 #include "maps/input_error.hpp"
@@ -31,7 +31,7 @@ struct PlanArguments {
   std::string format = "text";
   std::string draw;
   GridPlannerOptions options{.clearance_weight = 0.0};
-  PoseKeepingOptions pose_keeping;
+  UncertaintyConstraintOptions uncertainty_constraint;
 };
 
 struct TimedPlan {
@@ -102,7 +102,7 @@ void offer_nearest(const GridPlanner& planner, const Goal& start, const Goal& go
 /// Visibility from each cell, when the plan is constrained by it.
 std::optional<Visibility> visibility_for(const PlanArguments& arguments, const OccupancyMap& map,
                                          const MarkerRegistry& registry) {
-  if (!arguments.pose_keeping.wanted()) return std::nullopt;
+  if (!arguments.uncertainty_constraint.wanted()) return std::nullopt;
   return view_on_drives(map, registry, load_camera(arguments.camera),
                         visibility_options(load_robot(arguments.mount)), arguments.options.radius_m);
 }
@@ -122,7 +122,9 @@ ExitCode plan(PlanArguments arguments) {
   MarkerRegistry registry;
   if (!arguments.markers.empty()) registry = load_registry(arguments.markers);
   const std::optional<Visibility> visibility = visibility_for(arguments, loaded.map, registry);
-  if (visibility) arguments.options.pose_keeping = pose_keeping(*visibility, arguments.pose_keeping);
+  if (visibility)
+    arguments.options.uncertainty_constraint =
+        uncertainty_constraint(*visibility, arguments.uncertainty_constraint);
 
   const GridPlanner planner(loaded.map, arguments.options);
   const TimedPlan timed = timed_plan(planner, start, goal);
@@ -154,7 +156,7 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
   command->add_option("--markers", arguments->markers, "Marker registry, for the picture and for visibility");
   command->add_option("--camera", arguments->camera, "Camera file, for visibility");
   command->add_option("--mount", arguments->mount, "robot.yaml with the camera's mount, for visibility");
-  add_pose_keeping_options(*command, arguments->pose_keeping);
+  add_uncertainty_constraint_options(*command, arguments->uncertainty_constraint);
   for (const char* option : {"--max-sigma", "--keep-markers"}) {
     for (const char* needed : {"--markers", "--camera", "--mount"})
       command->get_option(option)->needs(command->get_option(needed));

@@ -10,34 +10,35 @@ std::vector<std::string> planner_names() {
   return names;
 }
 
-void add_pose_keeping_options(CLI::App& command, PoseKeepingOptions& keeping) {
+void add_uncertainty_constraint_options(CLI::App& command, UncertaintyConstraintOptions& constraint) {
   CLI::Option* sigma = command.add_option(
-      "--max-sigma", keeping.max_sigma_m,
+      "--max-sigma", constraint.max_sigma_m,
       "Only paths on which the predicted standard deviation of the position stays below this, in metres");
   sigma->check(CLI::Range(1e-4, 10.0));
   command
-      .add_option("--drift", keeping.drift_m_per_m,
+      .add_option("--drift", constraint.drift_m_per_m,
                   "With --max-sigma: its growth between fixes, metres per metre")
       ->check(CLI::Range(0.0, 1.0))
       ->needs(sigma)
       ->capture_default_str();
   CLI::Option* markers = command.add_option(
-      "--keep-markers", keeping.markers_in_view,
+      "--keep-markers", constraint.markers_in_view,
       "Instead: only paths on which at least this many markers are in view, at every heading");
   markers->check(CLI::Range(1, 100))->excludes(sigma);
   command
-      .add_option("--blind-way", keeping.blind_way_m,
+      .add_option("--blind-way", constraint.blind_way_m,
                   "With --keep-markers: except for stretches up to this length, in metres")
       ->check(CLI::Range(0.0, 1000.0))
       ->needs(markers)
       ->capture_default_str();
 }
 
-std::string words_of(const PoseKeepingOptions& keeping) {
-  if (keeping.max_sigma_m)
-    return fmt::format(" --max-sigma {} --drift {}", *keeping.max_sigma_m, keeping.drift_m_per_m);
-  if (keeping.markers_in_view)
-    return fmt::format(" --keep-markers {} --blind-way {}", *keeping.markers_in_view, keeping.blind_way_m);
+std::string words_of(const UncertaintyConstraintOptions& constraint) {
+  if (constraint.max_sigma_m)
+    return fmt::format(" --max-sigma {} --drift {}", *constraint.max_sigma_m, constraint.drift_m_per_m);
+  if (constraint.markers_in_view)
+    return fmt::format(" --keep-markers {} --blind-way {}", *constraint.markers_in_view,
+                       constraint.blind_way_m);
   return "";
 }
 

@@ -37,7 +37,7 @@ struct ReplayArguments {
   std::string planner = "fastest";
   std::vector<std::string> goals;
   std::optional<double> pictures_hz;
-  PoseKeepingOptions pose_keeping;
+  UncertaintyConstraintOptions uncertainty_constraint;
   Disturbances disturbances;
   std::string faults;
   bool realtime = false;
@@ -59,7 +59,7 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
                                 .seed = arguments.seed,
                                 .goals = site.goals,
                                 .planner = planner_kind(arguments.planner).value(),
-                                .pose_keeping = std::nullopt,
+                                .uncertainty_constraint = std::nullopt,
                                 .disturbances = arguments.disturbances,
                                 .disk = std::make_shared<SimulatedDisk>(),
                                 .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
@@ -69,10 +69,10 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
                      "--camera to name one of its cameras");
   }
-  if (arguments.pose_keeping.wanted()) {
+  if (arguments.uncertainty_constraint.wanted()) {
     const Visibility view = view_on_drives(site.map.map, site.registry, site.cameras.at(options.camera),
                                            visibility_options(site.robot), site.robot.radius_m);
-    options.pose_keeping = pose_keeping(view, arguments.pose_keeping);
+    options.uncertainty_constraint = uncertainty_constraint(view, arguments.uncertainty_constraint);
   }
   if (arguments.goals.empty()) return options;
   options.goals.clear();
@@ -96,7 +96,7 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
   std::string command =
       fmt::format("lodestar replay{} --seed {} --camera {} --planner {}", site.empty() ? "" : " " + site,
                   options.seed, options.camera, to_string(options.planner));
-  command += words_of(arguments.pose_keeping);
+  command += words_of(arguments.uncertainty_constraint);
   for (const Goal& goal : options.goals) {
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
@@ -254,7 +254,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->add_option("--pictures", arguments->pictures_hz,
                    "Camera pictures per second to keep in the run folder; default: 2 with --serve, else none")
       ->check(CLI::Range(0.0, 100.0));
-  add_pose_keeping_options(*command, arguments->pose_keeping);
+  add_uncertainty_constraint_options(*command, arguments->uncertainty_constraint);
   const auto share = CLI::Range(0.0, 1.0);
   command
       ->add_option("--lose-frames", arguments->disturbances.lost_frames, "Share of frames that never arrive")

@@ -126,7 +126,7 @@ Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& p
   MarkerDetector detector(navigation_options(site.robot).detector);
   for (const Stamp end = monotonic_now() + listening; monotonic_now() < end;) {
     while (const auto received = bus.poll()) {
-      const HeardFrame said = protocol.take_in(*received);
+      const HeardFrame said = protocol.decode(*received);
       Heard::Kind& kind = heard.kinds[received->frame.id];
       ++kind.count;
       kind.newest = received->stamp;

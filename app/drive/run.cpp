@@ -75,7 +75,7 @@ SensorInput sense(Camera& camera, BaseDriver& base) {
 }
 
 /// False when the run is to end.
-bool obey(OperatorWish wish, BaseDriver& base, const RunOptions& options) {
+bool apply(OperatorWish wish, BaseDriver& base, const RunOptions& options) {
   if (wish == OperatorWish::stop) return false;
   if (wish == OperatorWish::resume && !base.resume(monotonic_now())) {
     options.tell(Severity::warning, "base: cannot resume, the cause is still there");
@@ -88,7 +88,7 @@ void attend(const RunOptions& options, Mission& mission, BaseDriver& base, RunRe
   if (options.session == nullptr) return;
   if (recorder.is_on() && mission.finished()) options.keep({recorder.end(mission)});
   const Stamp now = monotonic_now();
-  options.session->obey(mission, base, now, now);
+  options.session->apply_orders(mission, base, now, now);
   if (!mission.finished() && !recorder.is_on()) recorder.begin(mission.goals());
 }
 
@@ -108,7 +108,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
 
   Stamp next = monotonic_now();
   const auto goes_on = [&] { return !mission.finished() || options.session != nullptr; };
-  while (goes_on() && obey(options.operator_wish(), base, options)) {
+  while (goes_on() && apply(options.operator_wish(), base, options)) {
     attend(options, mission, base, recorder);
     next = std::max(next + control_period, monotonic_now());
     sleep_until(next);
@@ -119,7 +119,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     watcher.see(input.base);
     camera_watcher.see(input, step.navigation.camera);
     recorder.take(input, step, mission);
-    if (options.session != nullptr) options.session->show(input, step, mission);
+    if (options.session != nullptr) options.session->publish(input, step, mission);
     if (const std::string words = in_words(mission, step.event); !words.empty())
       options.tell(step.event == MissionEvent::goal_failed ? Severity::warning : Severity::info, words);
   }

@@ -35,7 +35,7 @@ void OperatorSession::say(Stamp now, const std::string& words) {
   if (events_.size() > most_kept) events_.pop_front();
 }
 
-void OperatorSession::obey(Mission& mission, BaseDriver& base, Stamp now, Stamp clock) {
+void OperatorSession::apply_orders(Mission& mission, BaseDriver& base, Stamp now, Stamp clock) {
   for (const Order& order : link_.take_orders()) take(order, mission, base, now);
   if (link_.take_stop()) {
     next_goals_.clear();
@@ -84,8 +84,8 @@ void OperatorSession::remember(const SensorInput& input, const MissionStep& step
   }
 }
 
-void OperatorSession::show(const SensorInput& input, const MissionStep& step, const Mission& mission,
-                           const std::function<std::optional<double>()>& error_m) {
+void OperatorSession::publish(const SensorInput& input, const MissionStep& step, const Mission& mission,
+                              const std::function<std::optional<double>()>& error_m) {
   remember(input, step, mission);
   if (!link_.wants_state()) return;
   if (mission.finished()) {

@@ -19,11 +19,11 @@ class OperatorSession {
   explicit OperatorSession(LiveLink& link, std::function<void(const std::string&)> tell = {});
 
   /// Call before a step. `clock` is monotonic_now(), `now` the step's own time.
-  void obey(Mission& mission, BaseDriver& base, Stamp now, Stamp clock);
+  void apply_orders(Mission& mission, BaseDriver& base, Stamp now, Stamp clock);
 
   /// Call after it. `error_m` is evaluated only when a state is wanted.
-  void show(const SensorInput& input, const MissionStep& step, const Mission& mission,
-            const std::function<std::optional<double>()>& error_m = {});
+  void publish(const SensorInput& input, const MissionStep& step, const Mission& mission,
+               const std::function<std::optional<double>()>& error_m = {});
 
   void say(Stamp now, const std::string& words);
 

@@ -26,11 +26,11 @@ std::optional<FixAttempt> most_expected(const std::vector<FixAttempt>& fixes,
 }
 
 /// Fuses the fix, and passes the outcome on to marker trust and integrity monitor.
-void take_in(FixAttempt& used, LocalizationState& known) {
+void fuse(FixAttempt& used, LocalizationState& known) {
   const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
   if (expected) used.expected = expected->map_from_base;
   used.outcome = known.filter.add_fix(used.planar);
-  if (used.outcome == FixOutcome::accepted) known.trust.support(used.fix.ids);
+  if (used.outcome == FixOutcome::accepted) known.trust.add_agreement(used.fix.ids);
   if (used.outcome == FixOutcome::started || used.outcome == FixOutcome::relocated)
     known.trust.estimate_moved();
   known.integrity.add_fix({.stamp = used.fix.stamp,
@@ -81,13 +81,13 @@ void LocalizationState::add_travel(const WheelTravel& reading) {
   integrity.add_travel(reading);
 }
 
-std::optional<StopReason> with_doubts(const std::optional<StopReason>& reason, const LocalizationState& known,
-                                      Stamp now) {
-  const std::optional<IntegrityAlarm> doubt = known.integrity.reason(now);
-  if (doubt && (!reason || is_for_good(stop_for(*doubt)))) return stop_for(*doubt);
+std::optional<StopReason> with_integrity_alarms(const std::optional<StopReason>& reason,
+                                                const LocalizationState& known, Stamp now) {
+  const std::optional<IntegrityAlarm> alarm = known.integrity.alarm(now);
+  if (alarm && (!reason || is_latched(stop_for(*alarm)))) return stop_for(*alarm);
   const std::optional<CameraFault> camera = known.camera.fault(now);
   const bool is_far = known.integrity.rolled_since_agreement_m() > farthest_with_broken_camera_m;
-  if (camera && (reason ? would_a_marker_mend(*reason) : is_far)) return stop_for(*camera);
+  if (camera && (reason ? can_a_marker_end(*reason) : is_far)) return stop_for(*camera);
   return reason;
 }
 
@@ -106,10 +106,10 @@ MarkerLocalizer::MarkerLocalizer(const MarkerRegistry& registry, const CameraMod
 }
 
 std::optional<FixAttempt> MarkerLocalizer::see(const Frame& frame, Stamp now, LocalizationState& known) {
-  if (known.camera.take_in(frame, now)) return std::nullopt;
+  if (known.camera.update(frame, now)) return std::nullopt;
   follow_ceiling(frame, known);
   std::optional<FixAttempt> used = look(frame, known);
-  if (known.integrity.wheels_fooled_us()) {
+  if (known.integrity.take_odometry_failure()) {
     known.filter = PoseFilter(filter_options_);
     known.trust.estimate_moved();
   }
@@ -120,16 +120,16 @@ std::optional<FixAttempt> MarkerLocalizer::see(const Frame& frame, Stamp now, Lo
 /// belief was restarted since and knows no keyframe, this frame becomes the keyframe.
 void MarkerLocalizer::follow_ceiling(const Frame& frame, LocalizationState& known) {
   if (!ceiling_) return;
-  ceiling_->look(frame);
-  const std::optional<PictureExpectation> expected = known.filter.expected_motion(frame.stamp);
-  if (expected && expected->from == ceiling_->kept_at()) {
+  ceiling_->set_frame(frame);
+  const std::optional<MotionExpectation> expected = known.filter.expected_motion(frame.stamp);
+  if (expected && expected->from == ceiling_->keyframe_stamp()) {
     const std::optional<VisualOdometryIncrement> motion = ceiling_->motion(expected->then_from_now);
     const bool is_far = ceiling_->leaves_view(expected->then_from_now);
     const bool agrees = motion && known.filter.add_motion(*motion, is_far);
-    if (is_far && agrees) ceiling_->keep();
+    if (is_far && agrees) ceiling_->set_keyframe();
     if (!is_far || agrees) return;
   }
-  if (known.filter.keep_picture(frame.stamp, ceiling_->sway_m())) ceiling_->keep();
+  if (known.filter.set_keyframe(frame.stamp, ceiling_->sway_m())) ceiling_->set_keyframe();
 }
 
 std::optional<FixAttempt> MarkerLocalizer::look(const Frame& frame, LocalizationState& known) {
@@ -151,7 +151,7 @@ std::optional<FixAttempt> MarkerLocalizer::look(const Frame& frame, Localization
   for (const FixAttempt& single : doubted) judge(single, known);
 
   if (!used) used = most_expected(doubted, known);
-  if (used) take_in(*used, known);
+  if (used) fuse(*used, known);
   return used;
 }
 
@@ -186,11 +186,12 @@ void MarkerLocalizer::judge(const FixAttempt& single, LocalizationState& known) 
   const RegisteredMarker* registered = registry_.find(id);
   const std::optional<FixExpectation> expected = known.filter.expectation(single.planar);
   if (registered == nullptr || !expected) return;
-  known.trust.charge({.id = id,
-                      .marker_in_map = map_from_marker(registry_, *registered).translation().head<2>(),
-                      .map_from_base_by_marker = single.planar.map_from_base,
-                      .map_from_base_expected = expected->map_from_base,
-                      .squared_distance = expected->squared_distance});
+  known.trust.add_contradiction(
+      {.id = id,
+       .marker_in_map = map_from_marker(registry_, *registered).translation().head<2>(),
+       .map_from_base_by_marker = single.planar.map_from_base,
+       .map_from_base_expected = expected->map_from_base,
+       .squared_distance = expected->squared_distance});
 }
 
 }  // namespace lodestar

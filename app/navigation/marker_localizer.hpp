@@ -36,8 +36,8 @@ struct LocalizationState {
 
 /// Why the robot must not move now; nothing when it may. `reason` comes from the safety stop; a camera fault
 /// that causes it, or an integrity alarm, takes its place.
-std::optional<StopReason> with_doubts(const std::optional<StopReason>& reason, const LocalizationState& known,
-                                      Stamp now);
+std::optional<StopReason> with_integrity_alarms(const std::optional<StopReason>& reason,
+                                                const LocalizationState& known, Stamp now);
 
 /// Updates the belief from camera frames: detects markers, first where the belief predicts them, fixes the
 /// pose by the trusted ones, and reports markers that contradict the others or the estimate to marker trust.

@@ -52,7 +52,7 @@ MissionStep Mission::step(const SensorInput& input) {
 }
 
 MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& step) {
-  if (step.stop && is_for_good(*step.stop)) return fail(input.now, std::string(to_string(*step.stop)));
+  if (step.stop && is_latched(*step.stop)) return fail(input.now, std::string(to_string(*step.stop)));
   // Visits a copy, since the steps assign state_.
   return std::visit([&](const auto& state) { return advance(state, input, step); }, State(state_));
 }

@@ -27,7 +27,7 @@ Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options
                  options.filter),
       planner_(world.map, {.planner = options.planner, .route = options.route, .drive = options.drive}),
       known_{PoseFilter(options.filter), MarkerTrust(options.trust), CameraWatch(options.camera),
-             IntegrityMonitor(options.doubt)},
+             IntegrityMonitor(options.integrity)},
       behaviour_{Standing{}, Backtrack(options.backtrack)} {}
 
 NavigationStep Navigation::step(const SensorInput& input) {
@@ -69,7 +69,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
 Facts Navigation::judge(const SensorInput& input, const NavigationStep& step,
                         const LocalizationState& known) const {
   const auto reason_within = [&](const SafetyStopOptions& limits) {
-    return with_doubts(reason_to_stop(input.now, step.estimate, limits), known, input.now);
+    return with_integrity_alarms(reason_to_stop(input.now, step.estimate, limits), known, input.now);
   };
   Facts facts{.now = input.now,
               .elapsed = last_step_ ? input.now - *last_step_ : Duration::zero(),
@@ -101,17 +101,17 @@ void Navigation::judge_room(Facts& facts, bool is_contradicted) const {
     return limit.forward_mps < options_.drive.min_forward_mps;
   };
   if (!facts.stop) {
-    const SafetyMargin spare = room_for_doubt(facts.estimate->covariance);
+    const SafetyMargin spare = margin_for_uncertainty(facts.estimate->covariance);
     const double room_m = planner_.forward_clearance().room_m(facts.estimate->map_from_base.position_m);
     facts.limit = limit_with(spare, options_.safety);
     if (spare.here_m > 0.0 && room_m < spare.here_m) facts.limit.forward_mps = 0.0;
     if (is_stuck(facts.limit))
       facts.room_ahead =
-          is_stuck(limit_with({}, options_.safety)) ? RoomAhead::none : RoomAhead::too_little_in_doubt;
+          is_stuck(limit_with({}, options_.safety)) ? RoomAhead::none : RoomAhead::too_little_when_uncertain;
   }
   if (!facts.stop_on_backtrack)
-    facts.limit_on_retreat =
-        limit_with(room_on_the_way_back(facts.estimate->covariance), options_.backtrack.limits);
+    facts.limit_on_backtrack =
+        limit_with(margin_on_the_way_back(facts.estimate->covariance), options_.backtrack.limits);
 }
 
 /// With a planner that is quick enough to be waited for.
@@ -121,7 +121,7 @@ Behaviour Navigation::planned(Behaviour behaviour, const std::optional<PoseEstim
     const std::optional<PlanRequest> request = plan_wanted(behaviour.state);
     if (!request) break;
     TripPlanner::Planned plan = planner_.plan(*request, *trip_of(behaviour.state), estimate->map_from_base,
-                                              behaviour.places.blind_ground_m());
+                                              behaviour.places.blind_places_m());
     if (plan.update) update = std::move(plan.update);
     behaviour = answered(std::move(behaviour), plan.answer);
   }
@@ -137,7 +137,7 @@ std::optional<RouteUpdate> Navigation::go_to(const Goal& goal) {
 }
 
 void Navigation::map_changed(const OccupancyMap& map) {
-  planner_.map_changed(map, behaviour_.places.blind_ground_m());
+  planner_.map_changed(map, behaviour_.places.blind_places_m());
   map_changed_ = true;
 }
 
@@ -147,7 +147,7 @@ bool Navigation::place_robot(const Pose2& map_from_base) {
   if (!last_step_) return false;
   PlanarFix said{.stamp = *last_step_, .map_from_base = map_from_base, .covariance = Eigen::Matrix3d::Zero()};
   said.covariance.diagonal() = Vec3(position_sigma_m, position_sigma_m, heading_sigma_rad).array().square();
-  known_.integrity = IntegrityMonitor(options_.doubt);
+  known_.integrity = IntegrityMonitor(options_.integrity);
   return known_.filter.start_at(said);
 }
 

@@ -27,7 +27,7 @@ struct NavigationOptions {
   PoseFilterOptions filter;
   MarkerTrustOptions trust;
   CameraWatchOptions camera;
-  IntegrityOptions doubt;
+  IntegrityOptions integrity;
   GridPlannerOptions planner;
   RouteOptions route;
   DriveOptions drive;

@@ -5,34 +5,35 @@
 namespace lodestar {
 
 TripPlanner::TripPlanner(const OccupancyMap& map, const TripPlannerOptions& options) : options_(options) {
-  lay_ground(map, {});
+  rebuild_context(map, {});
 }
 
 void TripPlanner::map_changed(const OccupancyMap& map, std::span<const Vec2> blind_m) {
-  lay_ground(map, blind_m);
+  rebuild_context(map, blind_m);
 }
 
 /// An unsure robot keeps away from what it could touch; and where it has found no marker it drives again only
 /// if every other way is far longer.
-void TripPlanner::lay_ground(const OccupancyMap& map, std::span<const Vec2> blind_m) {
+void TripPlanner::rebuild_context(const OccupancyMap& map, std::span<const Vec2> blind_m) {
   GridPlannerOptions options = options_.planner;
-  options.shunned.places_m.assign(blind_m.begin(), blind_m.end());
-  const bool is_unsure = keeps_to_the_middle_ || !blind_m.empty();
-  ground_ = std::make_unique<const PlanningContext>(map, options, is_unsure ? Margins::wide : Margins::usual);
+  options.avoided.places_m.assign(blind_m.begin(), blind_m.end());
+  const bool is_unsure = prefers_wide_margins_ || !blind_m.empty();
+  context_ =
+      std::make_unique<const PlanningContext>(map, options, is_unsure ? Margins::wide : Margins::usual);
 }
 
 TripPlanner::Planned TripPlanner::plan(const PlanRequest& request, const Trip& trip, const Pose2& pose,
                                        std::span<const Vec2> blind_m) {
-  const bool is_other_ground = trip.keeps_to_the_middle != keeps_to_the_middle_;
-  const bool begins_anew = request.kind == PlanKind::new_goal && is_other_ground;
+  const bool needs_other_context = trip.prefers_wide_margins != prefers_wide_margins_;
+  const bool begins_anew = request.kind == PlanKind::new_goal && needs_other_context;
   if (begins_anew || request.kind == PlanKind::another_way) {
-    keeps_to_the_middle_ = trip.keeps_to_the_middle;
-    lay_ground(ground_->map, blind_m);
+    prefers_wide_margins_ = trip.prefers_wide_margins;
+    rebuild_context(context_->map, blind_m);
   }
   switch (request.kind) {
     case PlanKind::review:
       // Sampling planners take too long to be asked while the robot drives.
-      if (sampling_method(options_.planner.kind)) return {PathIsToGo{}, std::nullopt};
+      if (sampling_method(options_.planner.kind)) return {PathMustBeReplaced{}, std::nullopt};
       return review(route_from(request, trip, pose));
     case PlanKind::replan:
       return replan(route_from(request, trip, pose));
@@ -47,12 +48,12 @@ TripPlanner::Planned TripPlanner::plan(const PlanRequest& request, const Trip& t
 }
 
 TripPlanner::Planned TripPlanner::review(const RouteUpdate& update) const {
-  if (update.change == RouteChange::kept) return {PathHolds{}, std::nullopt};
-  return {PathIsToGo{}, std::nullopt};
+  if (update.change == RouteChange::kept) return {PathStaysValid{}, std::nullopt};
+  return {PathMustBeReplaced{}, std::nullopt};
 }
 
 TripPlanner::Planned TripPlanner::replan(const RouteUpdate& update) const {
-  if (update.change == RouteChange::kept) return {PathHolds{}, std::nullopt};
+  if (update.change == RouteChange::kept) return {PathStaysValid{}, std::nullopt};
   if (update.change == RouteChange::lost) return {PathNotFound{}, update};
   return {along(update.route), update};
 }
@@ -61,16 +62,17 @@ TripPlanner::Planned TripPlanner::another_way(const Trip& trip, const Pose2& pos
   const std::optional<double>& goal_heading_rad = trip.drive.final_heading_rad();
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal_heading_rad};
   const Vec2 goal_m = trip.drive.path_ahead().waypoints_m.back();
-  const PlanResult result = ground_->planner.plan(pose.position_m, goal_m, headings);
+  const PlanResult result = context_->planner.plan(pose.position_m, goal_m, headings);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return {PathNotFound{}, std::nullopt};
   const Route route{plan->path, goal_heading_rad};
-  return {along(route), RouteUpdate{.route = route, .change = RouteChange::surer, .failure = std::nullopt}};
+  return {along(route),
+          RouteUpdate{.route = route, .change = RouteChange::more_certain, .failure = std::nullopt}};
 }
 
 TripPlanner::Planned TripPlanner::to_goal(const PlanRequest& request, const Pose2& pose) const {
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = request.goal_heading_rad};
-  const PlanResult result = ground_->planner.plan(pose.position_m, request.goal_m, headings);
+  const PlanResult result = context_->planner.plan(pose.position_m, request.goal_m, headings);
   RouteUpdate update{.route = {{}, request.goal_heading_rad}, .change = RouteChange::new_goal, .failure = {}};
   if (const auto* failure = std::get_if<PlanFailure>(&result)) {
     update.failure = *failure;
@@ -92,7 +94,7 @@ TripPlanner::Planned TripPlanner::way_back(const Vec2& place_m, const Trip& trip
   const Vec2 from_m = is_on_leg ? ahead_m.front() : pose.position_m;
   if (distance_to_path_m({{from_m, pose.position_m}}, place_m) <= beside_leg_m)
     return along_way({{pose.position_m, place_m}});
-  const MarginPlanner planner(ground_->map, options_.planner, margins_m(Margins::wide));
+  const MarginPlanner planner(context_->map, options_.planner, margins_m(Margins::wide));
   const PlanResult result = planner.plan(from_m, place_m);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return {PathNotFound{}, std::nullopt};
@@ -104,11 +106,11 @@ TripPlanner::Planned TripPlanner::way_back(const Vec2& place_m, const Trip& trip
 RouteUpdate TripPlanner::route_from(const PlanRequest& request, const Trip& trip, const Pose2& pose) const {
   Route route{trip.drive.path_ahead(), trip.drive.final_heading_rad()};
   if (request.leg_from_here) route.path.waypoints_m.front() = pose.position_m;
-  return updated(route, pose, ground_->planner, options_.route);
+  return updated(route, pose, context_->planner, options_.route);
 }
 
 PathFound TripPlanner::along(const Route& route) const {
-  const DriveOptions drive = ground_->drive_options(route.path, options_.drive);
+  const DriveOptions drive = context_->drive_options(route.path, options_.drive);
   return {RotateThenDrive(route.path, route.goal_heading_rad, drive)};
 }
 

@@ -31,10 +31,10 @@ class TripPlanner {
   Planned plan(const PlanRequest& request, const Trip& trip, const Pose2& pose,
                std::span<const Vec2> blind_m);
 
-  [[nodiscard]] const ForwardClearance& forward_clearance() const { return ground_->forward_clearance; }
+  [[nodiscard]] const ForwardClearance& forward_clearance() const { return context_->forward_clearance; }
 
  private:
-  void lay_ground(const OccupancyMap& map, std::span<const Vec2> blind_m);
+  void rebuild_context(const OccupancyMap& map, std::span<const Vec2> blind_m);
   [[nodiscard]] Planned review(const RouteUpdate& update) const;
   [[nodiscard]] Planned replan(const RouteUpdate& update) const;
   [[nodiscard]] Planned another_way(const Trip& trip, const Pose2& pose) const;
@@ -44,8 +44,8 @@ class TripPlanner {
   [[nodiscard]] PathFound along(const Route& route) const;
 
   TripPlannerOptions options_;
-  std::unique_ptr<const PlanningContext> ground_;
-  bool keeps_to_the_middle_ = false;  ///< the ground is for a robot that does
+  std::unique_ptr<const PlanningContext> context_;
+  bool prefers_wide_margins_ = false;  ///< the ground is for a robot that does
 };
 
 }  // namespace lodestar

@@ -111,7 +111,7 @@ bool equal_in_constant_time(const std::string& a, const std::string& b) {
   return different == 0;
 }
 
-std::optional<HttpResponse> turned_away(const HttpRequest& head, const AccessRules& rules) {
+std::optional<HttpResponse> rejection(const HttpRequest& head, const AccessRules& rules) {
   if (!is_our_host(head.host, rules.port)) {
     return refusal(403, "found another host's name, wanted this address and port");
   }

@@ -37,7 +37,7 @@ bool equal_in_constant_time(const std::string& a, const std::string& b);
 /// - a request that changes something must carry X-Lodestar and be JSON: a form of another page cannot;
 /// - with tokens configured, all of /api/ but the session itself and every WebSocket need one;
 /// - PUT needs the role edit.
-std::optional<HttpResponse> turned_away(const HttpRequest& head, const AccessRules& rules);
+std::optional<HttpResponse> rejection(const HttpRequest& head, const AccessRules& rules);
 
 /// GET: the client's role. POST with a token: sets the cookie. 401 without a valid token.
 HttpResponse answer_session(const HttpRequest& request, const AccessRules& rules);

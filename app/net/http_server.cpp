@@ -203,7 +203,7 @@ class HttpServer::Impl {
     if (error) co_return co_await complain(stream, error);
 
     HttpRequest request = head_of(parser);
-    std::optional<HttpResponse> response = turned_away(request, options_.access);
+    std::optional<HttpResponse> response = rejection(request, options_.access);
     if (!response && request.wants_socket) {
       response = no_socket(request);
       if (!response) {

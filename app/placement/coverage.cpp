@@ -80,7 +80,7 @@ std::vector<MarkerDisc> marker_discs(const MarkerRegistry& registry, const Cover
                                      const Sight& sight) {
   std::vector<MarkerDisc> all;
   for (const RegisteredMarker& marker : registry.markers) {
-    const Vec3 middle = middle_of(registry, marker);
+    const Vec3 middle = center_in_map(registry, marker);
     all.push_back({sight.in_cells(middle.head<2>()), middle.z(),
                    floor.view.reach_m(middle.z()) / floor.map.resolution_m});
   }
@@ -197,7 +197,7 @@ std::vector<Stretch> blind_stretches(const Path& route, const Sight& sight,
 
 }  // namespace
 
-double SureView::reach_m(double marker_height_m) const {
+double AllHeadingsView::reach_m(double marker_height_m) const {
   return std::max(0.0, (marker_height_m - camera_height_m) * reach_per_m - margin_m);
 }
 

@@ -13,7 +13,7 @@
 namespace lodestar {
 
 /// What an upward camera covers at every heading: a disc on the ceiling that grows with its height.
-struct SureView {
+struct AllHeadingsView {
   double camera_height_m = 0.0;
   double reach_per_m = 0.0;  ///< disc radius per metre above the camera, by its view's narrowest side
   double margin_m = 0.0;     ///< subtracted: half a marker and the camera's offset from the robot's centre
@@ -30,7 +30,7 @@ struct CoveredFloor {
   /// directly below a marker.
   std::optional<HeightBands> heights;
   double room_m = 0.0;  ///< the robot's centre is never nearer to a cell that is not free
-  SureView view;
+  AllHeadingsView view;
   std::vector<Path> routes;  ///< the usual routes
 };
 

@@ -16,7 +16,7 @@ constexpr double half_side_m = 0.5 * (marker_grid_size - 1) * marker_pitch_m + m
 
 /// The marker's square on the ceiling, its frame at the centre.
 Pose2 center_of(const MarkerRegistry& registry, const RegisteredMarker& marker) {
-  return {middle_of(registry, marker).head<2>(), flattened(map_from_marker(registry, marker)).yaw_rad};
+  return {center_in_map(registry, marker).head<2>(), flattened(map_from_marker(registry, marker)).yaw_rad};
 }
 
 /// One issue per ID, however often it is repeated.
@@ -175,7 +175,7 @@ nlohmann::ordered_json issue_json(const RegistryIssue& issue) {
   return json;
 }
 
-Vec3 middle_of(const MarkerRegistry& registry, const RegisteredMarker& marker) {
+Vec3 center_in_map(const MarkerRegistry& registry, const RegisteredMarker& marker) {
   constexpr double to_middle_m = 0.5 * (marker_grid_size - 1) * marker_pitch_m;
   return map_from_marker(registry, marker) * Vec3(to_middle_m, to_middle_m, 0.0);
 }

@@ -38,7 +38,7 @@ struct RegistryIssue {
 nlohmann::ordered_json issue_json(const RegistryIssue& issue);
 
 /// The centre of a marker's square, in the map.
-Vec3 middle_of(const MarkerRegistry& registry, const RegisteredMarker& marker);
+Vec3 center_in_map(const MarkerRegistry& registry, const RegisteredMarker& marker);
 
 /// Two markers; `first` equals `second` where a marker is compared with its own rotations.
 struct MarkerPair {

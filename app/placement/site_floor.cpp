@@ -23,7 +23,7 @@ double narrowest_view(const CameraModel& camera) {
   return narrowest;
 }
 
-SureView sure_view(const Site& site) {
+AllHeadingsView all_headings_view(const Site& site) {
   const Vec3 camera = site.robot.base_from_camera.translation();
   const double half_marker_m =
       0.5 * (marker_grid_size - 1) * marker_pitch_m * std::sqrt(2.0) + marker_dot_radius_m;
@@ -61,7 +61,7 @@ CoveredFloor covered_floor(const Site& site) {
   CoveredFloor floor{.map = site.map.map,
                      .heights = std::nullopt,
                      .room_m = robot.footprint ? robot.footprint->inner_radius_m() : robot.radius_m,
-                     .view = sure_view(site),
+                     .view = all_headings_view(site),
                      .routes = usual_routes(site)};
   if (site.octomap_file)
     floor.heights = height_bands(*site.octomap_file, floor.map, floor.view.camera_height_m, ceiling_m(site));

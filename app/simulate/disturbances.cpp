@@ -22,7 +22,7 @@ std::set<int> nearest_ids(const MarkerRegistry& registry, const std::vector<Vec2
 
 }  // namespace
 
-SimulationOptions made_harder(SimulationOptions options, const Disturbances& disturbances) {
+SimulationOptions with_disturbances(SimulationOptions options, const Disturbances& disturbances) {
   if (disturbances.lost_frames) options.camera.lost_frame_probability = *disturbances.lost_frames;
   if (disturbances.unequal_wheels) {
     options.base.left_wheel_scale = 1.0 + 0.5 * *disturbances.unequal_wheels;

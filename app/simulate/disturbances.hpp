@@ -19,7 +19,7 @@ struct Disturbances {
 };
 
 /// The simulated world's options with these disturbances.
-SimulationOptions made_harder(SimulationOptions options, const Disturbances& disturbances);
+SimulationOptions with_disturbances(SimulationOptions options, const Disturbances& disturbances);
 
 /// The remaining markers, drawn from the seed. The one nearest to each of `places_m` stays: without any
 /// marker in view a robot can neither start nor arrive to the centimetre.

@@ -31,7 +31,7 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
 NavigationOptions replay_navigation(const Site& site, const SimulatedDriveOptions& options) {
   NavigationOptions navigation = navigation_options(site.robot);
   navigation.planner.kind = options.planner;
-  navigation.planner.pose_keeping = options.pose_keeping;
+  navigation.planner.uncertainty_constraint = options.uncertainty_constraint;
   navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
   return navigation;
 }
@@ -68,7 +68,7 @@ class SimulatedDrive {
         options_(options),
         world_(known_world(site, options.camera)),
         simulation_(world_.map, remaining_markers(site, options), world_.camera,
-                    made_harder(simulation_options(site, options), options.disturbances)),
+                    with_disturbances(simulation_options(site, options), options.disturbances)),
         base_(simulation_.can()),
         mission_(world_, replay_navigation(site, options), options.goals),
         recorder_(site, {.camera = options.camera,
@@ -86,7 +86,8 @@ class SimulatedDrive {
     const MissionStep step = mission_.step(input);
     if (options_.on_step) options_.on_step(computing.elapsed());
     base_.command(step.navigation.command);
-    if (session != nullptr) session->show(input, step, mission_, [&] { return error_of(step.navigation); });
+    if (session != nullptr)
+      session->publish(input, step, mission_, [&] { return error_of(step.navigation); });
     if (!recorder_.is_on()) return simulation_.scorer().forget();
 
     recorder_.take(input, step, mission_);
@@ -195,7 +196,7 @@ void simulate_attended_drive(const Site& site, const SimulatedDriveOptions& opti
   SimulatedDrive drive(site, options);
   Pace pace;
   while (goes_on()) {
-    session.obey(drive.mission(), drive.base(), drive.now(), monotonic_now());
+    session.apply_orders(drive.mission(), drive.base(), drive.now(), monotonic_now());
     if (!drive.mission().finished() && !drive.recording()) drive.begin_record();
     drive.step(&session);
     const bool has_ended = drive.recording() && drive.mission().finished();

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/placement/pose_keeping.hpp"
+#include "app/placement/uncertainty_constraint.hpp"
 #include "app/recording/drive_moment.hpp"
 #include "app/report/run_record.hpp"
 #include "app/simulate/disturbances.hpp"
@@ -21,7 +21,7 @@ struct SimulatedDriveOptions {
   std::uint64_t seed = 1;
   std::vector<Goal> goals;
   PlannerKind planner = PlannerKind::fastest;
-  std::optional<PoseKeeping> pose_keeping;  ///< constrains paths by the expected pose uncertainty
+  std::optional<UncertaintyConstraint> uncertainty_constraint;  ///< of the paths
   Disturbances disturbances;
   std::vector<Fault> faults;
   std::shared_ptr<SimulatedDisk> disk;  ///< disk faults act on it, if given

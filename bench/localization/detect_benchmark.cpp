@@ -100,12 +100,13 @@ BENCHMARK(markers_of_a_frame)->Unit(benchmark::kMicrosecond);
 
 /// Registered where they were drawn, for a camera 2.6 m below them.
 MarkerRegistry three_markers(const CameraModel& camera) {
-  const auto hung = [&](int id, const Vec2& o_px, double turn_rad) {
+  const auto registered = [&](int id, const Vec2& o_px, double turn_rad) {
     const Vec2 ray = *camera.normalized(o_px) * ceiling_m;
     return RegisteredMarker{id, {ray.x(), ray.y(), ceiling_m}, turn_rad};
   };
   return {{},
-          {hung(1782, {300.0, 250.0}, 0.3), hung(447, {120.0, 140.0}, 2.0), hung(3003, {500.0, 350.0}, 4.0)}};
+          {registered(1782, {300.0, 250.0}, 0.3), registered(447, {120.0, 140.0}, 2.0),
+           registered(3003, {500.0, 350.0}, 4.0)}};
 }
 
 void pose_of_a_frame(benchmark::State& state) {

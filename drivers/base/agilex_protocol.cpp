@@ -41,7 +41,7 @@ class AgilexProtocol final : public BaseProtocol {
   AgilexProtocol(BaseModel model, double max_plausible_wheel_mps)
       : model_(model), travel_(max_plausible_wheel_mps) {}
 
-  HeardFrame take_in(const StampedCanFrame& received) override {
+  HeardFrame decode(const StampedCanFrame& received) override {
     const CanFrame& frame = received.frame;
     HeardFrame heard;
     if (const auto state = agilex::decode_system_state(frame)) {

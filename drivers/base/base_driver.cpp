@@ -71,7 +71,7 @@ BaseFeedback BaseDriver::poll(Stamp now) {
   const bool was_asleep = now - now_ > options_.max_feedback_age;
   now_ = now;
   std::vector<WheelTravel> travel;
-  while (const auto received = bus_.poll()) take_in(*received, travel);
+  while (const auto received = bus_.poll()) handle(*received, travel);
   if (const auto fault = bus_fault(); fault && state_ == BaseState::ready) latch(*fault);
   if (state_ == BaseState::ready) {
     if (!was_asleep) watch(now);
@@ -81,13 +81,13 @@ BaseFeedback BaseDriver::poll(Stamp now) {
   return {state_, fault_, std::move(travel), measured_, system_, last_heard_};
 }
 
-void BaseDriver::take_in(const StampedCanFrame& received, std::vector<WheelTravel>& travel) {
-  const HeardFrame heard = protocol_->take_in(received);
+void BaseDriver::handle(const StampedCanFrame& received, std::vector<WheelTravel>& travel) {
+  const HeardFrame heard = protocol_->decode(received);
   if (heard.odd) ++counts_.odd_frames;
   if (heard.command && state_ == BaseState::ready) latch(BaseFault::second_master);
   if (!heard.from_base) return;
   last_heard_ = received.stamp;
-  if (heard.system) take_in_system_state(received.stamp, *heard.system);
+  if (heard.system) update_system_state(received.stamp, *heard.system);
   if (heard.measured) {
     measured_ = heard.measured;
     last_motion_state_ = received.stamp;
@@ -98,7 +98,7 @@ void BaseDriver::take_in(const StampedCanFrame& received, std::vector<WheelTrave
   }
 }
 
-void BaseDriver::take_in_system_state(Stamp stamp, const SystemState& state) {
+void BaseDriver::update_system_state(Stamp stamp, const SystemState& state) {
   const int steps = system_ ? static_cast<std::uint8_t>(state.counter - system_->counter) : 1;
   if (steps == 0) ++counts_.counter_repeats;
   if (steps > 1) ++counts_.counter_jumps;

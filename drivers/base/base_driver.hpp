@@ -105,8 +105,8 @@ class BaseDriver {
   [[nodiscard]] std::uint64_t saturated_commands() const { return counts_.saturated_commands; }
 
  private:
-  void take_in(const StampedCanFrame& received, std::vector<WheelTravel>& travel);
-  void take_in_system_state(Stamp stamp, const SystemState& state);
+  void handle(const StampedCanFrame& received, std::vector<WheelTravel>& travel);
+  void update_system_state(Stamp stamp, const SystemState& state);
   void watch(Stamp now);
   void shake_hands(Stamp now);
   void latch(BaseFault fault);

@@ -30,7 +30,7 @@ class BaseProtocol {
   BaseProtocol& operator=(const BaseProtocol&) = delete;
   virtual ~BaseProtocol() = default;
 
-  virtual HeardFrame take_in(const StampedCanFrame& received) = 0;
+  virtual HeardFrame decode(const StampedCanFrame& received) = 0;
 
   /// Requests that the base accepts commands from the bus.
   [[nodiscard]] virtual std::vector<CanFrame> enable() const = 0;

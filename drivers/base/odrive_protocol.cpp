@@ -59,7 +59,7 @@ class OdriveProtocol final : public BaseProtocol {
   explicit OdriveProtocol(const OdriveOptions& options)
       : options_(options), travel_(options.max_plausible_wheel_mps) {}
 
-  HeardFrame take_in(const StampedCanFrame& received) override {
+  HeardFrame decode(const StampedCanFrame& received) override {
     HeardFrame heard;
     for (const bool is_right : {false, true}) {
       const std::uint32_t offset = offset_of(is_right);
@@ -76,7 +76,7 @@ class OdriveProtocol final : public BaseProtocol {
         axis.position_rev = (*estimate)[0];
         axis.velocity_rps = (*estimate)[1];
         heard.from_base = true;
-        if (is_right) take_in_wheels(received.stamp, heard);
+        if (is_right) decode_wheels(received.stamp, heard);
       } else {
         heard.odd = heard.odd || frame.id == tables::heartbeat.id + offset ||
                     frame.id == tables::encoder_estimates.id + offset;
@@ -151,7 +151,7 @@ class OdriveProtocol final : public BaseProtocol {
   }
 
   /// Completes the pair: the right axis sends after the left one.
-  void take_in_wheels(Stamp now, HeardFrame& heard) {
+  void decode_wheels(Stamp now, HeardFrame& heard) {
     if (!left_.estimate || now - *left_.estimate > most_apart_moving) return;
     const double left_mps = left_.velocity_rps * m_per_rev();
     const double right_mps = right_sign() * right_.velocity_rps * m_per_rev();

@@ -161,7 +161,7 @@ bool SocketCanBus::send(const CanFrame& frame) {
   raw.can_dlc = frame.length;
   std::copy_n(frame.data.begin(), frame.length, raw.data);
   if (::write(socket_.get(), &raw, sizeof(raw)) != static_cast<ssize_t>(sizeof(raw))) {
-    take_in_failure(errno);
+    handle_failure(errno);
     refuse();
     return false;
   }
@@ -190,7 +190,7 @@ void SocketCanBus::read_all() {
     const auto message = receive(socket_.get());
     if (!message) {
       const int error = errno;
-      take_in_failure(error);
+      handle_failure(error);
       const bool more_may_come = error == EINTR || error == EBADMSG || error == ENETDOWN || error == ENODEV;
       if (more_may_come) continue;
       oldest_is_overdue_ =
@@ -200,7 +200,7 @@ void SocketCanBus::read_all() {
     if (message->lost) counts_.lost = *message->lost;
     const can_frame& frame = message->frame;
     if ((frame.can_id & CAN_ERR_FLAG) != 0) {
-      take_in_error_frame(frame);
+      handle_error_frame(frame);
     } else if (message->is_own) {
       confirm(frame.can_id & CAN_SFF_MASK);
     } else if ((frame.can_id & unwanted) == 0) {
@@ -262,7 +262,7 @@ void SocketCanBus::bind_to(unsigned index) {
   if (bound) ++counts_.binds;
 }
 
-void SocketCanBus::take_in_failure(int error) {
+void SocketCanBus::handle_failure(int error) {
   if (error == ENETDOWN) state_ = BusState::down;
   if (error == ENODEV || error == ENXIO) {
     state_ = BusState::missing;
@@ -272,7 +272,7 @@ void SocketCanBus::take_in_failure(int error) {
   if (is_gone) waiting_.clear();
 }
 
-void SocketCanBus::take_in_error_frame(const can_frame& frame) {
+void SocketCanBus::handle_error_frame(const can_frame& frame) {
   ++counts_.error_frames;
   if ((frame.can_id & CAN_ERR_BUSOFF) != 0) {
     state_ = BusState::bus_off;

@@ -51,8 +51,8 @@ class SocketCanBus final : public CanBus {
   void check_interface();
   void read_all();
   void bind_to(unsigned index);
-  void take_in_failure(int error);
-  void take_in_error_frame(const can_frame& frame);
+  void handle_failure(int error);
+  void handle_error_frame(const can_frame& frame);
   void confirm(std::uint32_t id);
   void recover_from_bus_off();
   void refuse();

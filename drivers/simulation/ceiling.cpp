@@ -41,8 +41,8 @@ struct Extent {
   Vec2 high_m = Vec2::Zero();
 };
 
-CeilingMarker hang(const MarkerRegistry& registry, const RegisteredMarker& marker,
-                   const SimulatedCameraOptions& options, Random random) {
+CeilingMarker installed_marker(const MarkerRegistry& registry, const RegisteredMarker& marker,
+                               const SimulatedCameraOptions& options, Random random) {
   Random places = random.stream(places_of_dots);
   CeilingMarker result;
   result.map_from_marker = map_from_marker(registry, marker);
@@ -191,7 +191,7 @@ std::vector<CeilingMarker> hang_markers(const MarkerRegistry& registry, const Si
   const Random random = Random(seed).stream(dots_of_markers);
   std::vector<CeilingMarker> markers;
   for (std::size_t i = 0; i < registry.markers.size(); ++i) {
-    markers.push_back(hang(registry, registry.markers[i], options, random.stream(i)));
+    markers.push_back(installed_marker(registry, registry.markers[i], options, random.stream(i)));
   }
   return markers;
 }

@@ -41,7 +41,7 @@ class ImageFormer {
                  const Eigen::Isometry3d& map_from_camera_at_closing, std::uint64_t frame_number);
 
   /// Adds a printed square to the ceiling, drawn below lamps, glints and markers. It shows no motion blur.
-  void hang(const PrintedSquare& square) { squares_.push_back(square); }
+  void add(const PrintedSquare& square) { squares_.push_back(square); }
 
   /// Replaces the covers that hide markers.
   void cover(std::vector<PrintedSquare> covers) { covers_ = std::move(covers); }

@@ -20,7 +20,7 @@ SimulatedBase::SimulatedBase(CanBus& bus, SimulatedMotion& motion, const Simulat
     : bus_(bus), motion_(motion), options_(options), periphery_(bus, options.battery_v) {}
 
 void SimulatedBase::step(Stamp now) {
-  while (const auto received = bus_.poll()) take_in(received->frame, now);
+  while (const auto received = bus_.poll()) handle(received->frame, now);
   if (options_.has_periphery && !defects_.silent) periphery_.send_answer();
   drive_wheels(now);
   if (!next_feedback_) next_feedback_ = now;
@@ -51,7 +51,7 @@ bool SimulatedBase::is_told_to_move() const {
   return command_ && (command_->velocity.forward_mps != 0.0 || command_->velocity.turn_radps != 0.0);
 }
 
-void SimulatedBase::take_in(const CanFrame& frame, Stamp now) {
+void SimulatedBase::handle(const CanFrame& frame, Stamp now) {
   if (const auto velocity = agilex::decode_motion_command(frame)) {
     if (takes_commands()) command_ = Command{now, *velocity};
   } else if (const auto mode = agilex::decode_control_mode(frame)) {
@@ -64,7 +64,7 @@ void SimulatedBase::take_in(const CanFrame& frame, Stamp now) {
   } else if (agilex::is_clear_fault(frame)) {
     fault_bits_ = 0;
   } else if (options_.has_periphery) {
-    periphery_.take_in(frame);
+    periphery_.handle(frame);
   }
 }
 

@@ -48,7 +48,7 @@ class SimulatedBase final : public SimulatedFirmware {
   [[nodiscard]] bool is_told_to_move() const override;
 
  private:
-  void take_in(const CanFrame& frame, Stamp now);
+  void handle(const CanFrame& frame, Stamp now);
   void drive_wheels(Stamp now);
   void send_feedback();
   [[nodiscard]] agilex::VehicleState vehicle_state() const;

@@ -25,7 +25,7 @@ SimulatedOdrive::SimulatedOdrive(CanBus& bus, SimulatedMotion& motion, const Sim
     : bus_(bus), motion_(motion), options_(options) {}
 
 void SimulatedOdrive::step(Stamp now) {
-  while (const auto received = bus_.poll()) take_in(received->frame, now);
+  while (const auto received = bus_.poll()) handle(received->frame, now);
   if (!answers_.empty() && bus_.send(answers_.front())) answers_.pop_front();
   for (Axis& axis : axes_) watch(axis, now);
   drive_wheels();
@@ -36,7 +36,7 @@ void SimulatedOdrive::step(Stamp now) {
   }
 }
 
-void SimulatedOdrive::take_in(const CanFrame& frame, Stamp now) {
+void SimulatedOdrive::handle(const CanFrame& frame, Stamp now) {
   for (std::uint32_t node = 0; node < axes_.size(); ++node) {
     Axis& axis = axes_[node];
     const std::uint32_t offset = node * odrive::node_step;

@@ -50,7 +50,7 @@ class SimulatedOdrive final : public SimulatedFirmware {
     double velocity_rps = 0.0;
   };
 
-  void take_in(const CanFrame& frame, Stamp now);
+  void handle(const CanFrame& frame, Stamp now);
   void watch(Axis& axis, Stamp now) const;
   void drive_wheels();
   void send_estimates(Stamp now);

@@ -17,7 +17,7 @@ constexpr std::uint8_t asks = 1;
 
 }  // namespace
 
-void SimulatedPeriphery::take_in(const CanFrame& frame) {
+void SimulatedPeriphery::handle(const CanFrame& frame) {
   if (decode(tables::light_command, frame)) {
     lights_ = frame;
   } else if (decode(tables::version_request, frame)) {

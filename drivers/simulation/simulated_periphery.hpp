@@ -15,7 +15,7 @@ class SimulatedPeriphery {
   SimulatedPeriphery(CanBus& bus, double battery_v) : bus_(bus), battery_v_(battery_v) {}
 
   /// Handles light commands and version requests; ignores other frames.
-  void take_in(const CanFrame& frame);
+  void handle(const CanFrame& frame);
 
   /// Called with every drive feedback (20 ms); slower messages are sent with some of them.
   void send_feedback(const BodyVelocity& measured, double track_width_m);

@@ -57,14 +57,14 @@ CeilingMotion::CeilingMotion(const CameraModel& camera, const Eigen::Isometry3d&
       sway_m_(lean_sigma_rad_ * ceiling_height_m),
       options_(options) {}
 
-void CeilingMotion::look(const Frame& frame) {
+void CeilingMotion::set_frame(const Frame& frame) {
   current_ = contrasts(frame.gray, options_.view);
   current_at_ = frame.stamp;
 }
 
-bool CeilingMotion::keep() {
+bool CeilingMotion::set_keyframe() {
   points_.clear();
-  kept_at_.reset();
+  keyframe_stamp_.reset();
   const int side = options_.cell_px;
   // Not near the edge, where a vignette is no slow change: what is beyond it nobody knows.
   const auto margin = static_cast<int>(options_.view.contrast_reach_px);
@@ -75,7 +75,7 @@ bool CeilingMotion::keep() {
   double squares = 0.0;
   for (const Point& point : points_) squares += point.gray * point.gray;
   if (std::sqrt(squares / static_cast<double>(points_.size())) < options_.least_contrast_gray) return false;
-  kept_at_ = current_at_;
+  keyframe_stamp_ = current_at_;
   return true;
 }
 
@@ -122,14 +122,14 @@ std::optional<CeilingMotion::Point> CeilingMotion::point_at(int row, int column)
 }
 
 /// By every fourth point.
-CeilingMotion::Overlap CeilingMotion::overlap(const Pose2& kept_from_now) const {
+CeilingMotion::Overlap CeilingMotion::overlap(const Pose2& keyframe_from_now) const {
   constexpr std::size_t every = 4;
-  const Pose2 now_from_kept = inverse(kept_from_now);
+  const Pose2 now_from_keyframe = inverse(keyframe_from_now);
   std::size_t looked_at = 0;
   std::size_t in_view = 0;
   double shifts_px = 0.0;
   for (std::size_t i = 0; i < points_.size(); i += every, ++looked_at) {
-    const std::optional<Vec2> pixel = view_.pixel_of(now_from_kept * points_[i].on_ceiling_m);
+    const std::optional<Vec2> pixel = view_.pixel_of(now_from_keyframe * points_[i].on_ceiling_m);
     if (!pixel || !is_within(current_, *pixel)) continue;
     ++in_view;
     shifts_px += (*pixel - points_[i].pixel).norm();
@@ -140,13 +140,13 @@ CeilingMotion::Overlap CeilingMotion::overlap(const Pose2& kept_from_now) const 
 }
 
 /// False where too few of the kept points are in view.
-bool CeilingMotion::sample(const Lie& lie, std::vector<Sample>& seen) const {
-  const Pose2 now_from_kept = inverse(lie.kept_from_now);
-  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(now_from_kept.yaw_rad).toRotationMatrix();
+bool CeilingMotion::sample(const Alignment& alignment, std::vector<Sample>& seen) const {
+  const Pose2 now_from_keyframe = inverse(alignment.keyframe_from_now);
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(now_from_keyframe.yaw_rad).toRotationMatrix();
   seen.clear();
   for (const Point& point : points_) {
-    const Vec2 upright_m = point.on_ceiling_m - view_.shift_by_lean(point.on_ceiling_m) * lie.lean_rad;
-    const std::optional<Vec2> pixel = view_.pixel_of(turn * upright_m + now_from_kept.position_m);
+    const Vec2 upright_m = point.on_ceiling_m - view_.shift_by_lean(point.on_ceiling_m) * alignment.lean_rad;
+    const std::optional<Vec2> pixel = view_.pixel_of(turn * upright_m + now_from_keyframe.position_m);
     if (pixel && is_within(current_, *pixel)) seen.push_back({&point, gray_at(current_, *pixel)});
   }
   return std::ssize(seen) >= options_.least_points &&
@@ -203,22 +203,23 @@ std::optional<CeilingMotion::Fit> CeilingMotion::fit(std::span<const Sample> see
   return fit;
 }
 
-std::optional<VisualOdometryIncrement> CeilingMotion::motion(const Pose2& expected_kept_from_now) const {
-  if (!kept_at_ || overlap(expected_kept_from_now).shift_px < options_.least_shift_px) return std::nullopt;
-  Lie lie{expected_kept_from_now};
+std::optional<VisualOdometryIncrement> CeilingMotion::motion(const Pose2& expected_keyframe_from_now) const {
+  if (!keyframe_stamp_ || overlap(expected_keyframe_from_now).shift_px < options_.least_shift_px)
+    return std::nullopt;
+  Alignment alignment{expected_keyframe_from_now};
   std::vector<Sample> seen;
   seen.reserve(points_.size());
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    if (!sample(lie, seen)) return std::nullopt;
-    const std::optional<Fit> fitted = fit(seen, lie.lean_rad);
+    if (!sample(alignment, seen)) return std::nullopt;
+    const std::optional<Fit> fitted = fit(seen, alignment.lean_rad);
     if (!fitted) return std::nullopt;
-    // The current picture, where it is taken to lie, shows the kept one changed: so it lies changed.
+    // The current picture, where it is taken to alignment, shows the kept one changed: so it lies changed.
     const Pose2 shift{fitted->change.head<2>(), fitted->change[2]};
-    lie.kept_from_now = shift * lie.kept_from_now;
-    lie.lean_rad += fitted->change.tail<2>();
-    const Pose2 astray = inverse(expected_kept_from_now) * lie.kept_from_now;
-    if (astray.position_m.norm() > options_.most_astray_m ||
-        std::abs(astray.yaw_rad) > options_.most_astray_rad) {
+    alignment.keyframe_from_now = shift * alignment.keyframe_from_now;
+    alignment.lean_rad += fitted->change.tail<2>();
+    const Pose2 deviation = inverse(expected_keyframe_from_now) * alignment.keyframe_from_now;
+    if (deviation.position_m.norm() > options_.max_deviation_m ||
+        std::abs(deviation.yaw_rad) > options_.max_deviation_rad) {
       return std::nullopt;
     }
     if (shift.position_m.norm() > settled_m || std::abs(shift.yaw_rad) > settled_rad) continue;
@@ -226,17 +227,20 @@ std::optional<VisualOdometryIncrement> CeilingMotion::motion(const Pose2& expect
         fitted->correlation < options_.least_correlation) {
       return std::nullopt;
     }
-    return concluded(lie, fitted->covariance.topLeftCorner<3, 3>());
+    return concluded(alignment, fitted->covariance.topLeftCorner<3, 3>());
   }
   return std::nullopt;
 }
 
-VisualOdometryIncrement CeilingMotion::concluded(const Lie& lie,
+VisualOdometryIncrement CeilingMotion::concluded(const Alignment& alignment,
                                                  const Eigen::Matrix3d& covariance_of_shift) const {
   Eigen::Matrix3d pose_by_shift = Eigen::Matrix3d::Identity();
-  pose_by_shift.topRightCorner<2, 1>() << -lie.kept_from_now.position_m.y(), lie.kept_from_now.position_m.x();
-  VisualOdometryIncrement motion{
-      .from = *kept_at_, .to = current_at_, .then_from_now = lie.kept_from_now, .sway_m = sway_m_};
+  pose_by_shift.topRightCorner<2, 1>() << -alignment.keyframe_from_now.position_m.y(),
+      alignment.keyframe_from_now.position_m.x();
+  VisualOdometryIncrement motion{.from = *keyframe_stamp_,
+                                 .to = current_at_,
+                                 .then_from_now = alignment.keyframe_from_now,
+                                 .sway_m = sway_m_};
   motion.covariance = pose_by_shift * covariance_of_shift * pose_by_shift.transpose();
   motion.covariance.diagonal() +=
       Vec3(square(options_.own_sigma_m), square(options_.own_sigma_m), square(options_.own_sigma_rad));

@@ -20,16 +20,16 @@ struct CeilingMotionOptions {
   int cell_px = 16;        ///< points are spread over the reduced picture by cells of this side,
   int most_in_a_cell = 4;  ///< the sharpest so many of each
   int least_points = 100;
-  double least_contrast_gray = 0.4;   ///< standard deviation at the points; less is a plain ceiling
-  double least_correlation = 0.8;     ///< of both pictures at the points, when they lie upon each other,
+  double least_contrast_gray = 0.4;  ///< standard deviation at the points; less is a plain ceiling
+  double least_correlation = 0.8;    ///< of both pictures at the points, when they alignment upon each other,
   double least_share_agreeing = 0.6;  ///< at so many of those in view or more; the others are no ceiling
   double least_share_in_view = 0.5;   ///< of the kept picture's points
-  double keep_share_in_view = 0.75;   ///< with fewer than these a new picture is kept
+  double new_keyframe_share_in_view = 0.75;  ///< with fewer than these a new picture is kept
   /// Nearer to the kept picture than this (mean over its points) nobody can tell the ceiling from what the
   /// camera carries along, and wheels know as much.
   double least_shift_px = 3.0;
-  double most_astray_m = 0.04;  ///< from what was expected; farther away something else looks alike
-  double most_astray_rad = radians(6.0);
+  double max_deviation_m = 0.04;  ///< from what was expected; farther away something else looks alike
+  double max_deviation_rad = radians(6.0);
   double sharpness_sigma_px = 0.1;  ///< a sharp edge between pixels is not known better than to this
   double own_sigma_m = 0.0004;      ///< of the method, besides noise
   double own_sigma_rad = radians(0.02);
@@ -50,21 +50,21 @@ class CeilingMotion {
                 double lean_sigma_rad, const CeilingMotionOptions& options = {});
 
   /// From now on this is the current picture. CV_8UC1 of the camera's size.
-  void look(const Frame& frame);
+  void set_frame(const Frame& frame);
 
   /// Keeps the current picture. False, and nothing is kept any more, where the ceiling is too plain.
-  bool keep();
+  bool set_keyframe();
 
-  [[nodiscard]] std::optional<Stamp> kept_at() const { return kept_at_; }
+  [[nodiscard]] std::optional<Stamp> keyframe_stamp() const { return keyframe_stamp_; }
 
   /// Would a robot there see so little of the kept picture that another should be kept?
-  [[nodiscard]] bool leaves_view(const Pose2& kept_from_now) const {
-    return overlap(kept_from_now).share_in_view < options_.keep_share_in_view;
+  [[nodiscard]] bool leaves_view(const Pose2& keyframe_from_now) const {
+    return overlap(keyframe_from_now).share_in_view < options_.new_keyframe_share_in_view;
   }
 
   /// From the kept picture to the current one, near to what is expected. Nothing where these do not show the
   /// same.
-  [[nodiscard]] std::optional<VisualOdometryIncrement> motion(const Pose2& expected_kept_from_now) const;
+  [[nodiscard]] std::optional<VisualOdometryIncrement> motion(const Pose2& expected_keyframe_from_now) const;
 
   /// Standard deviation of how far a swaying body's camera sees itself aside.
   [[nodiscard]] double sway_m() const { return sway_m_; }
@@ -82,8 +82,8 @@ class CeilingMotion {
     Change gray_by_change;
   };
   /// How the current picture lies upon the kept one.
-  struct Lie {
-    Pose2 kept_from_now;
+  struct Alignment {
+    Pose2 keyframe_from_now;
     Vec2 lean_rad = Vec2::Zero();
   };
   /// What the current picture has of the kept one.
@@ -102,11 +102,11 @@ class CeilingMotion {
     double correlation = 0.0;
   };
 
-  [[nodiscard]] Overlap overlap(const Pose2& kept_from_now) const;
-  [[nodiscard]] bool sample(const Lie& lie, std::vector<Sample>& seen) const;
+  [[nodiscard]] Overlap overlap(const Pose2& keyframe_from_now) const;
+  [[nodiscard]] bool sample(const Alignment& alignment, std::vector<Sample>& seen) const;
   [[nodiscard]] static double noise_of(std::span<const Sample> seen);
   [[nodiscard]] std::optional<Fit> fit(std::span<const Sample> seen, const Vec2& lean_rad) const;
-  [[nodiscard]] VisualOdometryIncrement concluded(const Lie& lie,
+  [[nodiscard]] VisualOdometryIncrement concluded(const Alignment& alignment,
                                                   const Eigen::Matrix3d& covariance_of_shift) const;
   [[nodiscard]] std::optional<Point> point_at(int row, int column) const;
   void choose_points_of_cell(const cv::Rect& cell);
@@ -118,7 +118,7 @@ class CeilingMotion {
   cv::Mat1f current_;
   Stamp current_at_;
   std::vector<Point> points_;
-  std::optional<Stamp> kept_at_;
+  std::optional<Stamp> keyframe_stamp_;
 };
 
 }  // namespace lodestar

@@ -18,8 +18,9 @@ double mean_of(std::span<const Dot> dots, double Dot::* value) {
 
 }  // namespace
 
-CellEvidence look_at_cells(const cv::Mat& gray, const MarkerGrid& grid, std::span<const MarkerDot> in_cells,
-                           std::span<const Dot> dots, const CellEvidenceOptions& options) {
+CellEvidence evidence_of_cells(const cv::Mat& gray, const MarkerGrid& grid,
+                               std::span<const MarkerDot> in_cells, std::span<const Dot> dots,
+                               const CellEvidenceOptions& options) {
   const double radius_px = mean_of(dots, &Dot::radius_px);
   const double background = mean_of(dots, &Dot::background_gray);
   const double contrast = mean_of(dots, &Dot::contrast_gray);

@@ -30,8 +30,9 @@ struct CellEvidenceOptions {
 /// Looks at every cell of a marker. A cell with one of the marker's dots is bright. One without must be seen,
 /// and seen dark: the ID says as much by the dots it has not as by those it has. So a dot that is dirty, cut
 /// by the border or lost in a lamp leaves its cell undecided.
-CellEvidence look_at_cells(const cv::Mat& gray, const MarkerGrid& grid, std::span<const MarkerDot> in_cells,
-                           std::span<const Dot> dots, const CellEvidenceOptions& options);
+CellEvidence evidence_of_cells(const cv::Mat& gray, const MarkerGrid& grid,
+                               std::span<const MarkerDot> in_cells, std::span<const Dot> dots,
+                               const CellEvidenceOptions& options);
 
 /// How many of these dots lie within a marker's grid.
 std::size_t dots_within(const MarkerGrid& grid, std::span<const Dot> dots);

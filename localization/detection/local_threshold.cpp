@@ -181,7 +181,7 @@ void LocalThresholds::find_within(std::span<const cv::Rect> parts, const cv::Mat
     const int first = inside.x / tile;
     const int last = (inside.br().x - 1) / tile;
     for (int row = inside.y / tile; row <= (inside.br().y - 1) / tile; ++row)
-      look_at_tiles(gray, row, first, last + 1);
+      examine_tiles(gray, row, first, last + 1);
   }
   for (const cv::Point& at : bright_tiles_) correct_for_neighbours(gray, at);
 }
@@ -189,7 +189,7 @@ void LocalThresholds::find_within(std::span<const cv::Rect> parts, const cv::Mat
 /// Every other row tells whether a closer look is worth while: half a pixel above or below its middle even
 /// the smallest dot has more than this share of its light. Noise adds to the range of these rows as to that
 /// of all: the darkest of 512 pixels is rarely less than 2.5 sigmas below their mean.
-void LocalThresholds::look_at_tiles(const cv::Mat& gray, int row, int first, int end) {
+void LocalThresholds::examine_tiles(const cv::Mat& gray, int row, int first, int end) {
   constexpr double share_between_rows = 0.65;
   constexpr std::size_t at_once = 64;
   constexpr double sigmas_below_mean = 2.5;

@@ -43,7 +43,7 @@ class LocalThresholds {
   [[nodiscard]] std::uint8_t of_tile(int row, int column) const { return thresholds_[index({column, row})]; }
 
  private:
-  void look_at_tiles(const cv::Mat& gray, int row, int first, int end);
+  void examine_tiles(const cv::Mat& gray, int row, int first, int end);
   void set_tile(const cv::Point& at, int darkest, int brightest);
   void correct_for_neighbours(const cv::Mat& gray, const cv::Point& at);
   [[nodiscard]] std::size_t index(const cv::Point& tile) const {

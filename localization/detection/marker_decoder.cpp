@@ -177,7 +177,7 @@ std::span<const MarkerReading> AreaReader::read(std::span<const Dot> dots) {
   }
   if (!options_.every_corner) return {};
   read_every_corner(dots);
-  leave_out_conflicts();
+  reject_conflicts();
   if (!readings_.empty()) read_the_rest(dots);
   return readings_;
 }
@@ -198,7 +198,7 @@ void AreaReader::read_every_corner(std::span<const Dot> dots) {
   }
 }
 
-void AreaReader::leave_out_conflicts() {
+void AreaReader::reject_conflicts() {
   for (const MarkerReading& reading : tried_) {
     const auto conflicts = [&](const MarkerReading& other) {
       return &other != &reading && share_a_dot(reading, other);

@@ -85,7 +85,7 @@ class AreaReader {
 
  private:
   void read_every_corner(std::span<const Dot> dots);
-  void leave_out_conflicts();
+  void reject_conflicts();
   void read_the_rest(std::span<const Dot> dots);
 
   MarkerDecoderOptions options_;

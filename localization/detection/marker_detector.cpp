@@ -126,13 +126,13 @@ void for_each_square(const DotLattice& lattice, std::span<const Dot> dots, const
 }
 
 /// Of the dots beside the lattice, those that lie within the marker or right beside it.
-std::size_t strangers_in(const Square& square, std::span<const Dot> dots) {
+std::size_t extra_dots_in(const Square& square, std::span<const Dot> dots) {
   const std::size_t near = dots_within(square.grid, dots);
   return near - std::min(near, square.dots.size());
 }
 
 /// A marker's ID and how it hangs in a square.
-struct Hanging {
+struct PlacedMarker {
   Square square;
   int quarters = 0;
   IdReading id;
@@ -140,11 +140,11 @@ struct Hanging {
 
 /// A lattice fits any few dots, and a square of it somebody's ID: what speaks against a reading must be
 /// balanced by dots that speak for it.
-bool is_trusted(const Hanging& marker, std::size_t strangers, const IdDecoder& decoder,
+bool is_trusted(const PlacedMarker& marker, std::size_t extra_dots, const IdDecoder& decoder,
                 const LatticeOptions& options) {
   const std::size_t dots = marker.square.dots.size();
   return decoder.accepts(marker.id.id) && marker.id.contradicting <= options.most_contradicting &&
-         4 * strangers <= dots && (marker.id.contradicting == 0 || dots >= options.least_dots_contradicted);
+         4 * extra_dots <= dots && (marker.id.contradicting == 0 || dots >= options.least_dots_contradicted);
 }
 
 constexpr int pixels_at_once = sizeof(SixteenPixels);
@@ -232,7 +232,7 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const
       markers_.push_back(detected(reading.id, 0.0, confidence_of(gray, own), reading.dots, grid_place));
       continue;
     }
-    const CellEvidence cells = look_at_cells(gray, reading.grid, reading.dots, own, options_.evidence);
+    const CellEvidence cells = evidence_of_cells(gray, reading.grid, reading.dots, own, options_.evidence);
     const bool cover_shows = shows_a_cover(reading.grid, own, of_frame, options_.evidence);
     const IdReading id = id_decoder_.read(cells, cover_shows);
     const double probability = id.weight / id.all_weight;
@@ -253,24 +253,24 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<con
   const DotsOfArea usual = dots_of_usual_size(dots, options_.decoder);
   const std::optional<DotLattice> lattice = find_lattice(usual, options_.lattice);
   if (!lattice) return;
-  std::optional<Hanging> best;
+  std::optional<PlacedMarker> best;
   double all_weight = 0.0;
   bool is_decided = true;
   for_each_square(*lattice, usual, [&](const Square& square) {
     const CellEvidence cells =
-        look_at_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
+        evidence_of_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
     const bool cover_shows = shows_a_cover(square.grid, square.measured, of_frame, options_.evidence);
     is_decided = is_decided && cells.undecided() <= options_.most_undecided;
     for (int turn = 0; turn < quarter_turns; ++turn) {
       const IdReading id = id_decoder_.read(evidence_turned(cells, turn), cover_shows);
       all_weight += id.all_weight;
-      if (!best || id.weight > best->id.weight) best = Hanging{square, turn, id};
+      if (!best || id.weight > best->id.weight) best = PlacedMarker{square, turn, id};
     }
   });
   if (!best || !is_decided) return;  // any of the squares may be the one
   const double probability = best->id.weight / all_weight;
   if (probability < options_.lattice.least_probability ||
-      !is_trusted(*best, strangers_in(best->square, dots), id_decoder_, options_.lattice)) {
+      !is_trusted(*best, extra_dots_in(best->square, dots), id_decoder_, options_.lattice)) {
     return;
   }
   markers_.push_back(detected(best->id.id, probability, confidence_of(gray, best->square.measured),

@@ -71,10 +71,10 @@ bool rests_on(const PlanarFix& fix, int id) {
 
 /// Share of the common error that this fix has: each marker has its own error, so a marker not seen nearby
 /// contributes an independent one.
-double share_kept(const std::vector<MarkerOnTheWay>& markers, const PlanarFix& fix) {
+double share_kept(const std::vector<RecentMarker>& markers, const PlanarFix& fix) {
   if (fix.ids.empty()) return 1.0;
   const auto known =
-      std::ranges::count_if(markers, [&](const MarkerOnTheWay& marker) { return rests_on(fix, marker.id); });
+      std::ranges::count_if(markers, [&](const RecentMarker& marker) { return rests_on(fix, marker.id); });
   return std::sqrt(static_cast<double>(known) / static_cast<double>(fix.ids.size()));
 }
 
@@ -83,11 +83,11 @@ double share_kept(const std::vector<MarkerOnTheWay>& markers, const PlanarFix& f
 Belief sharing(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   Belief result = belief;
   const double here_m = rolled_m(belief.travel);
-  std::erase_if(result.markers, [&](const MarkerOnTheWay& marker) {
+  std::erase_if(result.markers, [&](const RecentMarker& marker) {
     return std::abs(here_m - marker.rolled_m) > fix_bias_reach_m;
   });
   const double kept = share_kept(result.markers, fix);
-  std::erase_if(result.markers, [&](const MarkerOnTheWay& marker) { return rests_on(fix, marker.id); });
+  std::erase_if(result.markers, [&](const RecentMarker& marker) { return rests_on(fix, marker.id); });
   for (const int id : fix.ids) result.markers.push_back({id, here_m});
 
   result.shared = shared_covariance(fix, options);
@@ -120,7 +120,7 @@ Innovation innovation_of(const Belief& belief, const PlanarFix& fix, const PoseF
 }
 
 /// A belief, augmented by the pose that a frame of its time shows.
-struct WithPicture {
+struct WithFramePose {
   using State = Eigen::Matrix<double, 15, 1>;
   using Covariance = Eigen::Matrix<double, 15, 15>;
 
@@ -128,8 +128,8 @@ struct WithPicture {
   Covariance covariance;
 };
 
-WithPicture with_picture(const Belief& belief, double sway_m, const PoseFilterOptions& options) {
-  WithPicture both;
+WithFramePose with_frame_pose(const Belief& belief, double sway_m, const PoseFilterOptions& options) {
+  WithFramePose both;
   both.mean << belief.mean, belief.mean.head<3>();
   both.covariance << belief.covariance, belief.covariance.leftCols<3>(), belief.covariance.topRows<3>(),
       belief.covariance.topLeftCorner<3, 3>() + rounding_covariance(options);
@@ -138,7 +138,7 @@ WithPicture with_picture(const Belief& belief, double sway_m, const PoseFilterOp
 }
 
 /// The frame's pose replaces the keyframe's in the belief.
-void keep_picture(const WithPicture& both, Belief& belief) {
+void set_keyframe(const WithFramePose& both, Belief& belief) {
   belief.mean << both.mean.head<9>(), both.mean.tail<3>();
   belief.covariance << both.covariance.topLeftCorner<9, 9>(), both.covariance.topRightCorner<9, 3>(),
       both.covariance.bottomLeftCorner<3, 9>(), both.covariance.bottomRightCorner<3, 3>();
@@ -150,7 +150,7 @@ struct MotionInnovation {
   Eigen::Matrix<double, 3, 15> by_state;
 };
 
-MotionInnovation innovation_of(const WithPicture& both, const VisualOdometryIncrement& motion) {
+MotionInnovation innovation_of(const WithFramePose& both, const VisualOdometryIncrement& motion) {
   const Pose2 then{both.mean.segment<2>(9), both.mean[11]};
   const Pose2 expected = inverse(then) * Pose2{both.mean.segment<2>(12), both.mean[14]};
   const Eigen::Matrix2d then_from_map = Eigen::Rotation2Dd(-then.yaw_rad).toRotationMatrix();
@@ -259,35 +259,35 @@ Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOpt
   return result;
 }
 
-Belief pictured(const Belief& belief, double sway_m, const PoseFilterOptions& options) {
+Belief with_keyframe(const Belief& belief, double sway_m, const PoseFilterOptions& options) {
   Belief result = belief;
-  keep_picture(with_picture(belief, sway_m, options), result);
-  result.pictured = belief.travel.stamp;
+  set_keyframe(with_frame_pose(belief, sway_m, options), result);
+  result.keyframe_stamp = belief.travel.stamp;
   return result;
 }
 
 double squared_distance(const Belief& belief, const VisualOdometryIncrement& motion,
                         const PoseFilterOptions& options) {
-  const MotionInnovation innovation = innovation_of(with_picture(belief, motion.sway_m, options), motion);
+  const MotionInnovation innovation = innovation_of(with_frame_pose(belief, motion.sway_m, options), motion);
   return innovation.error.dot(innovation.covariance.ldlt().solve(innovation.error));
 }
 
-Belief corrected(const Belief& belief, const VisualOdometryIncrement& motion, bool keeps,
+Belief corrected(const Belief& belief, const VisualOdometryIncrement& motion, bool becomes_keyframe,
                  const PoseFilterOptions& options) {
-  WithPicture both = with_picture(belief, motion.sway_m, options);
+  WithFramePose both = with_frame_pose(belief, motion.sway_m, options);
   const MotionInnovation innovation = innovation_of(both, motion);
   const Eigen::Matrix<double, 15, 3> gain =
       innovation.covariance.ldlt().solve(innovation.by_state * both.covariance).transpose();
-  const WithPicture::Covariance keep = WithPicture::Covariance::Identity() - gain * innovation.by_state;
+  const WithFramePose::Covariance keep = WithFramePose::Covariance::Identity() - gain * innovation.by_state;
   both.mean += gain * innovation.error;
   both.covariance =
       (keep * both.covariance * keep.transpose() + gain * motion.covariance * gain.transpose()).eval();
   Belief result = belief;
   result.mean = both.mean.head<12>();
   result.covariance = both.covariance.topLeftCorner<12, 12>();
-  if (keeps) {
-    keep_picture(both, result);
-    result.pictured = belief.travel.stamp;
+  if (becomes_keyframe) {
+    set_keyframe(both, result);
+    result.keyframe_stamp = belief.travel.stamp;
   }
   result.mean[2] = wrap_angle(result.mean[2]);
   result.mean[11] = wrap_angle(result.mean[11]);

@@ -23,7 +23,7 @@ struct WheelScales {
 WheelScales scales_as_built(const PoseFilterOptions& options);
 
 /// A marker, and the odometer distance at which a fix last used it.
-struct MarkerOnTheWay {
+struct RecentMarker {
   int id = 0;
   double rolled_m = 0.0;
 };
@@ -35,8 +35,8 @@ struct Belief {
   using Covariance = Eigen::Matrix<double, 12, 12>;
 
   WheelTravel travel;
-  std::optional<Stamp> pictured;        ///< capture time of the keyframe; nothing when there is none
-  std::vector<MarkerOnTheWay> markers;  ///< used by fixes nearby
+  std::optional<Stamp> keyframe_stamp;  ///< capture time of the keyframe; nothing when there is none
+  std::vector<RecentMarker> markers;    ///< used by fixes nearby
   /// Prior covariance of the error that nearby fixes share.
   Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();
   State mean = State::Zero();
@@ -44,7 +44,7 @@ struct Belief {
 
   [[nodiscard]] Pose2 map_from_base() const { return {mean.head<2>(), mean[2]}; }
   [[nodiscard]] WheelScales scales() const { return {mean.segment<3>(3), covariance.block<3, 3>(3, 3)}; }
-  [[nodiscard]] Pose2 map_from_pictured() const { return {mean.segment<2>(9), mean[11]}; }
+  [[nodiscard]] Pose2 map_from_keyframe() const { return {mean.segment<2>(9), mean[11]}; }
 };
 
 /// The belief from one fix alone.
@@ -65,17 +65,17 @@ double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFi
 Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options);
 
 /// The belief with a new keyframe, taken at the same time, in place of the old one.
-Belief pictured(const Belief& belief, double sway_m, const PoseFilterOptions& options);
+Belief with_keyframe(const Belief& belief, double sway_m, const PoseFilterOptions& options);
 
 /// Squared Mahalanobis distance, with 3 degrees of freedom, of a visual-odometry increment from the keyframe
 /// to the belief's time.
 double squared_distance(const Belief& belief, const VisualOdometryIncrement& motion,
                         const PoseFilterOptions& options);
 
-/// The belief corrected by a visual-odometry increment; `keeps`: the later frame becomes the keyframe. Its
-/// pose is better known from the old keyframe than from the base's pose, as the body sways. Cloned camera
-/// states: Roumeliotis and Burdick 2002.
-Belief corrected(const Belief& belief, const VisualOdometryIncrement& motion, bool keeps,
+/// The belief corrected by a visual-odometry increment; `becomes_keyframe`: the later frame becomes the
+/// keyframe. Its pose is better known from the old keyframe than from the base's pose, as the body sways.
+/// Cloned camera states: Roumeliotis and Burdick 2002.
+Belief corrected(const Belief& belief, const VisualOdometryIncrement& motion, bool becomes_keyframe,
                  const PoseFilterOptions& options);
 
 /// Covariance of the pose (x_m, y_m, yaw_rad).

@@ -45,22 +45,22 @@ bool BeliefHistory::add_fix(const PlanarFix& fix, const WheelTravel& travel,
   return true;
 }
 
-bool BeliefHistory::keep_picture(const WheelTravel& travel, double sway_m, const PoseFilterOptions& options) {
+bool BeliefHistory::set_keyframe(const WheelTravel& travel, double sway_m, const PoseFilterOptions& options) {
   const std::optional<Belief> expected = at(travel, options);
   if (!expected) return false;
-  put(pictured(*expected, sway_m, options), options);
+  put(with_keyframe(*expected, sway_m, options), options);
   return true;
 }
 
-bool BeliefHistory::add_motion(const VisualOdometryIncrement& motion, const WheelTravel& travel, bool keeps,
-                               const PoseFilterOptions& options) {
+bool BeliefHistory::add_motion(const VisualOdometryIncrement& motion, const WheelTravel& travel,
+                               bool becomes_keyframe, const PoseFilterOptions& options) {
   const std::optional<Belief> expected = at(travel, options);
-  if (!expected || expected->pictured != motion.from) return false;
+  if (!expected || expected->keyframe_stamp != motion.from) return false;
   if (squared_distance(*expected, motion, options) > gate_squared_distance()) return false;
   VisualOdometryIncrement weighed = motion;
   weighed.sway_m *= std::sqrt(variance_growth(std::chrono::abs(travel.stamp - last_motion_), options));
   last_motion_ = std::max(last_motion_, travel.stamp);
-  put(corrected(*expected, weighed, keeps, options), options);
+  put(corrected(*expected, weighed, becomes_keyframe, options), options);
   return true;
 }
 

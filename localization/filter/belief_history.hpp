@@ -22,11 +22,12 @@ class BeliefHistory {
   bool add_fix(const PlanarFix& fix, const WheelTravel& travel, const PoseFilterOptions& options);
 
   /// Makes a frame taken at the time of `travel` the keyframe. False when it is older than all beliefs.
-  bool keep_picture(const WheelTravel& travel, double sway_m, const PoseFilterOptions& options);
+  bool set_keyframe(const WheelTravel& travel, double sway_m, const PoseFilterOptions& options);
 
   /// Corrects as add_fix() does, by a visual-odometry increment from the keyframe to the time of `travel`;
-  /// `keeps`: that frame becomes the keyframe. False also when the increment starts from another keyframe.
-  bool add_motion(const VisualOdometryIncrement& motion, const WheelTravel& travel, bool keeps,
+  /// `becomes_keyframe`: that frame becomes the keyframe. False also when the increment starts from another
+  /// keyframe.
+  bool add_motion(const VisualOdometryIncrement& motion, const WheelTravel& travel, bool becomes_keyframe,
                   const PoseFilterOptions& options);
 
   /// The belief at the time of `travel`; nothing when that is before all beliefs.

@@ -16,7 +16,7 @@ constexpr int fixes_to_relocate = 5;
 constexpr double relocation_by_one_marker_m = 0.7;
 /// After this many consecutive refused visual-odometry increments, visual odometry is ignored until a fix
 /// agrees: either it or wheel odometry is wrong.
-constexpr int motions_refused_to_doubt = 2;
+constexpr int motions_refused_to_ignore = 2;
 /// Fixes that are ahead of the newest wheel reading by more are refused.
 constexpr Duration most_ahead = std::chrono::milliseconds(100);
 
@@ -103,25 +103,25 @@ std::optional<FixExpectation> PoseFilter::expectation(const PlanarFix& fix) cons
                         distance <= gate_squared_distance()};
 }
 
-std::optional<PictureExpectation> PoseFilter::expected_motion(Stamp stamp) const {
+std::optional<MotionExpectation> PoseFilter::expected_motion(Stamp stamp) const {
   const std::optional<WheelTravel> travel = travel_at(stamp);
   if (!travel || !believed_) return std::nullopt;
   const std::optional<Belief> belief = believed_->at(*travel, options_);
-  if (!belief || !belief->pictured) return std::nullopt;
-  return PictureExpectation{*belief->pictured,
-                            inverse(belief->map_from_pictured()) * belief->map_from_base()};
+  if (!belief || !belief->keyframe_stamp) return std::nullopt;
+  return MotionExpectation{*belief->keyframe_stamp,
+                           inverse(belief->map_from_keyframe()) * belief->map_from_base()};
 }
 
-bool PoseFilter::keep_picture(Stamp stamp, double sway_m) {
+bool PoseFilter::set_keyframe(Stamp stamp, double sway_m) {
   const std::optional<WheelTravel> travel = travel_at(stamp);
-  return travel && believed_ && believed_->keep_picture(*travel, sway_m, options_);
+  return travel && believed_ && believed_->set_keyframe(*travel, sway_m, options_);
 }
 
-bool PoseFilter::add_motion(const VisualOdometryIncrement& motion, bool keeps) {
+bool PoseFilter::add_motion(const VisualOdometryIncrement& motion, bool becomes_keyframe) {
   const std::optional<WheelTravel> travel = travel_at(motion.to);
   if (!travel || !believed_) return false;
-  const bool agrees = believed_->add_motion(motion, *travel, keeps, options_);
-  if (motions_refused_ < motions_refused_to_doubt) {
+  const bool agrees = believed_->add_motion(motion, *travel, becomes_keyframe, options_);
+  if (motions_refused_ < motions_refused_to_ignore) {
     motions_refused_ = agrees ? 0 : motions_refused_ + 1;
     if (agrees) last_agreed_ = std::max(last_agreed_, motion.to);
   }
@@ -143,23 +143,24 @@ std::optional<PoseFilter::PlacedFix> PoseFilter::placed(const PlanarFix& fix) co
   if (const std::optional<WheelTravel> travel = travel_at(fix.stamp)) return PlacedFix{fix, *travel};
   const bool is_ahead = readings_.size() >= 2 && fix.stamp > readings_.back().stamp &&
                         fix.stamp <= readings_.back().stamp + most_ahead;
-  return is_ahead ? std::optional(brought_back(fix)) : std::nullopt;
+  return is_ahead ? std::optional(at_newest_reading(fix)) : std::nullopt;
 }
 
 /// Moves a fix that is ahead of the newest wheel reading back to it, at the wheels' last speed. Half of the
 /// distance thus extrapolated counts as uncertainty.
-PoseFilter::PlacedFix PoseFilter::brought_back(const PlanarFix& fix) const {
+PoseFilter::PlacedFix PoseFilter::at_newest_reading(const PlanarFix& fix) const {
   const WheelTravel& newest = readings_.back();
   const WheelTravel ahead = interpolated(readings_[readings_.size() - 2], newest, fix.stamp);
   const double left_m = ahead.left_m - newest.left_m;
   const double right_m = ahead.right_m - newest.right_m;
-  const double doubt_m = 0.5 * std::max(std::abs(left_m), std::abs(right_m));
-  const double doubt_rad = 2.0 * doubt_m / options_.track_width_m;
+  const double uncertainty_m = 0.5 * std::max(std::abs(left_m), std::abs(right_m));
+  const double uncertainty_rad = 2.0 * uncertainty_m / options_.track_width_m;
   const Pose2 newest_from_ahead = rolled({}, left_m, right_m, options_.track_width_m);
 
   PlacedFix placed{fix, newest};
   placed.fix.map_from_base = fix.map_from_base * inverse(newest_from_ahead);
-  placed.fix.covariance.diagonal() += Vec3(doubt_m * doubt_m, doubt_m * doubt_m, doubt_rad * doubt_rad);
+  placed.fix.covariance.diagonal() +=
+      Vec3(uncertainty_m * uncertainty_m, uncertainty_m * uncertainty_m, uncertainty_rad * uncertainty_rad);
   return placed;
 }
 

@@ -29,7 +29,7 @@ struct FixExpectation {
 };
 
 /// Predicted visual-odometry increment.
-struct PictureExpectation {
+struct MotionExpectation {
   Stamp from;  ///< capture time of the keyframe
   Pose2 then_from_now;
 };
@@ -54,15 +54,16 @@ class PoseFilter {
 
   /// The capture time of the keyframe, and the predicted motion from it to the given time. Nothing without a
   /// keyframe, and beyond the wheels' readings.
-  [[nodiscard]] std::optional<PictureExpectation> expected_motion(Stamp stamp) const;
+  [[nodiscard]] std::optional<MotionExpectation> expected_motion(Stamp stamp) const;
 
   /// Makes the frame of that time the keyframe of visual odometry. False, without any change, before the
   /// start and beyond the wheels' readings.
-  bool keep_picture(Stamp stamp, double sway_m);
+  bool set_keyframe(Stamp stamp, double sway_m);
 
-  /// Corrects the belief by a visual-odometry increment from the keyframe; `keeps`: the later frame becomes
-  /// the keyframe. False, without any change, where it contradicts odometry or starts from another keyframe.
-  bool add_motion(const VisualOdometryIncrement& motion, bool keeps);
+  /// Corrects the belief by a visual-odometry increment from the keyframe; `becomes_keyframe`: the later
+  /// frame becomes the keyframe. False, without any change, where it contradicts odometry or starts from
+  /// another keyframe.
+  bool add_motion(const VisualOdometryIncrement& motion, bool becomes_keyframe);
 
   /// Sets the initial pose, whatever was believed. False, without any change, when the fix is beyond the
   /// wheels' readings.
@@ -105,7 +106,7 @@ class PoseFilter {
 
   [[nodiscard]] std::optional<WheelTravel> travel_at(Stamp stamp) const;
   [[nodiscard]] std::optional<PlacedFix> placed(const PlanarFix& fix) const;
-  [[nodiscard]] PlacedFix brought_back(const PlanarFix& fix) const;
+  [[nodiscard]] PlacedFix at_newest_reading(const PlanarFix& fix) const;
   void add_to_rival(const PlacedFix& placed);
   [[nodiscard]] bool rival_prevails() const;
   void begin_with(Rival rival, Stamp last_fix);
@@ -119,7 +120,8 @@ class PoseFilter {
   std::optional<Rival> rival_;
   Stamp last_fix_;
   Stamp last_agreed_;
-  /// Consecutive refusals since a fix agreed; from `motions_refused_to_doubt` on, visual odometry is ignored.
+  /// Consecutive refusals since a fix agreed; from `motions_refused_to_ignore` on, visual odometry is
+  /// ignored.
   int motions_refused_ = 0;
 };
 

@@ -55,7 +55,7 @@ std::string_view to_string(CameraFault fault) {
   return "";
 }
 
-std::optional<CameraFault> CameraWatch::take_in(const Frame& frame, Stamp now) {
+std::optional<CameraFault> CameraWatch::update(const Frame& frame, Stamp now) {
   const Sample sample = sample_of(frame.gray);
   const bool is_white = sample.darkest > options_.bright_gray;
   const bool is_same = last_picture_ == sample.hash && !is_white;

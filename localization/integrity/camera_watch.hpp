@@ -41,7 +41,7 @@ class CameraWatch {
 
   /// What is wrong with a frame that has just arrived; nothing when it can be used. Dark and bright ones can,
   /// for what they are worth.
-  std::optional<CameraFault> take_in(const Frame& frame, Stamp now);
+  std::optional<CameraFault> update(const Frame& frame, Stamp now);
 
   /// What is wrong with the camera now. It is not missed before its first frame.
   [[nodiscard]] std::optional<CameraFault> fault(Stamp now) const;

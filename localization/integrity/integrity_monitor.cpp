@@ -25,11 +25,11 @@ void IntegrityMonitor::add_fix(const FixVerdict& fix) {
     case FixOutcome::accepted:
       return agree();
     case FixOutcome::started:
-      if (is_out_of_reach(fix)) for_good_ = IntegrityAlarm::carried_away;
-      blamed_at_.reset();
+      if (is_out_of_reach(fix)) latched_ = IntegrityAlarm::carried_away;
+      failure_.reset();
       return agree();
     case FixOutcome::relocated:
-      if (is_gross(fix)) for_good_ = IntegrityAlarm::carried_away;
+      if (is_gross(fix)) latched_ = IntegrityAlarm::carried_away;
       moved_at_ = fix.stamp;
       return agree();
     case FixOutcome::refused_gate:
@@ -61,20 +61,20 @@ void IntegrityMonitor::contradict(const FixVerdict& fix) {
       std::abs(wrap_angle(map_from_estimated.yaw_rad - first.map_from_estimated.yaw_rad));
   if (apart_m <= options_.steady_m && turned_rad <= options_.steady_rad) return;
   if (rolled_m_ - first.rolled_m < options_.rolled_m) {
-    for_good_ = IntegrityAlarm::carried_away;
+    latched_ = IntegrityAlarm::carried_away;
   } else {
-    blame_wheels(fix);
+    register_odometry_failure(fix);
   }
 }
 
-void IntegrityMonitor::blame_wheels(const FixVerdict& fix) {
-  fooled_ = true;
-  blamed_at_ = Blame{fix.expected->position_m, rolled_m_};
+void IntegrityMonitor::register_odometry_failure(const FixVerdict& fix) {
+  failure_is_new_ = true;
+  failure_ = OdometryFailure{fix.expected->position_m, rolled_m_};
   witnesses_.clear();
   gross_in_a_row_ = 0;
   std::erase_if(wheel_errors_, [&](Stamp error) { return fix.stamp - error > options_.memory; });
   wheel_errors_.push_back(fix.stamp);
-  if (wheel_errors_.size() >= options_.most_wheel_errors) for_good_ = IntegrityAlarm::wheels_broken;
+  if (wheel_errors_.size() >= options_.most_wheel_errors) latched_ = IntegrityAlarm::wheels_broken;
 }
 
 bool IntegrityMonitor::is_gross(const FixVerdict& fix) const {
@@ -86,16 +86,16 @@ bool IntegrityMonitor::is_gross(const FixVerdict& fix) const {
 /// The belief that begins anew after wheels were wrong cannot begin farther away than they have rolled since:
 /// there a marker lies, or somebody has carried the robot.
 bool IntegrityMonitor::is_out_of_reach(const FixVerdict& start) const {
-  return blamed_at_ && (start.map_from_base.position_m - blamed_at_->position_m).norm() >
-                           rolled_m_ - blamed_at_->rolled_m + options_.gross_m;
+  return failure_ && (start.map_from_base.position_m - failure_->position_m).norm() >
+                         rolled_m_ - failure_->rolled_m + options_.gross_m;
 }
 
-bool IntegrityMonitor::wheels_fooled_us() {
-  return std::exchange(fooled_, false);
+bool IntegrityMonitor::take_odometry_failure() {
+  return std::exchange(failure_is_new_, false);
 }
 
-std::optional<IntegrityAlarm> IntegrityMonitor::reason(Stamp now) const {
-  if (for_good_) return for_good_;
+std::optional<IntegrityAlarm> IntegrityMonitor::alarm(Stamp now) const {
+  if (latched_) return latched_;
   if (gross_in_a_row_ >= options_.gross_fixes_to_stop) return IntegrityAlarm::contradicted;
   if (!wheel_errors_.empty() && now - wheel_errors_.back() <= options_.calm)
     return IntegrityAlarm::wheels_wrong;

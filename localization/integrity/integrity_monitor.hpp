@@ -56,10 +56,10 @@ class IntegrityMonitor {
   void add_fix(const FixVerdict& fix);
 
   /// True once for each time that the wheels turned out wrong: what was believed by them is void.
-  bool wheels_fooled_us();
+  bool take_odometry_failure();
 
   /// Nothing when there is no doubt. For good means: until somebody makes a new Doubt.
-  [[nodiscard]] std::optional<IntegrityAlarm> reason(Stamp now) const;
+  [[nodiscard]] std::optional<IntegrityAlarm> alarm(Stamp now) const;
 
   /// Have fixes contradicted the estimate, and none agreed since?
   [[nodiscard]] bool is_contradicted() const { return !witnesses_.empty(); }
@@ -75,14 +75,14 @@ class IntegrityMonitor {
   };
 
   /// Where the estimate had the robot when its wheels turned out wrong.
-  struct Blame {
+  struct OdometryFailure {
     Vec2 position_m;
     double rolled_m = 0.0;
   };
 
   void agree();
   void contradict(const FixVerdict& fix);
-  void blame_wheels(const FixVerdict& fix);
+  void register_odometry_failure(const FixVerdict& fix);
   [[nodiscard]] bool is_out_of_reach(const FixVerdict& start) const;
   [[nodiscard]] bool is_gross(const FixVerdict& fix) const;
 
@@ -93,10 +93,10 @@ class IntegrityMonitor {
   int gross_in_a_row_ = 0;
   std::map<int, Witness> witnesses_;
   std::vector<Stamp> wheel_errors_;
-  bool fooled_ = false;
-  std::optional<Blame> blamed_at_;
+  bool failure_is_new_ = false;
+  std::optional<OdometryFailure> failure_;
   std::optional<Stamp> moved_at_;
-  std::optional<IntegrityAlarm> for_good_;
+  std::optional<IntegrityAlarm> latched_;
 };
 
 }  // namespace lodestar

@@ -25,7 +25,7 @@ void add_last(std::vector<int>& ids, int id) {
 
 }  // namespace
 
-void MarkerTrust::charge(const MarkerSighting& sighting) {
+void MarkerTrust::add_contradiction(const MarkerSighting& sighting) {
   if (sighting.squared_distance <= gate_squared_distance()) return;
   if (witnesses_beside(sighting.id) < options_.witnesses) return;
   Suspect& suspect = suspects_[sighting.id];
@@ -34,7 +34,7 @@ void MarkerTrust::charge(const MarkerSighting& sighting) {
   suspect.open.offset_sum += offset_of(sighting);
 }
 
-void MarkerTrust::support(std::span<const int> ids) {
+void MarkerTrust::add_agreement(std::span<const int> ids) {
   for (const int id : ids) add_last(witnesses_, id);
   if (witnesses_.size() > options_.remembered_witnesses) {
     const auto forgotten =
@@ -60,7 +60,7 @@ void MarkerTrust::confirm(Suspect& suspect, std::span<const int> ids) {
   suspect.open = {};
   suspect.confirmed_by.clear();
   suspect.distrusted =
-      suspect.confirmed.count >= options_.charges_to_distrust && is_elsewhere(suspect.confirmed);
+      suspect.confirmed.count >= options_.contradictions_to_distrust && is_elsewhere(suspect.confirmed);
 }
 
 void MarkerTrust::estimate_moved() {
@@ -71,8 +71,8 @@ void MarkerTrust::estimate_moved() {
   witnesses_.clear();
 }
 
-bool MarkerTrust::is_elsewhere(const Charges& charges) const {
-  const Vec3 offset = charges.offset_sum / std::max(charges.count, 1);
+bool MarkerTrust::is_elsewhere(const Contradictions& contradictions) const {
+  const Vec3 offset = contradictions.offset_sum / std::max(contradictions.count, 1);
   return offset.head<2>().norm() > options_.tolerated_offset_m ||
          std::abs(offset.z()) > options_.tolerated_turn_rad;
 }

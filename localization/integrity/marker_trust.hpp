@@ -10,9 +10,9 @@
 namespace lodestar {
 
 struct MarkerTrustOptions {
-  int witnesses = 2;                 ///< other markers that must agree with the estimate, before and after
-  int charges_to_distrust = 6;       ///< confirmed contradictions, agreements deducted
-  double tolerated_offset_m = 0.03;  ///< a marker surveyed no worse than this is never accused
+  int witnesses = 2;                   ///< other markers that must agree with the estimate, before and after
+  int contradictions_to_distrust = 6;  ///< confirmed contradictions, agreements deducted
+  double tolerated_offset_m = 0.03;    ///< a marker surveyed no worse than this is never accused
   double tolerated_turn_rad = radians(3.0);
   std::size_t remembered_witnesses = 6;  ///< the markers that agreed last
 };
@@ -42,11 +42,11 @@ class MarkerTrust {
  public:
   explicit MarkerTrust(const MarkerTrustOptions& options = {}) : options_(options) {}
 
-  /// What one marker alone says. Fixes that agree with the estimate belong to support() instead.
-  void charge(const MarkerSighting& sighting);
+  /// What one marker alone says. Fixes that agree with the estimate belong to add_agreement() instead.
+  void add_contradiction(const MarkerSighting& sighting);
 
   /// These markers, together, agree with the estimate.
-  void support(std::span<const int> ids);
+  void add_agreement(std::span<const int> ids);
 
   /// The estimate was wrong: no open charge stands, nor what witnesses said for it.
   void estimate_moved();
@@ -57,20 +57,20 @@ class MarkerTrust {
   [[nodiscard]] std::vector<DistrustedMarker> distrusted() const;
 
  private:
-  /// Sums over the charges against one marker.
-  struct Charges {
+  /// Sums over the contradictions against one marker.
+  struct Contradictions {
     int count = 0;
     Vec3 offset_sum = Vec3::Zero();  ///< x_m, y_m, yaw_rad
   };
   struct Suspect {
-    Charges open;                   ///< too few others have agreed with the estimate since
+    Contradictions open;            ///< too few others have agreed with the estimate since
     std::vector<int> confirmed_by;  ///< those that have
-    Charges confirmed;
+    Contradictions confirmed;
     bool distrusted = false;
   };
 
   [[nodiscard]] int witnesses_beside(int id) const;
-  [[nodiscard]] bool is_elsewhere(const Charges& charges) const;
+  [[nodiscard]] bool is_elsewhere(const Contradictions& contradictions) const;
   void confirm(Suspect& suspect, std::span<const int> ids);
 
   MarkerTrustOptions options_;

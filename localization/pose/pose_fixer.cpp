@@ -121,7 +121,7 @@ const PoseFix* PoseFixer::fix(Stamp stamp, std::span<const DetectedMarker> marke
       return &fix_;
     }
     if (known_.size() <= 2) return nullptr;
-    leave_out_the_odd_one(options);
+    reject_outlier_marker(options);
   }
   return nullptr;
 }
@@ -182,7 +182,7 @@ std::optional<Eigen::Isometry3d> PoseFixer::level_guess_by(std::span<const Known
 }
 
 /// Keeps all known markers but the one without which the others agree best; none when none agree.
-void PoseFixer::leave_out_the_odd_one(const PoseFixOptions& options) {
+void PoseFixer::reject_outlier_marker(const PoseFixOptions& options) {
   best_others_.clear();
   double least_cost = std::numeric_limits<double>::infinity();
   for (std::size_t odd = 0; odd < known_.size(); ++odd) {

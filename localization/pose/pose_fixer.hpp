@@ -47,7 +47,7 @@ class PoseFixer {
                                            const PoseFixOptions& options);
   std::optional<Eigen::Isometry3d> level_guess_by(std::span<const KnownMarker> markers,
                                                   const PosePrior& prior);
-  void leave_out_the_odd_one(const PoseFixOptions& options);
+  void reject_outlier_marker(const PoseFixOptions& options);
   void learn(const MapEstimate& estimate);
   void conclude(Stamp stamp, const MapEstimate& estimate);
 

@@ -71,7 +71,7 @@ void SlcanAdapter::work() {
     const ssize_t size = ::read(controller_.get(), bytes.data(), bytes.size());
     if (size > 0) text_.append(bytes.data(), static_cast<std::size_t>(size));
     for (std::size_t end = text_.find('\r'); end != std::string::npos; end = text_.find('\r')) {
-      take_in(text_.substr(0, end));
+      handle(text_.substr(0, end));
       text_.erase(0, end + 1);
     }
     while (const auto heard = base_.poll()) {
@@ -84,7 +84,7 @@ void SlcanAdapter::work() {
 }
 
 /// "t1118" and the bytes: a frame to send. All else (speed, open, close) is taken as it comes.
-void SlcanAdapter::take_in(const std::string& line) {
+void SlcanAdapter::handle(const std::string& line) {
   if (is_off_ || line.size() < 5 || line.front() != 't') return;
   CanFrame frame{static_cast<std::uint32_t>(std::stoul(line.substr(1, 3), nullptr, 16)),
                  static_cast<std::uint8_t>(line[4] - '0'),

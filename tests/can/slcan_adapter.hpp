@@ -28,7 +28,7 @@ class SlcanAdapter {
 
  private:
   void work();
-  void take_in(const std::string& line);
+  void handle(const std::string& line);
   void say(const std::string& line);
 
   FileDescriptor controller_;  ///< our end

@@ -33,30 +33,30 @@ TEST(Backtrack, was_in_vain_when_no_marker_is_seen_where_it_led_to) {
   Backtrack backtrack;
   backtrack.saw_marker_at(Vec2::Zero());
   backtrack.begin();
-  EXPECT_FALSE(backtrack.was_in_vain()) << "it is still on its way";
-  backtrack.came_back();
-  EXPECT_TRUE(backtrack.was_in_vain());
+  EXPECT_FALSE(backtrack.found_no_marker()) << "it is still on its way";
+  backtrack.reached_place();
+  EXPECT_TRUE(backtrack.found_no_marker());
   backtrack.saw_marker_at(Vec2::Zero());
-  EXPECT_FALSE(backtrack.was_in_vain());
+  EXPECT_FALSE(backtrack.found_no_marker());
   backtrack.begin();
   backtrack.saw_marker_at(Vec2::Zero());
-  backtrack.came_back();
-  EXPECT_FALSE(backtrack.was_in_vain());
+  backtrack.reached_place();
+  EXPECT_FALSE(backtrack.found_no_marker());
 }
 
 TEST(Backtrack, remembers_where_it_saw_nothing_until_it_sees_something_there) {
   Backtrack backtrack;
-  backtrack.saw_nothing_at({-1.0, 0.0});
+  backtrack.saw_no_marker_at({-1.0, 0.0});
   backtrack.saw_marker_at({0.0, 0.0});
   for (int centimetre = 0; centimetre <= 100; ++centimetre)
-    backtrack.saw_nothing_at({0.01 * centimetre, 0.0});
-  EXPECT_TRUE(backtrack.blind_ground_m().empty()) << "it has not failed there";
+    backtrack.saw_no_marker_at({0.01 * centimetre, 0.0});
+  EXPECT_TRUE(backtrack.blind_places_m().empty()) << "it has not failed there";
   ASSERT_TRUE(backtrack.begin());
-  EXPECT_NEAR(static_cast<double>(backtrack.blind_ground_m().size()), 11.0, 1.0);
+  EXPECT_NEAR(static_cast<double>(backtrack.blind_places_m().size()), 11.0, 1.0);
   backtrack.saw_marker_at({0.5, 0.0});
-  for (const Vec2& blind_m : backtrack.blind_ground_m()) EXPECT_GT(std::abs(blind_m.x() - 0.5), 0.09);
+  for (const Vec2& blind_m : backtrack.blind_places_m()) EXPECT_GT(std::abs(blind_m.x() - 0.5), 0.09);
   backtrack.new_goal();
-  EXPECT_FALSE(backtrack.blind_ground_m().empty());
+  EXPECT_FALSE(backtrack.blind_places_m().empty());
 }
 
 TEST(Backtrack, knows_a_marker_on_the_way_from_the_one_at_its_end) {

@@ -98,14 +98,14 @@ std::vector<Column> motions() {
   };
   const auto at_goal = [](Facts& facts) { facts.estimate->map_from_base.position_m = {4.0, 0.0}; };
   const auto at_place = [](Facts& facts) { facts.estimate->map_from_base = {Vec2::Zero(), radians(180.0)}; };
-  const auto doubtful = [](Facts& facts) { facts.room_ahead = RoomAhead::too_little_in_doubt; };
+  const auto doubtful = [](Facts& facts) { facts.room_ahead = RoomAhead::too_little_when_uncertain; };
   const auto no_room = [](Facts& facts) {
     facts.room_ahead = RoomAhead::none;
     facts.limit.forward_mps = 0.0;
   };
   const auto no_room_back = [](Facts& facts) {
     facts.estimate->map_from_base.yaw_rad = radians(180.0);
-    facts.limit_on_retreat.forward_mps = 0.0;
+    facts.limit_on_backtrack.forward_mps = 0.0;
   };
   const auto unsure = [](Facts& facts) { facts.stop_on_backtrack = StopReason::pose_uncertain; };
   constexpr int to_rest = 200;
@@ -152,13 +152,13 @@ TEST(BehaviourTable, of_what_comes_of_a_review_is_that_of_the_documentation) {
   expect_in_documentation(
       table({{"Following", {Following{rolling}, places_behind()}},
              {"Blocked", {Blocked{standing, false}, places_behind()}}},
-            {answering("the path holds", PathHolds{}), answering("it is to go", PathIsToGo{})}));
+            {answering("the path holds", PathStaysValid{}), answering("it is to go", PathMustBeReplaced{})}));
 }
 
 TEST(BehaviourTable, of_what_comes_of_a_plan_is_that_of_the_documentation) {
   expect_in_documentation(
       table(only({"Asking: replan", "Asking: another way", "Asking: new goal", "Asking: way back"}),
-            {answering("found", PathFound{drive_at_rest()}), answering("the old one holds", PathHolds{}),
+            {answering("found", PathFound{drive_at_rest()}), answering("the old one holds", PathStaysValid{}),
              answering("none is found", PathNotFound{})}));
 }
 

@@ -118,7 +118,7 @@ class Story {
     stop_.reset();
     stop_on_retreat_.reset();
     sees_marker_ = what < 0.2;
-    room_ = what > 0.3 && what < 0.4 ? RoomAhead::too_little_in_doubt : RoomAhead::enough;
+    room_ = what > 0.3 && what < 0.4 ? RoomAhead::too_little_when_uncertain : RoomAhead::enough;
     if (what > 0.4) stop_ = StopReason::pose_uncertain;
     if (what > 0.6) stop_on_retreat_ = StopReason::pose_uncertain;
     if (what > 0.8) stop_ = stop_on_retreat_ = StopReason::camera_silent;
@@ -127,8 +127,9 @@ class Story {
   PlanAnswer some_answer() {
     const double what = random_.uniform();
     const Asking* const asking = std::get_if<Asking>(&about_.state);
-    if (asking == nullptr) return what < 0.5 ? PlanAnswer(PathHolds{}) : PlanAnswer(PathIsToGo{});
-    if (what < 0.1) return PathHolds{};
+    if (asking == nullptr)
+      return what < 0.5 ? PlanAnswer(PathStaysValid{}) : PlanAnswer(PathMustBeReplaced{});
+    if (what < 0.1) return PathStaysValid{};
     if (what < 0.2 && asking->request.kind != PlanKind::new_goal) return PathNotFound{};
     const Vec2 to_m = asking->request.kind == PlanKind::way_back ? Vec2(0.0, 0.0) : Vec2(4.0, 0.0);
     return PathFound{RotateThenDrive({{Vec2(0.5, 0.0), to_m}}, std::nullopt)};

@@ -86,7 +86,7 @@ inline std::vector<NamedBehaviour> all_behaviours() {
     return trip;
   };
   const auto unsure_before = [](Trip trip) {
-    trip.keeps_to_the_middle = true;
+    trip.prefers_wide_margins = true;
     return trip;
   };
   const auto asking = [&](PlanKind kind) {
@@ -137,7 +137,8 @@ inline std::vector<NamedFacts> all_findings() {
     return facts;
   };
   return {{"nothing new", with([](Facts&) {})},
-          {"too little room in doubt", with([](Facts& f) { f.room_ahead = RoomAhead::too_little_in_doubt; })},
+          {"too little room in doubt",
+           with([](Facts& f) { f.room_ahead = RoomAhead::too_little_when_uncertain; })},
           {"unsure of its place", with([](Facts& f) { f.stop = StopReason::pose_uncertain; })},
           {"unsure even for a retreat",
            with([](Facts& f) { f.stop = f.stop_on_backtrack = StopReason::pose_uncertain; })},

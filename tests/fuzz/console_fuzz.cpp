@@ -70,7 +70,7 @@ void ask(const std::string& text) {
   if (!desk) desk.emplace();
   HttpRequest request = request_from(text);
   const AccessRules rules{.port = 8080, .token = "secret"};
-  if (const std::optional<HttpResponse> refused = turned_away(request, rules)) expect_sound(*refused);
+  if (const std::optional<HttpResponse> refused = rejection(request, rules)) expect_sound(*refused);
   expect_sound(answer_session(request, rules));
   if (request.if_match == "now")
     request.if_match = desk->console.answer({.method = "GET", .target = "/api/markers"}).etag;

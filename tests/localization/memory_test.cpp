@@ -28,7 +28,7 @@ void operator delete(void* memory, std::size_t /*size*/) noexcept {
 namespace lodestar {
 namespace {
 
-RegisteredMarker hung(const CameraModel& camera, int id, const MarkerView& view) {
+RegisteredMarker registered(const CameraModel& camera, int id, const MarkerView& view) {
   return {.id = id, .position_m = camera_from_marker(camera, view).translation(), .yaw_rad = view.turn_rad};
 }
 
@@ -43,7 +43,8 @@ struct Scene {
     const MarkerView first{.middle_px = {150.0, 120.0}, .turn_rad = 0.4};
     const MarkerView second{.middle_px = {480.0, 170.0}, .turn_rad = 2.0};
     const MarkerView third{.middle_px = {330.0, 390.0}, .turn_rad = -1.1};
-    registry.markers = {hung(camera, 1782, first), hung(camera, 447, second), hung(camera, 3003, third)};
+    registry.markers = {registered(camera, 1782, first), registered(camera, 447, second),
+                        registered(camera, 3003, third)};
     Random random(3);
     for (int i = 0; i < 8; ++i) {
       PaintedFrame frame(cv::Size(camera.width_px, camera.height_px));

@@ -171,7 +171,7 @@ TEST(GridPlanner, goes_round_shunned_ground_unless_that_is_far_longer) {
     const GridPlannerOptions options{
         .kind = kind,
         .radius_m = 0.2,
-        .shunned = {.places_m = {{3.0, 0.5}}, .within_m = 1.0, .weight = weight}};
+        .avoided = {.places_m = {{3.0, 0.5}}, .within_m = 1.0, .weight = weight}};
     const PlanResult result = GridPlanner(map, options).plan(start_m, goal_m);
     double highest = 0.0;
     for (const Vec2& waypoint_m : std::get<Plan>(result).path.waypoints_m)

@@ -16,8 +16,8 @@ namespace {
 constexpr float blind = std::numeric_limits<float>::infinity();
 
 /// A fix of 1 mm in cells marked '.', nothing to see in the others; the top row first.
-PoseKeeping keeping(const std::vector<std::string>& rows, double limit_m, double drift = 1.0) {
-  PoseKeeping result{.fix_sigma_m = {}, .drift_m_per_m = drift, .limit_m = limit_m};
+UncertaintyConstraint constraint(const std::vector<std::string>& rows, double limit_m, double drift = 1.0) {
+  UncertaintyConstraint result{.fix_sigma_m = {}, .drift_m_per_m = drift, .limit_m = limit_m};
   for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
     for (const char c : *row) result.fix_sigma_m.push_back(c == '.' ? 0.001F : blind);
   }
@@ -30,8 +30,8 @@ const std::vector<std::string> straight_way_is_blind{"............",  //
                                                      "..      ....",  //
                                                      "..      ...."};
 
-GridPlannerOptions options_for(const PoseKeeping& wanted, PlannerKind kind = PlannerKind::astar) {
-  return {.kind = kind, .radius_m = 0.0, .clearance_weight = 0.0, .pose_keeping = wanted};
+GridPlannerOptions options_for(const UncertaintyConstraint& wanted, PlannerKind kind = PlannerKind::astar) {
+  return {.kind = kind, .radius_m = 0.0, .clearance_weight = 0.0, .uncertainty_constraint = wanted};
 }
 
 OccupancyMap open_floor(const std::vector<std::string>& rows) {
@@ -47,7 +47,7 @@ TEST_P(SurePlanner, goes_around_where_it_would_see_nothing_for_too_long) {
   const Vec2 start(0.5, 0.5);
   const Vec2 goal(11.5, 0.5);
   const auto highest = [&](double limit_m) {
-    const PoseKeeping wanted = keeping(straight_way_is_blind, limit_m);
+    const UncertaintyConstraint wanted = constraint(straight_way_is_blind, limit_m);
     const PlanResult result = GridPlanner(map, options_for(wanted, GetParam())).plan(start, goal);
     const Plan& plan = std::get<Plan>(result);
     double most = 0.0;
@@ -67,7 +67,7 @@ TEST(SurePlanner, says_when_no_way_is_sure_enough) {
   const std::vector<std::string> rows{"..   ..", "..   ..", "..   .."};
   const OccupancyMap map = open_floor(rows);
   const auto plan = [&](double limit_m) {
-    return GridPlanner(map, options_for(keeping(rows, limit_m))).plan({0.5, 0.5}, {6.5, 2.5});
+    return GridPlanner(map, options_for(constraint(rows, limit_m))).plan({0.5, 0.5}, {6.5, 2.5});
   };
   ASSERT_TRUE(std::holds_alternative<PlanFailure>(plan(2.5)));
   EXPECT_EQ(std::get<PlanFailure>(plan(2.5)), PlanFailure::unsure);
@@ -82,7 +82,7 @@ TEST(UncertaintyConstrainedPlanner, takes_the_dearer_way_to_a_place_when_only_th
   const OccupancyMap map = open_floor(rows);
   const CollisionChecker space(map, 0.0);
   const CellCosts even;
-  const UncertaintyConstrainedPlanner way(space, even, keeping(rows, 3.5));
+  const UncertaintyConstrainedPlanner way(space, even, constraint(rows, 3.5));
   const auto found = way.find({0.5, 0.5}, {0, 0}, {9, 0}, {9.5, 0.5});
   ASSERT_TRUE(found);
   bool by_the_top = false;
@@ -131,7 +131,8 @@ TEST(UncertaintyConstrainedPlanner, is_as_cheap_as_trying_everything) {
     OccupancyMap map = random_map(random, 12, 9, 0.15);
     map.resolution_m = 1.0;
     const CollisionChecker space(map, 0.0);
-    PoseKeeping wanted{.fix_sigma_m = {}, .drift_m_per_m = 1.0, .limit_m = random.uniform(1.5, 4.0)};
+    UncertaintyConstraint wanted{
+        .fix_sigma_m = {}, .drift_m_per_m = 1.0, .limit_m = random.uniform(1.5, 4.0)};
     for (std::size_t i = 0; i < map.cells.size(); ++i)
       wanted.fix_sigma_m.push_back(random.uniform() < 0.25 ? static_cast<float>(random.uniform()) : blind);
     const auto start = clear_cell(random, space);

@@ -107,7 +107,7 @@ TEST(OperatorSession, hands_over_the_newest_frame_as_it_is_and_keeps_no_state_fo
     input.now = Stamp(std::chrono::milliseconds(20 * i));
     input.frames = {{.stamp = input.now, .gray = taken.back()}};
     link.want_state();
-    session.show(input, mission.step(input), mission, {});
+    session.publish(input, mission.step(input), mission, {});
   }
   const std::optional<RobotState> newest = link.newest();
   ASSERT_TRUE(newest && newest->frame);

@@ -22,7 +22,7 @@ inline Site lab() {
 struct Lab {
   Site site = lab();
   KnownWorld known = known_world(site, "wide");
-  MarkerRegistry hung = site.registry;  ///< how the markers really hang
+  MarkerRegistry installed = site.registry;  ///< the real ceiling
   std::uint64_t seed = 1;
   Disturbances disturbances;
   bool has_plain_ceiling = false;                                ///< nothing to be seen on it but markers
@@ -35,7 +35,7 @@ struct Lab {
     options.robot_radius_m = site.robot.radius_m;
     options.base.track_width_m = site.robot.track_width_m;
     options.seed = seed;
-    return {known.map, hung, known.camera, made_harder(options, disturbances)};
+    return {known.map, installed, known.camera, with_disturbances(options, disturbances)};
   }
 };
 

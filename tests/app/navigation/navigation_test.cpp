@@ -40,7 +40,8 @@ Drive drive(const Lab& lab, const Goal& goal) {
     result.distrusted = step.navigation.distrusted;
     result.went_back = result.went_back || step.navigation.backtracks;
     const std::optional<RouteUpdate>& reroute = step.navigation.reroute;
-    result.took_another_way = result.took_another_way || (reroute && reroute->change == RouteChange::surer);
+    result.took_another_way =
+        result.took_another_way || (reroute && reroute->change == RouteChange::more_certain);
     if (step.navigation.stop && step.navigation.command.turn_radps == SpinOptions{}.turn_radps) {
       result.looked_around = true;
       result.most_forward_mps = std::max(result.most_forward_mps, step.navigation.command.forward_mps);
@@ -76,7 +77,7 @@ TEST(Navigation, arrives_and_trusts_all_markers_where_they_hang_as_surveyed) {
 TEST(Navigation, names_a_moved_marker_and_arrives_without_it) {
   for (const Vec2& moved : {Vec2(0.06, -0.03), Vec2(-0.15, 0.1), Vec2(0.3, 0.3)}) {
     Lab lab;
-    RegisteredMarker& marker = marker_on_the_way(lab.hung);
+    RegisteredMarker& marker = marker_on_the_way(lab.installed);
     marker.position_m.head<2>() += moved;
     const Drive result = drive(lab, lab.site.goals.front());
     EXPECT_TRUE(result.arrived) << result.failure;
@@ -94,7 +95,7 @@ TEST(Navigation, takes_another_way_where_it_found_no_marker) {
   lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03, .plain_ceiling = true};
   std::vector<Vec2> places_m{lab.site.start.position_m};
   for (const Goal& goal : lab.site.goals) places_m.push_back(goal.position_m);
-  lab.hung = with_markers_removed(lab.hung, 0.5, places_m, lab.seed);
+  lab.installed = with_markers_removed(lab.installed, 0.5, places_m, lab.seed);
   const Drive result = drive(lab, lab.site.goals.front());
   EXPECT_TRUE(result.arrived) << result.failure;
   EXPECT_TRUE(result.took_another_way);
@@ -122,7 +123,7 @@ TEST(Navigation, goes_back_to_learn_its_wheels_when_the_next_marker_is_too_far) 
     Lab lab;
     lab.seed = seed;
     lab.disturbances.plain_ceiling = true;
-    std::erase_if(lab.hung.markers,
+    std::erase_if(lab.installed.markers,
                   [&](const RegisteredMarker& marker) { return !left.contains(marker.id); });
     const Drive result = drive(lab, lab.site.goals.front());
     EXPECT_TRUE(result.arrived) << result.failure;
@@ -138,7 +139,7 @@ TEST(Navigation, goes_by_the_ceiling_where_markers_are_far_between) {
     lab.seed = seed;
     lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03};
     const Goal& goal = lab.site.goals.front();
-    std::erase_if(lab.hung.markers, [&](const RegisteredMarker& marker) {
+    std::erase_if(lab.installed.markers, [&](const RegisteredMarker& marker) {
       const Vec2 place_m = marker.position_m.head<2>();
       return (place_m - lab.site.start.position_m).norm() > 2.0 && (place_m - goal.position_m).norm() > 2.0;
     });

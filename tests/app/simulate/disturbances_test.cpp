@@ -38,18 +38,18 @@ TEST(Disturbances, leave_the_markers_nearest_to_start_and_goals) {
 }
 
 TEST(Disturbances, make_the_ceiling_plain_only_when_asked) {
-  EXPECT_GT(made_harder({}, {}).camera.texture_gray, 0.0);
-  const SimulatedCameraOptions plain = made_harder({}, {.plain_ceiling = true}).camera;
+  EXPECT_GT(with_disturbances({}, {}).camera.texture_gray, 0.0);
+  const SimulatedCameraOptions plain = with_disturbances({}, {.plain_ceiling = true}).camera;
   EXPECT_EQ(plain.texture_gray, 0.0);
   EXPECT_FALSE(plain.tubes || plain.lamps || plain.glints);
 }
 
 TEST(Disturbances, make_wheels_unequal_and_lose_frames_only_when_asked) {
   const SimulationOptions usual;
-  const SimulationOptions same = made_harder(usual, {});
+  const SimulationOptions same = with_disturbances(usual, {});
   EXPECT_EQ(same.base.left_wheel_scale, usual.base.left_wheel_scale);
   EXPECT_EQ(same.camera.lost_frame_probability, usual.camera.lost_frame_probability);
-  const SimulationOptions hard = made_harder(usual, {.lost_frames = 0.3, .unequal_wheels = 0.03});
+  const SimulationOptions hard = with_disturbances(usual, {.lost_frames = 0.3, .unequal_wheels = 0.03});
   EXPECT_NEAR(hard.base.left_wheel_scale - hard.base.right_wheel_scale, 0.03, 1e-12);
   EXPECT_EQ(hard.camera.lost_frame_probability, 0.3);
 }

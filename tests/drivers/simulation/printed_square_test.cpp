@@ -29,7 +29,7 @@ PrintedSquare quartered(double x_m, double y_m) {
 
 ImageFormer former_with(const PrintedSquare& square, const CameraModel& camera = paper_camera()) {
   ImageFormer former({}, camera, plain_light(), 1);
-  former.hang(square);
+  former.add(square);
   return former;
 }
 
@@ -82,7 +82,7 @@ TEST(PrintedSquare, is_blurred_as_the_dots_are) {
   SimulatedCameraOptions options = plain_light();
   options.blur_sigma_px = 1.2;
   ImageFormer former({}, paper_camera(), options, 1);
-  former.hang(patch);
+  former.add(patch);
   const cv::Mat image = seen_by(former, camera_at(0.0, 0.0, 0.0, {}));
   const double edge_px = paper_camera().cx_px + 0.1 * paper_camera().fx_px / ceiling_m;
   const double sigma_px = std::sqrt(1.2 * 1.2 + 1.0 / 12.0);
@@ -108,7 +108,7 @@ TEST(PrintedSquare, covers_a_marker_or_hangs_behind_it) {
   square.gray = {60.0};
   ImageFormer former(registry, paper_camera(), plain_light(), 1);
   const Eigen::Isometry3d pose = camera_at(0.0, 0.0, 0.0, {});
-  former.hang(square);
+  former.add(square);
   EXPECT_GT(gray_at(seen_by(former, pose), {320, 240}), 220);
   EXPECT_EQ(former.dots_in_view(pose).size(), 3U);
   former.cover({square});

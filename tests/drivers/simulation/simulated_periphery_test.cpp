@@ -27,7 +27,7 @@ class SimulatedPeripheryTest : public testing::Test {
     }
   }
 
-  void take_in(const CanFrame& frame) { periphery.take_in(frame); }
+  void handle(const CanFrame& frame) { periphery.handle(frame); }
 
   void answer_all() {
     for (int i = 0; i < 20; ++i) {
@@ -69,7 +69,7 @@ TEST_F(SimulatedPeripheryTest, shows_the_lights_as_they_were_commanded) {
   pass_on_frames();
   EXPECT_EQ((*decode(tables::light_state, newest[0x231]))[1], 0.0) << "off at power-up";
 
-  take_in(encode(tables::light_command, {1.0, 3.0, 40.0, 1.0, 0.0}));
+  handle(encode(tables::light_command, {1.0, 3.0, 40.0, 1.0, 0.0}));
   periphery.send_feedback({}, 0.4);
   pass_on_frames();
   const auto lights = *decode(tables::light_state, newest[0x231]);
@@ -81,12 +81,12 @@ TEST_F(SimulatedPeripheryTest, shows_the_lights_as_they_were_commanded) {
 TEST_F(SimulatedPeripheryTest, answers_the_question_for_its_version_with_eighty_letters) {
   answer_all();
   EXPECT_EQ(text, "") << "nobody has asked";
-  take_in({tables::version_text.id, 8, {1}});
-  take_in({tables::version_text.id, 1, {2}});
+  handle({tables::version_text.id, 8, {1}});
+  handle({tables::version_text.id, 1, {2}});
   answer_all();
   EXPECT_EQ(text, "") << "that was no question";
 
-  take_in({tables::version_text.id, 1, {1}});
+  handle({tables::version_text.id, 1, {1}});
   answer_all();
   EXPECT_EQ(counts[tables::version_text.id], 10);
   EXPECT_EQ(text.size(), 80U);
@@ -95,7 +95,7 @@ TEST_F(SimulatedPeripheryTest, answers_the_question_for_its_version_with_eighty_
 }
 
 TEST_F(SimulatedPeripheryTest, answers_the_manuals_question_with_numbers) {
-  take_in({0x411, 1, {1}});
+  handle({0x411, 1, {1}});
   answer_all();
   ASSERT_EQ(counts[0x41A], 1);
   const SignalValues versions = *decode(tables::version_answer, newest[0x41A]);

@@ -74,9 +74,9 @@ const Pose2 guess = way * Pose2{{0.012, -0.008}, radians(-0.8)};
 std::optional<VisualOdometryIncrement> motion_between(const Frame& then, const Frame& now,
                                                       const Picture& picture) {
   CeilingMotion ceiling = picture.motion();
-  ceiling.look(then);
-  if (!ceiling.keep()) return std::nullopt;
-  ceiling.look(now);
+  ceiling.set_frame(then);
+  if (!ceiling.set_keyframe()) return std::nullopt;
+  ceiling.set_frame(now);
   return ceiling.motion(guess);
 }
 
@@ -144,9 +144,9 @@ TEST(CeilingMotion, is_as_sure_as_it_may_be) {
 TEST(CeilingMotion, is_unknown_under_a_plain_ceiling) {
   Picture picture(0.0);
   CeilingMotion ceiling = picture.motion();
-  ceiling.look(picture.at(before, 1.0));
-  EXPECT_FALSE(ceiling.keep());
-  EXPECT_FALSE(ceiling.kept_at());
+  ceiling.set_frame(picture.at(before, 1.0));
+  EXPECT_FALSE(ceiling.set_keyframe());
+  EXPECT_FALSE(ceiling.keyframe_stamp());
   EXPECT_FALSE(ceiling.motion(guess));
 }
 
@@ -172,9 +172,9 @@ TEST(CeilingMotion, is_unknown_where_only_the_camera_shows_something) {
   }
   EXPECT_FALSE(motion_between(then, now, picture)) << "too far from what is expected";
   CeilingMotion ceiling = picture.motion();
-  ceiling.look(then);
-  ASSERT_TRUE(ceiling.keep());
-  ceiling.look(now);
+  ceiling.set_frame(then);
+  ASSERT_TRUE(ceiling.set_keyframe());
+  ceiling.set_frame(now);
   EXPECT_FALSE(ceiling.motion({{0.005, 0.0}, 0.0})) << "it could be either";
 }
 
@@ -192,8 +192,8 @@ TEST(CeilingMotion, is_unknown_where_pictures_show_different_things) {
 TEST(CeilingMotion, says_when_the_kept_picture_leaves_the_view) {
   Picture picture;
   CeilingMotion ceiling = picture.motion();
-  ceiling.look(picture.at(before, 1.0));
-  ASSERT_TRUE(ceiling.keep());
+  ceiling.set_frame(picture.at(before, 1.0));
+  ASSERT_TRUE(ceiling.set_keyframe());
   EXPECT_FALSE(ceiling.leaves_view({}));
   EXPECT_FALSE(ceiling.leaves_view({{0.1, 0.0}, 0.1}));
   EXPECT_TRUE(ceiling.leaves_view({{0.6, 0.0}, 0.0}));

@@ -14,7 +14,7 @@ struct Pictures {
   double sway_m = 0.0;
   double sigma_m = 0.0;
   double sigma_rad = 0.0;
-  Stamp kept_at{};
+  Stamp keyframe_stamp{};
   Pose2 kept{};
 
   [[nodiscard]] Pose2 place() {
@@ -24,14 +24,14 @@ struct Pictures {
 
   bool keep(PoseFilter& filter) {
     kept = place();
-    kept_at = world.reported.stamp;
-    return filter.keep_picture(kept_at, sway_m);
+    keyframe_stamp = world.reported.stamp;
+    return filter.set_keyframe(keyframe_stamp, sway_m);
   }
 
   bool show(PoseFilter& filter, bool keeps, const Pose2& slip = {}) {
     const Pose2 now = place() * slip;
     VisualOdometryIncrement motion{
-        .from = kept_at, .to = world.reported.stamp, .then_from_now = inverse(kept) * now};
+        .from = keyframe_stamp, .to = world.reported.stamp, .then_from_now = inverse(kept) * now};
     motion.then_from_now.position_m += sigma_m * Vec2(world.random.normal(), world.random.normal());
     motion.then_from_now.yaw_rad += sigma_rad * world.random.normal();
     motion.covariance = Vec3(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
@@ -39,7 +39,7 @@ struct Pictures {
     const bool agrees = filter.add_motion(motion, keeps);
     if (agrees && keeps) {
       kept = now;
-      kept_at = world.reported.stamp;
+      keyframe_stamp = world.reported.stamp;
     }
     return agrees;
   }
@@ -111,7 +111,7 @@ TEST(CeilingFilter, late_pictures_end_like_prompt_ones) {
   ASSERT_TRUE(pictures.keep(prompt));
   drive(world, prompt, 2.0, 0.2, false);
   PoseFilter late = prompt;
-  VisualOdometryIncrement motion{.from = pictures.kept_at,
+  VisualOdometryIncrement motion{.from = pictures.keyframe_stamp,
                                  .to = world.reported.stamp,
                                  .then_from_now = inverse(pictures.kept) * world.truth,
                                  .covariance = 1e-6 * Eigen::Matrix3d::Identity()};
@@ -128,13 +128,13 @@ TEST(CeilingFilter, late_pictures_end_like_prompt_ones) {
 TEST(CeilingFilter, expects_what_the_wheels_say) {
   World world;
   PoseFilter filter(without_floor());
-  EXPECT_FALSE(filter.keep_picture(at(0.0), 0.0)) << "nothing is believed yet";
+  EXPECT_FALSE(filter.set_keyframe(at(0.0), 0.0)) << "nothing is believed yet";
   drive(world, filter, 0.0, 1.0, true, 1e-5, 1e-5);
   EXPECT_FALSE(filter.expected_motion(at(1.0))) << "nothing is kept";
   const Pose2 then = world.truth;
-  ASSERT_TRUE(filter.keep_picture(at(1.0), 0.0));
+  ASSERT_TRUE(filter.set_keyframe(at(1.0), 0.0));
   drive(world, filter, 1.0, 0.4, false);
-  const std::optional<PictureExpectation> expected = filter.expected_motion(at(1.4));
+  const std::optional<MotionExpectation> expected = filter.expected_motion(at(1.4));
   ASSERT_TRUE(expected);
   EXPECT_EQ(expected->from, at(1.0));
   EXPECT_LT((expected->then_from_now.position_m - (inverse(then) * world.truth).position_m).norm(), 1e-4);
@@ -147,7 +147,7 @@ TEST(CeilingFilter, knows_only_the_picture_that_it_keeps) {
   drive(world, filter, 0.0, 1.0, true);
   Pictures pictures{.world = world, .sigma_m = 0.001, .sigma_rad = 0.001};
   ASSERT_TRUE(pictures.keep(filter));
-  pictures.kept_at = at(0.9);
+  pictures.keyframe_stamp = at(0.9);
   drive(world, filter, 1.0, 0.1, false);
   EXPECT_FALSE(pictures.show(filter, false));
 }

@@ -28,7 +28,7 @@ TEST(CameraWatch, finds_nothing_wrong_with_fresh_pictures) {
   EXPECT_FALSE(watch.fault(noon)) << "not missed before its first frame";
   for (int i = 0; i < 20; ++i) {
     const Stamp now = noon + milliseconds(50) * i;
-    EXPECT_FALSE(watch.take_in(frame_at(now - milliseconds(45), static_cast<std::uint64_t>(i)), now));
+    EXPECT_FALSE(watch.update(frame_at(now - milliseconds(45), static_cast<std::uint64_t>(i)), now));
     EXPECT_FALSE(watch.fault(now));
   }
 }
@@ -38,41 +38,41 @@ TEST(CameraWatch, misses_a_slow_camera_after_three_of_its_periods) {
   Stamp now = noon;
   for (std::uint64_t i = 0; i < 5; ++i) {
     now += milliseconds(200);
-    watch.take_in(frame_at(now, i), now);
+    watch.update(frame_at(now, i), now);
     EXPECT_FALSE(i > 0 && watch.fault(now + milliseconds(190)));
   }
   EXPECT_FALSE(watch.fault(now + milliseconds(600)));
   EXPECT_EQ(watch.fault(now + milliseconds(601)), CameraFault::silent);
   now += seconds(30);
-  watch.take_in(frame_at(now, 9), now);
+  watch.update(frame_at(now, 9), now);
   EXPECT_EQ(watch.fault(now + milliseconds(601)), CameraFault::silent) << "a pause is no period";
 }
 
 TEST(CameraWatch, refuses_the_same_picture_again) {
   CameraWatch watch;
-  watch.take_in(frame_at(noon, 1), noon);
-  EXPECT_EQ(watch.take_in(frame_at(noon + milliseconds(50), 1), noon + milliseconds(60)),
+  watch.update(frame_at(noon, 1), noon);
+  EXPECT_EQ(watch.update(frame_at(noon + milliseconds(50), 1), noon + milliseconds(60)),
             CameraFault::repeats);
   EXPECT_EQ(watch.fault(noon + milliseconds(60)), CameraFault::repeats);
-  EXPECT_FALSE(watch.take_in(frame_at(noon + milliseconds(100), 2), noon + milliseconds(110)));
+  EXPECT_FALSE(watch.update(frame_at(noon + milliseconds(100), 2), noon + milliseconds(110)));
   EXPECT_FALSE(watch.fault(noon + milliseconds(110)));
 }
 
 TEST(CameraWatch, refuses_late_frames_and_those_of_another_clock) {
   CameraWatch watch;
-  EXPECT_FALSE(watch.take_in(frame_at(noon - milliseconds(250), 1), noon));
-  EXPECT_EQ(watch.take_in(frame_at(noon - milliseconds(251), 2), noon), CameraFault::late);
-  EXPECT_EQ(watch.take_in(frame_at(noon + milliseconds(30), 3), noon), CameraFault::other_clock);
-  EXPECT_EQ(watch.take_in(frame_at(noon - seconds(3600), 4), noon), CameraFault::other_clock);
+  EXPECT_FALSE(watch.update(frame_at(noon - milliseconds(250), 1), noon));
+  EXPECT_EQ(watch.update(frame_at(noon - milliseconds(251), 2), noon), CameraFault::late);
+  EXPECT_EQ(watch.update(frame_at(noon + milliseconds(30), 3), noon), CameraFault::other_clock);
+  EXPECT_EQ(watch.update(frame_at(noon - seconds(3600), 4), noon), CameraFault::other_clock);
 }
 
 TEST(CameraWatch, says_when_there_is_nothing_to_see) {
   CameraWatch watch;
-  EXPECT_FALSE(watch.take_in(frame_at(noon, 1, 0), noon)) << "it may be used, for what it is worth";
+  EXPECT_FALSE(watch.update(frame_at(noon, 1, 0), noon)) << "it may be used, for what it is worth";
   EXPECT_EQ(watch.fault(noon), CameraFault::dark);
-  watch.take_in(frame_at(noon, 2, 255), noon);
+  watch.update(frame_at(noon, 2, 255), noon);
   EXPECT_EQ(watch.fault(noon), CameraFault::bright);
-  watch.take_in(frame_at(noon, 3), noon);
+  watch.update(frame_at(noon, 3), noon);
   EXPECT_FALSE(watch.fault(noon));
   EXPECT_EQ(watch.fault(noon + milliseconds(151)), CameraFault::silent);
 }
@@ -88,7 +88,7 @@ TEST(CameraWatch, takes_frames_lost_now_and_then_for_no_silence) {
       EXPECT_FALSE(watch.fault(now)) << i;
     }
     if (random.uniform() < 0.3) continue;
-    watch.take_in(frame_at(now - milliseconds(45), static_cast<std::uint64_t>(i)), now);
+    watch.update(frame_at(now - milliseconds(45), static_cast<std::uint64_t>(i)), now);
     arrived = now;
   }
   EXPECT_EQ(watch.fault(arrived + milliseconds(501)), CameraFault::silent) << "half a second is too long";

@@ -34,15 +34,15 @@ class Drive {
 TEST(IntegrityMonitor, has_none_while_fixes_agree) {
   Drive drive;
   for (int i = 0; i < 20; ++i) drive.fix(drive.ahead(), FixOutcome::accepted);
-  EXPECT_FALSE(drive.monitor.reason(drive.now()));
+  EXPECT_FALSE(drive.monitor.alarm(drive.now()));
   EXPECT_EQ(drive.monitor.rolled_since_agreement_m(), 0.0);
 }
 
 TEST(IntegrityMonitor, lets_a_marker_that_hangs_elsewhere_contradict_as_long_as_it_likes) {
   Drive drive;
   for (int i = 0; i < 40; ++i) drive.fix(Pose2{{0.1, -0.1}, 0.05} * drive.ahead(), FixOutcome::refused_gate);
-  EXPECT_FALSE(drive.monitor.reason(drive.now()));
-  EXPECT_FALSE(drive.monitor.wheels_fooled_us());
+  EXPECT_FALSE(drive.monitor.alarm(drive.now()));
+  EXPECT_FALSE(drive.monitor.take_odometry_failure());
   EXPECT_NEAR(drive.monitor.rolled_since_agreement_m(), 39 * 0.03, 1e-9) << "the first reading is no travel";
 }
 
@@ -61,15 +61,15 @@ TEST(IntegrityMonitor, calls_an_estimate_contradicted_from_the_first_refused_fix
 TEST(IntegrityMonitor, blames_the_wheels_when_what_one_marker_says_changes) {
   Drive drive;
   int fixes = 0;
-  while (!drive.monitor.wheels_fooled_us() && fixes < 20) {
+  while (!drive.monitor.take_odometry_failure() && fixes < 20) {
     ++fixes;
     Pose2 seen = drive.ahead();
     seen.position_m.x() *= 0.6;  // the wheels slip
     drive.fix(seen, FixOutcome::refused_gate);
   }
   EXPECT_LE(fixes, 6);
-  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::wheels_wrong);
-  EXPECT_FALSE(drive.monitor.reason(drive.now() + milliseconds(1001))) << "it may try again";
+  EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::wheels_wrong);
+  EXPECT_FALSE(drive.monitor.alarm(drive.now() + milliseconds(1001))) << "it may try again";
 }
 
 TEST(IntegrityMonitor, gives_up_on_wheels_that_are_wrong_again_and_again) {
@@ -79,40 +79,40 @@ TEST(IntegrityMonitor, gives_up_on_wheels_that_are_wrong_again_and_again) {
     seen.position_m.x() *= 0.5;
     drive.fix(seen, FixOutcome::refused_gate);
   }
-  EXPECT_EQ(drive.monitor.reason(drive.now() + std::chrono::hours(1)), IntegrityAlarm::wheels_broken);
+  EXPECT_EQ(drive.monitor.alarm(drive.now() + std::chrono::hours(1)), IntegrityAlarm::wheels_broken);
 }
 
 TEST(IntegrityMonitor, stops_at_gross_contradictions_and_for_good_when_they_prevail) {
   Drive drive;
   const Pose2 elsewhere{{2.0, 1.0}, 0.5};
   drive.fix(elsewhere * drive.ahead(), FixOutcome::refused_gate);
-  EXPECT_FALSE(drive.monitor.reason(drive.now())) << "one may be read wrong";
+  EXPECT_FALSE(drive.monitor.alarm(drive.now())) << "one may be read wrong";
   drive.fix(elsewhere * drive.ahead(), FixOutcome::refused_gate);
-  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::contradicted);
+  EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::contradicted);
   drive.fix(elsewhere * drive.ahead(), FixOutcome::relocated);
-  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::carried_away);
+  EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::carried_away);
   drive.fix(drive.ahead(), FixOutcome::accepted);
-  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::carried_away);
+  EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::carried_away);
 }
 
 TEST(IntegrityMonitor, waits_a_moment_where_the_estimate_has_moved_a_little) {
   Drive drive;
   drive.fix(Pose2{{0.1, 0.0}, 0.0} * drive.ahead(), FixOutcome::relocated);
-  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::moved);
-  EXPECT_FALSE(drive.monitor.reason(drive.now() + milliseconds(1001)));
+  EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::moved);
+  EXPECT_FALSE(drive.monitor.alarm(drive.now() + milliseconds(1001)));
 }
 
 TEST(IntegrityMonitor, does_not_let_a_belief_begin_anew_out_of_the_wheels_reach) {
   for (const double aside_m : {0.1, 2.0}) {
     Drive drive;
-    while (!drive.monitor.wheels_fooled_us()) {
+    while (!drive.monitor.take_odometry_failure()) {
       Pose2 seen = drive.ahead();
       seen.position_m.x() *= 0.6;
       drive.fix(seen, FixOutcome::refused_gate);
     }
     drive.fix(Pose2{{0.0, aside_m}, 0.0} * drive.ahead(), FixOutcome::started, {2400});
     const auto later = drive.now() + std::chrono::hours(1);
-    EXPECT_EQ(drive.monitor.reason(later),
+    EXPECT_EQ(drive.monitor.alarm(later),
               aside_m > 1.0 ? std::optional(IntegrityAlarm::carried_away) : std::nullopt);
   }
 }
@@ -122,7 +122,7 @@ TEST(IntegrityMonitor, knows_a_robot_that_moves_without_its_wheels) {
   drive.pace_m = 0.0;
   drive.fix({{0.1, 0.0}, 0.0}, FixOutcome::refused_gate);
   drive.fix({{0.2, 0.0}, 0.0}, FixOutcome::refused_gate);
-  EXPECT_EQ(drive.monitor.reason(drive.now()), IntegrityAlarm::carried_away);
+  EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::carried_away);
 }
 
 }  // namespace

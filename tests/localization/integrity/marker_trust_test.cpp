@@ -20,7 +20,7 @@ struct RoundTrip {
   static constexpr double track_m = 0.4;
 
   std::array<Vec2, markers> surveyed;
-  std::array<Vec2, markers> hung;
+  std::array<Vec2, markers> installed;
   std::array<double, markers> turned{};
   PoseFilter filter{options()};
   MarkerTrust trust;
@@ -40,17 +40,17 @@ struct RoundTrip {
     for (std::size_t i = 0; i < markers; ++i) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / markers;
       surveyed.at(i) = radius_m * Vec2(std::cos(angle), std::sin(angle));
-      hung.at(i) = surveyed.at(i) + 0.002 * Vec2(random.normal(), random.normal());
+      installed.at(i) = surveyed.at(i) + 0.002 * Vec2(random.normal(), random.normal());
     }
   }
 
   /// The fix that rests on one marker: off by as much as the marker hangs elsewhere.
   PlanarFix fix_by(std::size_t i) {
     // The robot sees the marker from where it truly is and believes it to hang where it was surveyed.
-    const Pose2 map_from_hung{hung.at(i), turned.at(i)};
+    const Pose2 map_from_installed{installed.at(i), turned.at(i)};
     const Pose2 map_from_surveyed{surveyed.at(i), 0.0};
     PlanarFix fix{.stamp = travel.stamp,
-                  .map_from_base = map_from_surveyed * inverse(map_from_hung) * truth,
+                  .map_from_base = map_from_surveyed * inverse(map_from_installed) * truth,
                   .covariance = Vec3(1.6e-5, 1.6e-5, 4e-6).asDiagonal(),
                   .ids = {static_cast<int>(i)}};
     fix.map_from_base.position_m += 0.004 * Vec2(random.normal(), random.normal());
@@ -61,21 +61,21 @@ struct RoundTrip {
   void see() {
     for (std::size_t i = 0; i < markers; ++i) {
       const int id = static_cast<int>(i);
-      if ((hung.at(i) - truth.position_m).norm() > sight_m || !trust.trusts(id)) continue;
+      if ((installed.at(i) - truth.position_m).norm() > sight_m || !trust.trusts(id)) continue;
       const PlanarFix fix = fix_by(i);
       const std::optional<FixExpectation> expected = filter.expectation(fix);
       const FixOutcome outcome = filter.add_fix(fix);
-      if (outcome == FixOutcome::accepted) trust.support(std::array{id});
+      if (outcome == FixOutcome::accepted) trust.add_agreement(std::array{id});
       if (outcome == FixOutcome::relocated) {
         ++relocations;
         trust.estimate_moved();
       }
       if (outcome == FixOutcome::refused_gate) {
-        trust.charge({.id = id,
-                      .marker_in_map = surveyed.at(i),
-                      .map_from_base_by_marker = fix.map_from_base,
-                      .map_from_base_expected = expected->map_from_base,
-                      .squared_distance = expected->squared_distance});
+        trust.add_contradiction({.id = id,
+                                 .marker_in_map = surveyed.at(i),
+                                 .map_from_base_by_marker = fix.map_from_base,
+                                 .map_from_base_expected = expected->map_from_base,
+                                 .squared_distance = expected->squared_distance});
       }
     }
   }
@@ -116,7 +116,7 @@ TEST(MarkerTrust, names_a_marker_that_was_moved_and_by_how_much) {
     const double direction = random.uniform(-3.1, 3.1);
     const Vec2 moved = way_m * Vec2(std::cos(direction), std::sin(direction));
     const auto which = static_cast<std::size_t>(random.below(RoundTrip::markers));
-    trip.hung.at(which) += moved;
+    trip.installed.at(which) += moved;
     trip.drive(26.0);
     const std::vector<DistrustedMarker> distrusted = trip.trust.distrusted();
     ASSERT_EQ(distrusted.size(), 1U) << "seed " << seed << ", " << way_m << " m";
@@ -150,21 +150,21 @@ TEST(MarkerTrust, blames_the_wheels_for_a_slip_and_people_for_a_lift) {
 
 TEST(MarkerTrust, does_not_judge_by_one_witness) {
   MarkerTrust trust;
-  trust.support(std::array{1});
+  trust.add_agreement(std::array{1});
   const MarkerSighting sighting{.id = 2,
                                 .marker_in_map = Vec2(1.0, 1.0),
                                 .map_from_base_by_marker = {Vec2(0.3, 0.0), 0.0},
                                 .map_from_base_expected = {Vec2::Zero(), 0.0},
                                 .squared_distance = 100.0};
   for (int i = 0; i < 50; ++i) {
-    trust.charge(sighting);
-    trust.support(std::array{1});
+    trust.add_contradiction(sighting);
+    trust.add_agreement(std::array{1});
   }
   EXPECT_TRUE(trust.trusts(2));
-  trust.support(std::array{3});
-  for (int i = 0; i < 6; ++i) trust.charge(sighting);
+  trust.add_agreement(std::array{3});
+  for (int i = 0; i < 6; ++i) trust.add_contradiction(sighting);
   EXPECT_TRUE(trust.trusts(2)) << "not confirmed yet";
-  trust.support(std::array{1, 3});
+  trust.add_agreement(std::array{1, 3});
   EXPECT_FALSE(trust.trusts(2));
   EXPECT_LT((trust.distrusted().front().offset_m - Vec2(-0.3, 0.0)).norm(), 1e-12);
 }

@@ -13,16 +13,16 @@ using testing::UnorderedElementsAre;
 /// A camera at the map's origin looks straight up at markers whose views are chosen.
 class SeenFromTheOrigin : public testing::Test {
  protected:
-  void hang(int id, const MarkerView& view) {
+  void install(int id, const MarkerView& view) {
     const Vec3 place = camera_from_marker(camera_, view).translation();
     registry_.markers.push_back({.id = id, .position_m = place, .yaw_rad = view.turn_rad});
     frame_.marker(camera_, view, id);
   }
 
   void hang_three() {
-    hang(1782, {.middle_px = {150.0, 120.0}, .turn_rad = 0.4});
-    hang(447, {.middle_px = {480.0, 170.0}, .turn_rad = 2.0});
-    hang(3003, {.middle_px = {330.0, 390.0}, .turn_rad = -1.1});
+    install(1782, {.middle_px = {150.0, 120.0}, .turn_rad = 0.4});
+    install(447, {.middle_px = {480.0, 170.0}, .turn_rad = 2.0});
+    install(3003, {.middle_px = {330.0, 390.0}, .turn_rad = -1.1});
   }
 
   /// Known to a centimetre and half a degree, and wrong by about as much.

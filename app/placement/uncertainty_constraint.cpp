@@ -1,4 +1,4 @@
-#include "app/placement/pose_keeping.hpp"
+#include "app/placement/uncertainty_constraint.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -22,16 +22,17 @@ Visibility view_on_drives(const OccupancyMap& map, const MarkerRegistry& registr
 
 /// A number of markers in view is expressed as a deviation too: 0 where there are enough, elsewhere the
 /// distance driven since.
-PoseKeeping pose_keeping(const Visibility& visibility, const PoseKeepingOptions& options) {
-  PoseKeeping keeping{.fix_sigma_m = {},
-                      .drift_m_per_m = options.max_sigma_m ? options.drift_m_per_m : 1.0,
-                      .limit_m = options.max_sigma_m.value_or(options.blind_way_m)};
-  keeping.fix_sigma_m.reserve(visibility.cells.size());
+UncertaintyConstraint uncertainty_constraint(const Visibility& visibility,
+                                             const UncertaintyConstraintOptions& options) {
+  UncertaintyConstraint constraint{.fix_sigma_m = {},
+                                   .drift_m_per_m = options.max_sigma_m ? options.drift_m_per_m : 1.0,
+                                   .limit_m = options.max_sigma_m.value_or(options.blind_way_m)};
+  constraint.fix_sigma_m.reserve(visibility.cells.size());
   for (const std::optional<CellView>& view : visibility.cells) {
     const bool sees_enough = view && view->least >= options.markers_in_view.value_or(0);
-    keeping.fix_sigma_m.push_back(options.max_sigma_m ? fix_sigma_m(view) : sees_enough ? 0.0F : blind);
+    constraint.fix_sigma_m.push_back(options.max_sigma_m ? fix_sigma_m(view) : sees_enough ? 0.0F : blind);
   }
-  return keeping;
+  return constraint;
 }
 
 }  // namespace lodestar

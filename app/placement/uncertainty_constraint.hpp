@@ -8,7 +8,7 @@
 namespace lodestar {
 
 /// Constraint on paths so that the robot stays localized; one of the two, or neither.
-struct PoseKeepingOptions {
+struct UncertaintyConstraintOptions {
   std::optional<double> max_sigma_m;   ///< the predicted deviation of the position stays below this
   std::optional<int> markers_in_view;  ///< at least this many in view, at every heading
   double blind_way_m = 0.0;            ///< with markers_in_view: except for stretches up to this length
@@ -23,6 +23,7 @@ Visibility view_on_drives(const OccupancyMap& map, const MarkerRegistry& registr
                           VisibilityOptions options, double radius_m);
 
 /// The constraint for planners, from the visibility of each cell.
-PoseKeeping pose_keeping(const Visibility& visibility, const PoseKeepingOptions& options);
+UncertaintyConstraint uncertainty_constraint(const Visibility& visibility,
+                                             const UncertaintyConstraintOptions& options);
 
 }  // namespace lodestar
