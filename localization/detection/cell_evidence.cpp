@@ -35,7 +35,7 @@ CellEvidence evidence_of_cells(const cv::Mat& gray, const MarkerGrid& grid,
       const std::optional<DiscLight> seen =
           light_in_disc(gray, grid.center_px({row, column}), radius_px, background);
       if (!seen) continue;
-      // Darker than the film is as strange as brighter: something hangs before it.
+      // Darker than the film is as implausible as brighter: an occluder is in front of it.
       const double share = std::abs(seen->mass) / light_of_a_dot;
       cells.at({row, column}) = std::clamp((share - unsure) * slope, -options.sure, 0.0);
     }
@@ -44,7 +44,7 @@ CellEvidence evidence_of_cells(const cv::Mat& gray, const MarkerGrid& grid,
 }
 
 std::size_t dots_within(const MarkerGrid& grid, std::span<const Dot> dots) {
-  constexpr double reach_pitches = 2.3;  // its corners are 2.12 away
+  constexpr double reach_pitches = 2.3;  // corner dots are at 2.12
   const Vec2 middle = 0.5 * (grid.center_px(cell_of_x) + grid.center_px(cell_of_y));
   const double reach_px = reach_pitches * grid.pitch_px();
   return static_cast<std::size_t>(std::ranges::count_if(

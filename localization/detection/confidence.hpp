@@ -3,23 +3,23 @@
 #include <array>
 #include <cstdint>
 
-// How sure a marker's reading is, from the gray values of its dots (paper, Eq. (2) and (3)).
+// Confidence of a marker's reading, from the gray values of its dots (paper, Eq. (2) and (3)).
 namespace lodestar {
 
-inline constexpr int lowest_dot_gray = 200;       ///< where the sum of Eq. (3) begins
-inline constexpr double confidence_max = 2730.3;  ///< H_max: the greatest f(x), at x = 245.06
-inline constexpr double confidence_min = 478.2;   ///< H_min: f(200), the least on 200..255
+inline constexpr int lowest_dot_gray = 200;       ///< lower limit of the sum in Eq. (3)
+inline constexpr double confidence_max = 2730.3;  ///< H_max: maximum of f(x), at x = 245.06
+inline constexpr double confidence_min = 478.2;   ///< H_min: f(200), the minimum on 200..255
 
-/// f of Eq. (2): how often 200 marker images showed this gray value, fitted by two Gaussians.
+/// f of Eq. (2): gray-value histogram of 200 marker images, fitted by two Gaussians.
 double gray_frequency(double gray);
 
-/// What one pixel of each gray value adds to Eq. (3) before the division by N; nothing below 200.
+/// Contribution of a pixel of each gray value to Eq. (3), before the division by N; zero below 200.
 const std::array<double, 256>& confidence_of_gray();
 
-/// P(S) of Eq. (3), pixel by pixel.
+/// P(S) of Eq. (3), accumulated pixel by pixel.
 class ConfidenceSum {
  public:
-  /// One that is darker than 200 counts in N only.
+  /// A pixel darker than 200 counts in N only.
   void add(std::uint8_t gray) {
     sum_ += of_gray_[gray];
     ++pixels_;

@@ -6,28 +6,28 @@
 
 namespace lodestar {
 
-/// One dot of a decoded marker: which cell of the grid, and where its centre is in the image (pixel centres
-/// have integer coordinates).
+/// One dot of a decoded marker: its grid cell and its centre in the image (pixel centres have integer
+/// coordinates).
 struct MarkerDot {
   GridCell cell;
   Vec2 center_px = Vec2::Zero();
-  double sigma_px = 0.0;  ///< standard deviation of each coordinate; 0: not known
+  double sigma_px = 0.0;  ///< standard deviation of each coordinate; 0: unknown
 };
 
-/// At most one for each cell; without memory of their own, so that reading a frame takes none.
+/// At most one per cell; stored inline, so that reading a frame allocates nothing.
 using MarkerDots = InlineVector<MarkerDot, marker_grid_size * marker_grid_size>;
 
-/// A marker that was seen and decoded.
+/// A detected and decoded marker.
 struct DetectedMarker {
   int id = 0;
-  double probability = 0.0;  ///< that the ID is right, by the evidence of all cells; 0: they were not weighed
+  double probability = 0.0;  ///< posterior of the ID from the evidence of all cells; 0: not evaluated
   double confidence = 0.0;   ///< P(S) of Eq. (3)
-  Vec2 center_px =
-      Vec2::Zero();  ///< centre of the marker's area, whose distance to the image centre ranks it
+  /// Centre of the marker's area; its distance to the image centre ranks the markers.
+  Vec2 center_px = Vec2::Zero();
   Vec2 o_px = Vec2::Zero();
   Vec2 x_px = Vec2::Zero();
   Vec2 y_px = Vec2::Zero();
-  MarkerDots dots;  ///< those that were seen; O, X and Y among them as a rule
+  MarkerDots dots;  ///< the visible ones, usually with O, X and Y
 };
 
 }  // namespace lodestar

@@ -12,11 +12,11 @@
 namespace lodestar {
 namespace {
 
-constexpr int smallest_part_px = 4;      // what erosion parts must each be so large to be a dot
-constexpr double round_as_a_dot = 1.25;  // aspect ratio: rounder areas are not two dots
-constexpr double binary_sigma_px = 0.1;  // of the centre of a dot's bright pixels
+constexpr int smallest_part_px = 4;      // least size of each part after erosion
+constexpr double round_as_a_dot = 1.25;  // aspect ratio: rounder areas are a single dot
+constexpr double binary_sigma_px = 0.1;  // of the centroid of a dot's bright pixels
 
-/// Of values that are not negative.
+/// For non-negative values.
 int rounded(double value) {
   return static_cast<int>(value + 0.5);
 }
@@ -32,15 +32,15 @@ using Samples [[gnu::vector_size(ring_samples)]] = std::uint8_t;
   return std::max(v[0], v[1]);
 }
 
-/// What is around a dot. Neighbouring dots may reach the upper half of the pixels there.
+/// Order statistics of the gray values around a dot. Neighbouring dots may affect their upper half.
 struct Surroundings {
   std::uint8_t second_darkest = 0;
-  std::uint8_t third = 0;  ///< a third of the pixels is darker
+  std::uint8_t third = 0;  ///< a third of the pixels are darker
   std::uint8_t median = 0;
 };
 
-/// Each the greatest of the samples that no more than so many are smaller than. Counted for all samples at
-/// once; there is nothing to sort.
+/// Each statistic is the greatest sample with at most `rank` smaller ones, counted for all samples at once,
+/// without sorting.
 LODESTAR_WIDE_REGISTERS
 Surroundings surroundings_of(const std::uint8_t* ring) {
   Samples samples;
@@ -52,7 +52,7 @@ Surroundings surroundings_of(const std::uint8_t* ring) {
       .second_darkest = of_rank(1), .third = of_rank(ring_samples / 3), .median = of_rank(ring_samples / 2)};
 }
 
-/// By a ring of pixels around the dot; the nearest ones in the frame where the ring leaves it.
+/// From a ring of 16 pixels around the dot, clamped to the frame.
 Surroundings surroundings(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
   const int u = rounded(center_px.x());
   const int v = rounded(center_px.y());
@@ -79,8 +79,9 @@ Surroundings surroundings(const cv::Mat& gray, const Vec2& center_px, double rea
   return surroundings_of(ring.data());
 }
 
-/// The dot's middle: the mean of the three brightest of the nine pixels there. Less noisy than the brightest
-/// one, and unlike the mean of all nine not dimmed by the edge of a small dot. Nothing at the frame's border.
+/// Gray value of the dot's centre: mean of the three brightest of its 3 x 3 pixels. Less noisy than the
+/// brightest one, and unlike the mean of all nine not dimmed by the edge of a small dot. Nothing at the
+/// frame's border.
 std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
   const int u = rounded(center_px.x());
   const int v = rounded(center_px.y());
@@ -100,18 +101,17 @@ std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
   return (first + second + third) / 3.0;
 }
 
-/// Of what is around a dot, where it is more than the frame's noise: joints and stains of the ceiling. They
-/// pull its middle the same way in every frame.
+/// Background variance around a dot in excess of the frame's noise: joints and stains of the ceiling. They
+/// bias its centre the same way in every frame.
 double uneven_variance_gray2(const Surroundings& around, double dark) {
-  constexpr double usual_spread = 1.32;  // of 16 normal samples, from the second to the median, in deviations
-  constexpr double clearly_more = 1.8;   // so few samples of noise alone rarely spread so far
+  constexpr double usual_spread = 1.32;  // sigmas from the second darkest to the median of 16 normal samples
+  constexpr double clearly_more = 1.8;   // 16 samples of noise alone rarely spread this far
   const double sigma = (around.median - around.second_darkest) / usual_spread;
   return sigma > clearly_more * dark ? sigma * sigma - dark * dark : 0.0;
 }
 
-/// Noise in the dark, shot noise for the light above it, what an uneven background does to the dot, and
-/// `sampling_px` that is there without any of it. Pixels of the background are not off independently of each
-/// other, but several alike.
+/// Combines dark noise, shot noise, the uneven background and `sampling_px`, which remains without any noise.
+/// Errors of background pixels are correlated: they count as groups of two.
 double sigma_of(const DiscCenter& center, double dark, double variance_per_gray, const Surroundings& around,
                 double sampling_px) {
   constexpr double pixels_alike = 2.0;
@@ -121,9 +121,9 @@ double sigma_of(const DiscCenter& center, double dark, double variance_per_gray,
                    sampling_px * sampling_px);
 }
 
-/// The centroid of the gray values above the local background within a disc wide enough to hold all of the
-/// dot's light tells its radius whatever the blur (light = pi r^2 contrast), and where to look for its edge,
-/// which tells its centre. The paper takes the centre of the binary dot, good to a few tenths of a pixel.
+/// The gray-weighted centroid above the local background, within a disc that holds all of the dot's light,
+/// gives its radius whatever the blur (light = pi r^2 contrast) and the start for the edge fit, which gives
+/// its centre. The paper takes the centre of the binary dot, accurate to a few tenths of a pixel.
 std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, const DotOptions& options,
                                 double dark_noise_gray, double variance_per_gray) {
   Dot dot;
@@ -152,8 +152,8 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
   return dot;
 }
 
-/// A faint dot may rise above the threshold in several specks, each of which finds the whole dot. One is
-/// kept. Areas come from top to bottom, so a dot's specks are not far apart.
+/// A faint dot may exceed the threshold in several specks, each of which measures the whole dot; one is kept.
+/// Areas are sorted from top to bottom, so only the last 64 dots are compared.
 bool is_found_already(const Dot& dot, const BrightArea& area, std::span<const Dot> dots) {
   constexpr std::size_t far = 64;
   if (area.area_px > 0.6 * std::numbers::pi * dot.radius_px * dot.radius_px) return false;
@@ -199,7 +199,7 @@ void DotFinder::append_dots_of_area(const cv::Mat& gray, std::size_t index) {
   for (const BrightArea& part : parts) append_dot(gray, part, index);
 }
 
-/// The dots that touched in an area, parted by erosion; none when it is one piece.
+/// Touching dots of one area, separated by erosion; none when it stays in one piece.
 std::span<const BrightArea> DotFinder::parts_of(std::span<const Run> area) {
   const std::vector<BrightArea>& parts =
       part_connector_.connect(eroder_.erode(area, options_.erosion_px)).areas;

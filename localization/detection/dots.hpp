@@ -18,47 +18,47 @@ namespace lodestar {
 struct Dot {
   Vec2 center_px = Vec2::Zero();
   double sigma_px = 0.0;         ///< standard deviation of each coordinate
-  double radius_px = 0.0;        ///< of a uniform disc with the same light; blur does not change it
+  double radius_px = 0.0;        ///< of a uniform disc with the same total light; independent of blur
   double background_gray = 0.0;  ///< around the dot
-  double contrast_gray = 0.0;    ///< of its middle over the background
-  std::size_t area = 0;          ///< index of the bright area that it was found in
+  double contrast_gray = 0.0;    ///< centre minus background
+  std::size_t area = 0;          ///< index of its bright area
 };
 
 struct DotOptions {
-  std::optional<int> fixed_threshold;  ///< gray value (1..255) from which a pixel is bright, instead of:
+  std::optional<int> fixed_threshold;  ///< global threshold (1..255) in place of the local one
   LocalThresholdOptions threshold;
-  bool by_binary_center = false;  ///< the paper's centre: that of the bright pixels, whatever their gray
-  /// Shot noise of the sensor, standard deviation at gray 255: 255 / 4 is the root of a full well of 4000
-  /// electrons. That is assumed at first, then learned; the noise in the dark is told by each frame.
+  bool by_binary_center = false;  ///< the paper's centre: centroid of the bright pixels, unweighted
+  /// Standard deviation of the sensor's shot noise at gray 255: 255 / 4 is the root of a full well of 4000
+  /// electrons. The initial value is assumed, then learned; each frame measures its own dark noise.
   double shot_noise_gray_at_255 = 4.0;
-  double least_noise_gray = 0.5;  ///< in the dark: rounding to whole gray values, and a little
-  /// How far a dot's middle is off without any noise, in each coordinate: this over its radius. What pixels
-  /// that sample an edge, whole gray values and a last step leave; the longer the edge, the less.
+  double least_noise_gray = 0.5;  ///< in the dark: quantization to whole gray values, and a margin
+  /// Sigma of a dot's centre without noise, per coordinate, times its radius: left by pixels that sample an
+  /// edge, quantization and the last Newton step. A longer edge averages more.
   double sampling_sigma_px2 = 0.0032;
-  double min_area_px = 1.0;       ///< smaller bright areas are noise; faint small dots are a pixel or two
-  double min_radius_px = 0.7;     ///< of the light, not of the bright pixels: smaller dots are hot pixels
-  double max_area_px = 900.0;     ///< larger ones are tubes and lamps
-  double max_aspect_ratio = 2.2;  ///< longer ones are tubes
-  int erosion_px = 3;             ///< arm to arm of the cross that parts dots which touch; odd
-  double flat_radius_px = 2.6;    ///< a dot so large is flat about its middle
-  double tail_px = 1.7;           ///< how far a dot's blurred edge reaches beyond its bright pixels
+  double min_area_px = 1.0;    ///< smaller bright areas are noise; faint small dots are 1 or 2 pixels
+  double min_radius_px = 0.7;  ///< from the total light, not the bright pixels: smaller dots are hot pixels
+  double max_area_px = 900.0;  ///< larger areas are tubes and lamps
+  double max_aspect_ratio = 2.2;  ///< more elongated areas are tubes
+  int erosion_px = 3;             ///< side of the erosion cross that separates touching dots; odd
+  double flat_radius_px = 2.6;    ///< from this radius on, a dot is flat around its centre
+  double tail_px = 1.7;           ///< extent of a dot's blurred edge beyond its bright pixels
   EdgeOptions edge;
 };
 
-/// Finds the dots of a frame: threshold, limits on area and aspect ratio, erosion where dots touch (paper,
-/// section 4.1), and the dots' centres. Keeps its memory from frame to frame.
+/// Finds the dots of a frame: threshold, limits on area and aspect ratio, erosion of touching dots (paper,
+/// section 4.1), and sub-pixel centroids. Reuses its buffers from frame to frame.
 class DotFinder {
  public:
   explicit DotFinder(const DotOptions& options = {})
       : options_(options), light_noise_(options.shot_noise_gray_at_255) {}
 
-  /// Dots that the frame's border cuts are left out. `gray` is CV_8UC1. The result holds until the next call.
+  /// Omits dots cut by the frame's border. `gray` is CV_8UC1. The result is valid until the next call.
   std::span<const Dot> find(const cv::Mat& gray);
 
-  /// Dots in the neighbourhood of these parts of the frame. With a fixed threshold, of the whole frame.
+  /// Dots in and near these parts of the frame. With a fixed threshold, of the whole frame.
   std::span<const Dot> find_within(std::span<const cv::Rect> parts, const cv::Mat& gray);
 
-  /// The last frame's pixels of the dot's bright area.
+  /// Pixels of the dot's bright area in the last frame.
   [[nodiscard]] std::span<const Run> pixels_of(const Dot& dot) const {
     const BrightAreas& areas = area_finder_.areas();
     return areas.runs_of(areas.areas[dot.area]);

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double decisive = 3.0;  // log odds, 20 to 1
 
-/// What speaks against cells being other than they look.
+/// Log-likelihood cost of cells being the opposite of their evidence.
 struct Dissent {
-  double each = 0.0;   ///< in log likelihood, adds up
-  double cover = 0.0;  ///< one cover pays for all dots that it hides: the greatest counts
-  int cells = 0;       ///< that are sure of what they are
+  double each = 0.0;   ///< sum over cells
+  double cover = 0.0;  ///< one occluder explains all missing dots: maximum over cells
+  int cells = 0;       ///< number of decided cells
 
   friend Dissent operator+(const Dissent& a, const Dissent& b) {
     return {a.each + b.each, std::max(a.cover, b.cover), a.cells + b.cells};
@@ -21,7 +21,7 @@ struct Dissent {
   [[nodiscard]] double cost() const { return each + cover; }
 };
 
-/// Of one cell being the opposite of what its evidence says.
+/// Cost of one cell being the opposite of its evidence.
 Dissent dissent_of(double log_odds, bool cover_shows, const IdDecoderOptions& options) {
   const double sureness = std::abs(log_odds);
   const int cells = sureness >= decisive ? 1 : 0;
@@ -31,7 +31,7 @@ Dissent dissent_of(double log_odds, bool cover_shows, const IdDecoderOptions& op
       .each = each, .cover = cover_shows ? 0.0 : std::min(sureness - each, options.cover), .cells = cells};
 }
 
-/// Of any set of ID bits, in three nibbles.
+/// Cost of any set of differing ID bits, tabulated in three nibbles.
 class Contradiction {
  public:
   explicit Contradiction(const std::array<Dissent, 12>& of_bit) {
@@ -72,10 +72,10 @@ bool IdDecoder::accepts(int id) const {
 
 IdReading IdDecoder::read(const CellEvidence& cells, bool cover_shows) const {
   cover_shows = cover_shows || cells.undecided() > 0;
-  int plain = 0;  // what the evidence says bit by bit
+  int plain = 0;  // ID from the sign of each cell's evidence
   std::array<Dissent, 12> of_bit;
   Dissent of_corners;
-  double all = foreign_prior_;  // times the sum over all IDs, which is a product over bits
+  double all = foreign_prior_;  // times the sum over all IDs, which factors into a product over bits
   for (int row = 0; row < marker_grid_size; ++row) {
     for (int column = 0; column < marker_grid_size; ++column) {
       const GridCell cell{row, column};

@@ -8,13 +8,13 @@ namespace lodestar {
 namespace {
 
 constexpr double full_gray = 255.0;
-constexpr double assumed_dots = 10.0;  // as sure as after so many
-constexpr double remembered = 0.9995;  // of all that is known, from dot to dot: some 2000 dots
-constexpr int saturated_gray = 250;    // noise does not show there
-constexpr double most_sigmas = 5.0;    // more is no noise
+constexpr double assumed_dots = 10.0;  // weight of the initial assumption
+constexpr double remembered = 0.9995;  // forgetting factor per dot: a memory of some 2000 dots
+constexpr int saturated_gray = 250;    // saturation clips the noise
+constexpr double most_sigmas = 5.0;    // outlier gate
 
-/// Where the four pixels' middle lies (u, v) from the dot's, a round shape f(d^2) makes the difference 4 f''
-/// u v: less than two gray levels of a dot that shines by 200, has a radius of 1.2 px and a blur of 0.5 px.
+/// With the four pixels' middle at (u, v) from the dot's centre, a round shape f(d^2) adds 4 f'' u v to the
+/// difference: less than two gray levels for a dot of contrast 200, radius 1.2 px and blur 0.5 px.
 bool shape_shows(const Vec2& center_px, int u, int v) {
   constexpr double least_px2 = 0.004;
   return std::abs((center_px.x() - u - 0.5) * (center_px.y() - v - 0.5)) > least_px2;

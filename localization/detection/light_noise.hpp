@@ -6,28 +6,27 @@
 
 namespace lodestar {
 
-/// How much a pixel's noise grows with its light: shot noise, whose variance is in proportion to the gray
-/// value above the dark. A property of the camera, so it is learned from dot after dot, frame after frame,
-/// beginning with an assumption.
+/// Shot noise of a pixel: its variance is proportional to the gray value above the dark level. A property of
+/// the camera, learned from dot after dot, frame after frame, from an initial assumption.
 ///
-/// The middle of a large dot is flat. Of four pixels about it the difference a - b - c + d knows neither of a
-/// slope nor of a round dome; what is left has four times a pixel's variance. Of any other round shape it
-/// knows nothing either where the dot lies midway between the columns or midway between the rows, for there
-/// the four are alike two by two: so small dots that lie so tell of noise too.
+/// The centre of a large dot is flat. For the four pixels around it the difference a - b - c + d cancels a
+/// slope and a round dome; the rest has four times a pixel's variance. It also cancels any other round shape
+/// whose centre is midway between columns or midway between rows, where the four are equal in pairs: so small
+/// dots in such positions measure noise too.
 class LightNoise {
  public:
-  /// `shot_noise_gray_at_255`: the standard deviation assumed at gray 255.
+  /// `shot_noise_gray_at_255`: initial standard deviation at gray 255.
   explicit LightNoise(double shot_noise_gray_at_255);
 
-  /// The middle of a dot, in a frame whose noise in the dark is known. `is_flat`: its edge is far from it.
+  /// Adds the centre of a dot, in a frame of known dark noise. `is_flat`: its edge is far from the centre.
   void add(const cv::Mat& gray, const Vec2& center_px, bool is_flat, double background_gray,
            double dark_noise_gray);
 
-  /// Variance for each gray value above the background.
+  /// Variance per gray value above the background.
   [[nodiscard]] double variance_per_gray() const;
 
  private:
-  double variance_sum_;  ///< above that of the dark
+  double variance_sum_;  ///< in excess of the dark noise's
   double light_sum_;     ///< above the background
 };
 

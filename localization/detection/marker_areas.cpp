@@ -30,7 +30,7 @@ std::size_t MarkerAreaFinder::find(std::span<const Dot> dots) {
   join(dots);
   sets_.number(numbers_);
   const std::size_t areas = numbers_.empty() ? 0 : *std::ranges::max_element(numbers_) + 1;
-  // Each area's first place, which moves on to its end as the dots are put there.
+  // Start of each area, advanced to its end as its dots are written.
   ends_.assign(areas + 1, 0);
   for (const std::size_t number : numbers_) ++ends_[number + 1];
   std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
@@ -44,7 +44,7 @@ std::span<const Dot> MarkerAreaFinder::dots_of(std::size_t area) const {
   return std::span(dots_).subspan(first, ends_[area] - first);
 }
 
-/// By rows of the image, so that only dots of nearby rows have to be compared.
+/// Sorts by image row, so that only dots of nearby rows are compared.
 void MarkerAreaFinder::join(std::span<const Dot> dots) {
   sets_.reset(dots.size());
   order_.resize(dots.size());

@@ -22,14 +22,14 @@ MarkerGrid::MarkerGrid(const Vec2& o_px, const Vec2& x_px, const Vec2& y_px)
   px_from_pitches_ << (x_px - o_px) / (2.0 * half_grid), (y_px - o_px) / (2.0 * half_grid);
 }
 
-/// With q the cell's place in pitches and d the dot's place from the middle in pixels: d = (m + A q) / (1 +
-/// w.q). Times the denominator this is linear in m, A and w, solved by normal equations, in which the rows of
-/// (m A) share one matrix and only meet in w: eliminating them leaves two equations. w is drawn to zero by a
-/// prior that a dot noise of 0.02 pitches and a perspective of 0.02 a pitch (12 cm of marker tilted by 40
-/// degrees at 1.3 m) balance.
+/// With q the cell's position and d the dot's position from the middle of `start`, both in pitches: d = (m +
+/// A q) / (1 + w.q). Times the denominator this is linear in m, A and w. In the normal equations the rows of
+/// (m A) share one matrix and couple only through w: eliminating them leaves two equations. A prior pulls w
+/// to zero; its weight balances a dot noise of 0.02 pitches and a perspective of 0.02 per pitch (a marker of
+/// 12 cm tilted by 40 degrees at 1.3 m).
 MarkerGrid MarkerGrid::fitted(std::span<const MarkerDot> dots, const MarkerGrid& start) {
-  using Rows = Eigen::Matrix<double, 3, 2>;  // one column for u, one for v; or for the parts of w
-  // Sums over dots, number by number: each stands in several places of the symmetric equations.
+  using Rows = Eigen::Matrix<double, 3, 2>;  // columns: u and v, or the components of w
+  // Sums over dots as scalars: each appears in several entries of the symmetric equations.
   const double pitch_px = start.pitch_px();
   const double per_pitch = 1.0 / pitch_px;
   Vec2 q_sum = Vec2::Zero();
@@ -91,9 +91,9 @@ Vec2 MarkerGrid::center_px(GridCell cell) const {
   return middle_px_ + px_from_pitches_ * q / (1.0 + perspective_.dot(q));
 }
 
-/// Eq. (6)-(8) look from each place R on OY for dots at right angles to it, lambda = 1/3, 2/3 or 1 away.
-/// Along OX and OY as they are seen (at right angles only from straight below) both conditions read: the
-/// dot's coordinates are whole numbers of pitches.
+/// Eq. (6)-(8) search from each place R on OY for dots at right angles to it, at lambda = 1/3, 2/3 or 1.
+/// Along OX and OY as imaged (at right angles only from straight below) both conditions read: the dot's
+/// coordinates are whole numbers of pitches.
 std::optional<GridCell> MarkerGrid::cell_at(const Vec2& dot_px, double tolerance) const {
   const Vec2 q = px_from_pitches_.inverse() * (dot_px - middle_px_);
   const Vec2 place(q.x() + half_grid, half_grid - q.y());  // column, row
