@@ -21,7 +21,7 @@ std::uint32_t bright_bits(const std::uint8_t* pixels, int count, std::uint8_t th
   return bits;
 }
 
-/// The same of rows of a tile.
+/// The same for several rows of a tile.
 void find_bright_bits(const std::uint8_t* pixels, std::size_t stride, int count, std::uint8_t threshold,
                       std::span<std::uint32_t> rows) {
   if (count == tile) {
@@ -38,7 +38,7 @@ void find_bright_bits(const std::uint8_t* pixels, std::size_t stride, int count,
   }
 }
 
-/// Appends where bits change from 0 to 1 as a new run, and ends it where they change back or the bits end.
+/// Starts a run where bits change from 0 to 1, and ends it where they change back or the bits end.
 void append_runs(std::uint32_t bits, int left, int count, int row, std::vector<Run>& runs) {
   const bool goes_on = !runs.empty() && runs.back().row == row && runs.back().end == left;
   std::uint32_t changes = bits ^ (bits << 1U | static_cast<std::uint32_t>(goes_on));
@@ -61,8 +61,8 @@ std::size_t end_of_row(std::span<const Run> runs, std::size_t first) {
   return i;
 }
 
-/// Gives each run the piece of a run above that it touches, corners included; a piece of its own when it
-/// touches none. Where it touches several pieces, these are one area.
+/// Connected-component labelling: gives each run the label of a run above that it touches, corners included,
+/// or else a new label. Labels that meet are joined.
 class RowJoiner {
  public:
   RowJoiner(std::span<const Run> runs, std::vector<std::size_t>& pieces, DisjointSets& sets)
@@ -89,7 +89,7 @@ class RowJoiner {
       while (above < above_end && runs_[above].end < runs_[here].begin) ++above;
       const bool touches = above < above_end && runs_[above].begin <= runs_[here].end;
       pieces_[here] = touches ? pieces_[above] : sets_.add();
-      // The last of those above that it touches may touch the next one here too.
+      // The last run above that it touches may also touch the next one here.
       while (above + 1 < above_end && runs_[above + 1].begin <= runs_[here].end)
         sets_.join(pieces_[here], pieces_[++above]);
     }
@@ -100,9 +100,9 @@ class RowJoiner {
   DisjointSets& sets_;
 };
 
-/// Area and second moments of one area's runs. A run of n pixels from u has the sums n, n * mean and
-/// n * (mean^2 + (n^2 - 1) / 12); each pixel is a square, which adds 1/12. Halves and twelfths are kept
-/// whole.
+/// Area and second moments of one area's runs. A run of n pixels from u has the sums n, n * mean and n *
+/// (mean^2 + (n^2 - 1) / 12); each pixel is a square, which adds 1/12. Sums are integers: twice or twelve
+/// times the value where it has halves or twelfths.
 void measure(std::span<const Run> runs, BrightArea& area) {
   std::int64_t sum_2u = 0, sum_v = 0, sum_12uu = 0, sum_2uv = 0, sum_vv = 0;
   for (const Run& run : runs) {
@@ -129,7 +129,7 @@ void measure(std::span<const Run> runs, BrightArea& area) {
   area.aspect_ratio = std::sqrt((half_sum + half_difference) / std::max(half_sum - half_difference, 1e-9));
 }
 
-/// Area n is made of the runs of all pieces with that number.
+/// Component n consists of the runs of all labels with that number.
 void collect_areas(std::span<const Run> runs, std::span<const std::size_t> pieces,
                    std::span<const std::size_t> numbers, BrightAreas& result) {
   result.areas.clear();
@@ -151,7 +151,7 @@ void collect_areas(std::span<const Run> runs, std::span<const std::size_t> piece
   for (BrightArea& area : result.areas) measure(result.runs_of(area), area);
 }
 
-/// Runs that lie in `a` and, moved down by `rows`, in `b`. Both sorted, as is the result.
+/// Intersection of `a` with `b` moved down by `rows`. Both are sorted, as is the result.
 void intersect(std::span<const Run> a, std::span<const Run> b, int rows, std::vector<Run>& both) {
   both.clear();
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {

@@ -10,8 +10,8 @@
 #include "localization/detection/disjoint_sets.hpp"
 #include "localization/detection/local_threshold.hpp"
 
-// The thresholded frame as runs of bright pixels. A frame of dots is nearly all dark, so runs hold the same
-// binary image as Fig. 2b in a few hundred numbers, and all that follows touches bright pixels only.
+// The thresholded frame as runs of bright pixels. Most of a frame is dark, so runs hold the binary image of
+// Fig. 2b in a few hundred numbers, and all later steps touch bright pixels only.
 namespace lodestar {
 
 /// Bright pixels [begin, end) of one row.
@@ -22,18 +22,18 @@ struct Run {
   friend bool operator==(const Run&, const Run&) = default;
 };
 
-/// One connected area: a stretch of BrightAreas::runs, and what its pixels sum up to.
+/// A connected component: a range of BrightAreas::runs, and the moments of its pixels.
 struct BrightArea {
   std::size_t first_run = 0;
   std::size_t run_count = 0;
   int area_px = 0;
   double mean_u_px = 0.0;
   double mean_v_px = 0.0;
-  double aspect_ratio = 1.0;  ///< long over short axis of the ellipse with the same second moments
+  double aspect_ratio = 1.0;  ///< long over short axis of the ellipse with equal second moments
 };
 
 struct BrightAreas {
-  std::vector<Run> runs;  ///< area by area, within each by row and column
+  std::vector<Run> runs;  ///< sorted by area, then row, then column
   std::vector<BrightArea> areas;
 
   [[nodiscard]] std::span<const Run> runs_of(const BrightArea& area) const {
@@ -41,28 +41,28 @@ struct BrightAreas {
   }
 };
 
-/// Parts runs (by row, then by column) into areas of pixels that touch, corners included. Keeps its memory.
+/// Groups runs (by row, then by column) into 8-connected components. Reuses its buffers.
 class AreaConnector {
  public:
-  /// The result holds until the next call.
+  /// The result is valid until the next call.
   const BrightAreas& connect(std::span<const Run> runs);
 
   [[nodiscard]] const BrightAreas& areas() const { return areas_; }
 
  private:
-  std::vector<std::size_t> pieces_;  ///< of areas, for each run
-  DisjointSets sets_;                ///< of pieces that touch
+  std::vector<std::size_t> pieces_;  ///< provisional label of each run
+  DisjointSets sets_;                ///< equivalent labels
   std::vector<std::size_t> numbers_;
   BrightAreas areas_;
 };
 
-/// Erosion by a cross of `side` pixels (odd; 1 leaves all as it is) of an area or of a whole frame: a pixel
-/// stays when those left, right, above and below it within side / 2 are bright. On one connected area the
-/// result is that of eroding the whole image, for a pixel's bright neighbours belong to the pixel's own area.
-/// Keeps its memory.
+/// Erosion by a cross of `side` pixels (odd; 1 changes nothing) of an area or of a whole frame: a pixel stays
+/// when those left, right, above and below it within side / 2 are bright. On one connected component this
+/// equals eroding the whole image, as a pixel's bright neighbours belong to its own component. Reuses its
+/// buffers.
 class Eroder {
  public:
-  /// The result holds until the next call.
+  /// The result is valid until the next call.
   std::span<const Run> erode(std::span<const Run> runs, int side);
 
  private:
@@ -70,11 +70,11 @@ class Eroder {
   std::vector<Run> next_;
 };
 
-/// Finds a frame's bright areas: pixels at or above their tile's threshold that touch, corners included.
-/// Keeps its memory from frame to frame.
+/// Finds a frame's bright areas: 8-connected components of pixels at or above their tile's threshold. Reuses
+/// its buffers from frame to frame.
 class BrightAreaFinder {
  public:
-  /// `gray` is CV_8UC1, of the size that the thresholds are for. The result holds until the next call.
+  /// `gray` is CV_8UC1, of the size that the thresholds are for. The result is valid until the next call.
   const BrightAreas& find(const cv::Mat& gray, const LocalThresholds& thresholds);
 
   [[nodiscard]] const BrightAreas& areas() const { return connector_.areas(); }
@@ -88,7 +88,7 @@ class BrightAreaFinder {
   struct ActiveTile {
     int left = 0;
     int width = 0;
-    std::array<std::uint32_t, LocalThresholds::tile_px> bright_bits;  ///< row by row
+    std::array<std::uint32_t, LocalThresholds::tile_px> bright_bits;  ///< one per row
   };
   std::vector<ActiveTile> active_;  ///< of one row of tiles
   std::vector<Run> runs_;

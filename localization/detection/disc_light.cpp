@@ -11,9 +11,8 @@
 namespace lodestar {
 namespace {
 
-// Sixteen pixels at a time: a dot's whole width, as a rule. One register of the processors that have such
-// wide ones, two of eight for all others. All is inlined, so that it is compiled for the processor that its
-// caller is compiled for.
+// Sixteen pixels at a time: usually a dot's whole width. One register on processors with AVX-512, two of
+// eight on all others. Everything is inlined, so that it is compiled for its caller's target.
 constexpr int lanes = 16;
 using Sixteen [[gnu::vector_size(16 * sizeof(float))]] = float;
 using Eight [[gnu::vector_size(8 * sizeof(float))]] = float;
@@ -48,7 +47,7 @@ using SixteenBytes [[gnu::vector_size(16)]] = std::uint8_t;
 using SixteenShorts [[gnu::vector_size(32)]] = std::uint16_t;
 using SixteenInts [[gnu::vector_size(64)]] = std::int32_t;
 
-/// Pixels as floats. Their width is doubled at each step, as instructions do it.
+/// Converts pixels to floats, doubling their width at each step as the instructions do.
 template <typename Bytes, typename Shorts, typename Ints, typename Floats>
 [[gnu::always_inline]] inline void widen(const std::uint8_t* pixels, Floats& light) {
   Bytes bytes;
@@ -81,7 +80,7 @@ template <typename Floats>
   clamp_to(least, most, v.high);
 }
 
-/// Half of the lanes onto the other half, and so on.
+/// Adds one half of the lanes to the other half, and so on.
 template <typename Floats>
 [[gnu::always_inline]] inline float sum_of(const Floats& v) {
   static_assert(sizeof(v) == 4 * sizeof(Four));
@@ -93,23 +92,23 @@ template <typename Floats>
 
 constexpr std::array<float, lanes> steps{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/// The pixels about a place, in blocks of lanes; all of them lie in the frame.
+/// The pixels around a position, in blocks of lanes; all of them are in the frame.
 struct Patch {
   const std::uint8_t* first = nullptr;
   std::size_t stride = 0;
   int rows = 0;
-  int blocks = 0;        ///< of a row
-  float left_px = 0.0F;  ///< first pixel's place, from the middle of the disc
+  int blocks = 0;        ///< per row
+  float left_px = 0.0F;  ///< position of the first pixel relative to the disc's centre
   float top_px = 0.0F;
 };
 
-/// Of a value that is not negative.
+/// Ceiling of a non-negative value.
 int whole_at_least(double value) {
   const int whole = static_cast<int>(value);
   return whole < value ? whole + 1 : whole;
 }
 
-/// Blocks may reach beyond the disc, where weights are zero, but not beyond the frame.
+/// Blocks may extend beyond the disc, where weights are zero, but not beyond the frame.
 std::optional<Patch> patch_about(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
   if (!(std::abs(center_px.x()) < 1e6 && std::abs(center_px.y()) < 1e6)) return std::nullopt;
   int left = whole_at_least(center_px.x() - reach_px);
@@ -166,9 +165,9 @@ template <typename Floats>
 struct EdgeSums {
   float along_x = 0.0F;  ///< light above the background times the weight for x
   float along_y = 0.0F;  ///< and for y
-  float gain = 0.0F;     ///< what both change by together, a pixel
+  float gain = 0.0F;     ///< change of both sums together, per pixel
   float squares = 0.0F;  ///< sum of both weights' squares
-  float shots = 0.0F;    ///< and of their products with the light
+  float shots = 0.0F;    ///< the same times the light
 };
 
 template <typename Floats>
@@ -238,7 +237,7 @@ struct Sums {
   decltype(&sum_edge_by_eight) edge = sum_edge_by_eight;
 };
 
-/// The fastest that this processor has. Both give the same, to the last bit.
+/// The fastest variant on this processor. Both give identical results, to the last bit.
 const Sums& sums_of_this_processor() {
   static const Sums sums = [] {
     Sums best;
@@ -280,7 +279,7 @@ std::optional<DiscCenter> center_by_edge(const cv::Mat& gray, const Vec2& start_
     EdgeSums sums;
     sums_of_this_processor().edge(*patch, static_cast<float>(squared_radius), static_cast<float>(1.0 / width),
                                   static_cast<float>(background_gray), sums);
-    // The sum weighted by w x falls by half the gain as the weight moves on by a pixel.
+    // The sum weighted by w x falls by half the gain as the weight moves by a pixel.
     const double gain = 0.5 * static_cast<double>(sums.gain);
     const Vec2 step = Vec2(sums.along_x, sums.along_y) / gain;
     if (!(gain > 0.0 && step.squaredNorm() < options.longest_step_px * options.longest_step_px))

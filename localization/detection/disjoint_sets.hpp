@@ -6,19 +6,18 @@
 
 namespace lodestar {
 
-/// Which of `count` things belong together, told pair by pair (union-find with path halving; Tarjan 1975).
-/// The root of a set is its first member.
+/// Union-find with path halving (Tarjan 1975) over `count` elements. The root of a set is its first member.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count = 0) { reset(count); }
 
-  /// Forgets all; each of `count` things is a set of its own again.
+  /// Resets to `count` sets of one element each.
   void reset(std::size_t count) {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
 
-  /// One more thing, a set of its own; its index.
+  /// Adds an element as a set of its own and returns its index.
   std::size_t add() {
     parent_.push_back(parent_.size());
     return parent_.size() - 1;
@@ -39,7 +38,7 @@ class DisjointSets {
     }
   }
 
-  /// The number of each thing's set; sets are numbered by their first members.
+  /// Set number of each element; sets are numbered by their first members.
   void number(std::vector<std::size_t>& numbers) {
     numbers.resize(parent_.size());
     std::size_t sets = 0;

@@ -7,8 +7,7 @@
 
 namespace lodestar {
 
-/// Up to `most` values in a row that take no memory but their own: what a marker has of anything is known to
-/// be little.
+/// Up to `most` values stored inline, without allocation: a marker's counts are known to be small.
 template <typename Value, std::size_t most>
 class InlineVector : public boost::container::static_vector<Value, most> {
   using Base = boost::container::static_vector<Value, most>;

@@ -20,7 +20,7 @@ struct Extremes {
   [[nodiscard]] int range() const { return brightest - darkest; }
 };
 
-/// As many pixels as a tile is wide.
+/// One row of a tile.
 using TileRow [[gnu::vector_size(tile)]] = std::uint8_t;
 
 SixteenPixels least_of_halves(const TileRow& row) {
@@ -30,7 +30,7 @@ SixteenPixels least_of_halves(const TileRow& row) {
   return least_of(halves[0], halves[1]);
 }
 
-/// The least of each of four. Every step halves how many are left, of all at once.
+/// The minimum of each of the four. Every step halves the number of lanes, of all four at once.
 std::array<std::uint8_t, 4> least_of_four(const SixteenPixels& a, const SixteenPixels& b,
                                           const SixteenPixels& c, const SixteenPixels& d) {
   const auto halved = [](const SixteenPixels& x, const SixteenPixels& y) {
@@ -48,7 +48,7 @@ std::array<std::uint8_t, 4> least_of_four(const SixteenPixels& a, const SixteenP
   return {v[0], v[4], v[8], v[12]};
 }
 
-/// What is darkest and brightest in each column of a tile.
+/// Minimum and maximum of each column of a tile.
 struct Columns {
   TileRow low;
   TileRow high;
@@ -66,8 +66,8 @@ struct Columns {
   columns.high = row > columns.high ? row : columns.high;
 }
 
-/// Of the first, the next but `step`, ... row of neighbouring tiles, whose whole width lies in the frame. Two
-/// tiles at a time share a line of the cache. The brightest is the least of the complements.
+/// Extremes of neighbouring full-width tiles, from every `step`-th row of pixels. Two tiles at a time share a
+/// cache line. The maximum is computed as the minimum of the complements.
 LODESTAR_WIDE_REGISTERS
 void find_extremes(const std::uint8_t* pixels, std::size_t stride, int rows, int step,
                    std::span<Extremes> tiles) {
@@ -92,7 +92,7 @@ void find_extremes(const std::uint8_t* pixels, std::size_t stride, int rows, int
   }
 }
 
-/// Of a part of a tile; where it is half as wide or more, two halves that may overlap cover it.
+/// Extremes of a part of a tile; a part at least half a tile wide is covered by two halves that may overlap.
 Extremes extremes_of_part(const cv::Mat& gray, const cv::Rect& part) {
   constexpr int half = sizeof(SixteenPixels);
   if (part.width >= half && part.height > 0) {
@@ -120,10 +120,10 @@ Extremes extremes_of_part(const cv::Mat& gray, const cv::Rect& part) {
   return result;
 }
 
-/// Standard deviation of a pixel by the squared differences of neighbours in short stretches of rows spread
-/// over the frame: what the ceiling shows drops out of a difference, which varies twice as much as one
-/// pixel, and dots and lamps are in the noisier stretches. The lower quartile of the stretches is looked at;
-/// of so few differences, each of which shares its pixels with the next, it lies at 0.79 of the mean.
+/// Standard deviation of a pixel's noise, from squared differences of neighbours in short stretches of rows
+/// spread over the frame. A difference cancels the ceiling's pattern and has twice a pixel's variance; dots
+/// and lamps are in the noisier stretches. The lower quartile of the stretches is used: with so few
+/// differences, each of which shares its pixels with the next, it is 0.79 of the mean.
 double noise_of(const cv::Mat& gray) {
   constexpr int most_stretches = 48;
   constexpr double quartile_to_mean = 0.79;
@@ -186,9 +186,9 @@ void LocalThresholds::find_within(std::span<const cv::Rect> parts, const cv::Mat
   for (const cv::Point& at : bright_tiles_) correct_for_neighbours(gray, at);
 }
 
-/// Every other row tells whether a closer look is worth while: half a pixel above or below its middle even
-/// the smallest dot has more than this share of its light. Noise adds to the range of these rows as to that
-/// of all: the darkest of 512 pixels is rarely less than 2.5 sigmas below their mean.
+/// Every other row decides whether the whole tile is read: half a pixel above or below its centre even the
+/// smallest dot has more than this share of its light. Noise adds to the range of these rows as to that of
+/// all: the darkest of 512 pixels is rarely less than 2.5 sigmas below their mean.
 void LocalThresholds::examine_tiles(const cv::Mat& gray, int row, int first, int end) {
   constexpr double share_between_rows = 0.65;
   constexpr std::size_t at_once = 64;
@@ -225,8 +225,8 @@ void LocalThresholds::set_tile(const cv::Point& at, int darkest, int brightest) 
   bright_tiles_.push_back(at);
 }
 
-/// A tile may hold no more than the blurred edge of a dot or lamp that lies in the next one. Then the next
-/// one's threshold tells where it ends.
+/// A tile may hold only the blurred edge of a dot or lamp in a neighbouring tile. The neighbour's threshold
+/// then decides where it ends.
 void LocalThresholds::correct_for_neighbours(const cv::Mat& gray, const cv::Point& at) {
   constexpr double clearly_less = 0.75;
   constexpr int edge_px = 3;

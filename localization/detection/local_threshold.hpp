@@ -8,34 +8,33 @@
 namespace lodestar {
 
 struct LocalThresholdOptions {
-  /// A tile whose gray values range over less holds no dots: the faintest dot stands out by so much.
+  /// A tile whose gray values range over less holds no dots: the contrast of the faintest dot.
   int min_range_gray = 40;
-  /// And by so many times the noise: five sigmas on either side of a tile's mean, which noise alone reaches
-  /// in one tile of 2000.
+  /// The same limit in multiples of the noise: five sigmas on either side of a tile's mean, which noise alone
+  /// reaches in one tile of 2000.
   double min_range_to_noise = 10.0;
 };
 
-/// From which gray value on a pixel is bright, for each tile of the frame: midway between the tile's darkest
-/// and brightest pixel (Bernsen 1986), so that a dot is as large as it is whatever the light, and nothing
-/// where the tile shows too little contrast. Half a pass over the frame, and the other half where something
-/// stands out.
+/// Threshold of a bright pixel for each tile of the frame: midway between the tile's darkest and brightest
+/// pixel (Bernsen 1986), so that a dot's size does not depend on the illumination; none where the tile has
+/// too little contrast. Reads every other row, and all rows of tiles with contrast.
 class LocalThresholds {
  public:
   static constexpr int tile_px = 32;
-  static constexpr std::uint8_t nothing_bright = 0;  ///< stands for a tile without contrast
+  static constexpr std::uint8_t nothing_bright = 0;  ///< marks a tile without contrast
 
-  /// `gray` is CV_8UC1. What was found before is forgotten, its memory is used again.
+  /// `gray` is CV_8UC1. Discards the previous result and reuses its buffers.
   void find(const cv::Mat& gray, const LocalThresholdOptions& options);
 
-  /// The same in the tiles that these parts of the frame touch; nothing is bright in any other.
+  /// The same in the tiles that these parts of the frame touch; all others are marked as without contrast.
   void find_within(std::span<const cv::Rect> parts, const cv::Mat& gray,
                    const LocalThresholdOptions& options);
 
-  /// Standard deviation of a pixel's noise where nothing is bright, by the differences of neighbouring pixels
-  /// in the quieter stretches of some rows.
+  /// Standard deviation of a pixel's noise in the dark, from the differences of neighbouring pixels in the
+  /// quieter stretches of some rows.
   [[nodiscard]] double noise_gray() const { return noise_gray_; }
 
-  /// The same threshold (1..255) everywhere, as in the paper.
+  /// Sets one global threshold (1..255), as in the paper.
   void set(const cv::Size& frame, std::uint8_t threshold);
 
   [[nodiscard]] int tile_rows() const { return rows_; }
@@ -56,7 +55,7 @@ class LocalThresholds {
   int rows_ = 0;
   int columns_ = 0;
   std::vector<std::uint8_t> thresholds_;
-  std::vector<std::uint8_t> ranges_;  ///< of the gray values, where something is bright
+  std::vector<std::uint8_t> ranges_;  ///< of the gray values, in tiles with contrast
   std::vector<cv::Point> bright_tiles_;
 };
 

@@ -24,17 +24,17 @@ std::pair<std::size_t, std::size_t> farthest_pair(std::span<const Dot> dots) {
   return best;
 }
 
-/// Eq. (4) and (5) with the rotation's sign mended: turning OX a quarter clockwise takes it away from OY. The
-/// printed face shows Y a quarter counter-clockwise of X, which in an image with v down is a negative
-/// product.
+/// Eq. (4) and (5) with the rotation's sign corrected: turning OX a quarter clockwise takes it away from OY.
+/// The printed face shows Y a quarter turn counter-clockwise of X, which in an image with v down is a
+/// negative cross product.
 DirectionDots with_axes_named(std::span<const Dot> dots, std::size_t o, std::size_t a, std::size_t b) {
   const Vec2 oa = dots[a].center_px - dots[o].center_px;
   const Vec2 ob = dots[b].center_px - dots[o].center_px;
   return cross(oa, ob) < 0.0 ? DirectionDots{o, a, b} : DirectionDots{o, b, a};
 }
 
-/// Are these three the corners of a square, seen tilted, and of the size that their dots tell? An L of other
-/// dots (2 by 2 or 2 by 3 pitches, or aslant) has too long a side or a pitch too small for its dots.
+/// True when these three may be the corners of a tilted square of the size that their dots imply. An L of
+/// other dots (2 by 2 or 2 by 3 pitches, or oblique) has too long a side or a pitch too small for its dots.
 bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
                   const MarkerDecoderOptions& options) {
   const bool few = dots.size() < options.least_dots_for_tilt;
@@ -61,7 +61,8 @@ bool sizes_are_alike(std::span<const Dot> dots, const MarkerDecoderOptions& opti
          options.alike_tolerance * small.radius_px + options.alike_tolerance_px2 / small.radius_px;
 }
 
-/// One cell for each dot; nothing when a dot has none, or another dot's, or the corner that is always empty.
+/// One cell for each dot; nothing when a dot is in no cell, in another dot's, or in the corner that is always
+/// empty.
 MarkerDots dots_in_cells(std::span<const Dot> dots, const MarkerGrid& grid, double tolerance) {
   std::array<bool, marker_grid_size * marker_grid_size> taken{};
   MarkerDots result;
@@ -82,7 +83,7 @@ bool fits(const MarkerGrid& grid, std::span<const MarkerDot> dots, double tolera
   });
 }
 
-/// The dots of the square that the direction dots span, with a margin that must be clear around it; none when
+/// Dots of the square that the direction dots span, with a margin that must be clear around it; none when
 /// they are too many for one marker.
 MarkerDotIndices dots_about(std::span<const Dot> dots, const DirectionDots& direction, double guard) {
   const Vec2 o = dots[direction.o].center_px;
@@ -100,7 +101,7 @@ MarkerDotIndices dots_about(std::span<const Dot> dots, const DirectionDots& dire
   return indices;
 }
 
-/// Reads the marker that these three would be the direction dots of.
+/// Reads the marker that has these three as direction dots.
 std::optional<MarkerReading> read_marker_among(std::span<const Dot> dots, const DirectionDots& direction,
                                                const MarkerDecoderOptions& options) {
   if (!spans_a_grid(dots, direction, options)) return std::nullopt;
@@ -121,7 +122,8 @@ bool share_a_dot(const MarkerReading& a, const MarkerReading& b) {
   return std::ranges::find_first_of(a.indices, b.indices) != a.indices.end();
 }
 
-/// May these two be the ends of an axis, by the dots' size? Tilt shortens an axis more than it narrows dots.
+/// True when these two may be the ends of an axis, by the dots' size. Tilt shortens an axis more than it
+/// narrows dots.
 bool may_span_an_axis(const Dot& a, const Dot& b) {
   const double pitches = (a.center_px - b.center_px).norm() / (radii_per_pitch * a.radius_px);
   return std::abs(pitches - (marker_grid_size - 1)) < 1.5;
@@ -207,7 +209,7 @@ void AreaReader::reject_conflicts() {
   }
 }
 
-/// What the other readings leave over may be one marker more, with too few dots to be found in a crowd.
+/// The dots left by the other readings may be one more marker, with too few dots for a crowded area.
 void AreaReader::read_the_rest(std::span<const Dot> dots) {
   rest_.clear();
   rest_indices_.clear();

@@ -28,7 +28,7 @@ DotsOfMarker dots_at(std::span<const Dot> dots, const MarkerDotIndices& indices)
   return result;
 }
 
-/// `grid_place` tells where a direction dot must be that was not seen.
+/// `grid_place` gives the position of a direction dot that is not visible.
 template <typename GridPlace>
 DetectedMarker detected(int id, double probability, double confidence, const MarkerDots& dots,
                         const GridPlace& grid_place) {
@@ -52,7 +52,7 @@ void sort_by_distance_to_center(std::vector<DetectedMarker>& markers, const cv::
                     [&](const DetectedMarker& marker) { return (marker.center_px - center).squaredNorm(); });
 }
 
-/// A dot of another size is a glint, a lamp, or covered in part.
+/// Rejects dots of a deviating size: specular reflections, lamps, partly occluded dots.
 DotsOfArea dots_of_usual_size(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
   InlineVector<double, DotsOfArea::static_capacity> radii;
   for (const Dot& dot : dots) radii.push_back(dot.radius_px);
@@ -67,16 +67,16 @@ DotsOfArea dots_of_usual_size(std::span<const Dot> dots, const MarkerDecoderOpti
   return result;
 }
 
-/// Four by four places of a lattice, and how a marker may hang in them.
+/// Four by four places of a lattice that may hold a marker, in any of four rotations.
 struct Square {
-  MarkerGrid grid;  ///< of the square as it stands, its lower left place taken for O
+  MarkerGrid grid;  ///< without rotation: the lower left place is O
   MarkerDots dots;
   DotsOfMarker measured;
 };
 
 constexpr int quarter_turns = 4;
 
-/// Where a marker's cell comes to lie in the square when the marker hangs turned by quarters.
+/// Square's cell at which a marker's cell lies when the marker is rotated by quarter turns.
 GridCell turned(GridCell cell, int quarters) {
   for (int i = 0; i < quarters; ++i) cell = {cell.column, marker_grid_size - 1 - cell.row};
   return cell;
@@ -97,7 +97,7 @@ MarkerDots turned_back(MarkerDots dots, int quarters) {
   return dots;
 }
 
-/// The square whose top left place is this one of a lattice.
+/// The square whose top left is this place of a lattice.
 Square square_at(const DotLattice& lattice, std::span<const Dot> dots, int column, int row) {
   const auto place = [&](int c, int r) -> Vec2 {
     return lattice.origin_px + (column + c) * lattice.column_px + (row + r) * lattice.row_px;
@@ -114,7 +114,7 @@ Square square_at(const DotLattice& lattice, std::span<const Dot> dots, int colum
   return square;
 }
 
-/// Does for all squares that hold all of the lattice's dots.
+/// Calls `work` for each square that holds all of the lattice's dots.
 template <typename Work>
 void for_each_square(const DotLattice& lattice, std::span<const Dot> dots, const Work& work) {
   const auto [left, right] = std::ranges::minmax(lattice.dots, {}, &LatticeDot::column);
@@ -125,21 +125,21 @@ void for_each_square(const DotLattice& lattice, std::span<const Dot> dots, const
   }
 }
 
-/// Of the dots beside the lattice, those that lie within the marker or right beside it.
+/// Number of dots that are not on the lattice but lie within the marker or right beside it.
 std::size_t extra_dots_in(const Square& square, std::span<const Dot> dots) {
   const std::size_t near = dots_within(square.grid, dots);
   return near - std::min(near, square.dots.size());
 }
 
-/// A marker's ID and how it hangs in a square.
+/// A marker's ID, square and rotation.
 struct PlacedMarker {
   Square square;
   int quarters = 0;
   IdReading id;
 };
 
-/// A lattice fits any few dots, and a square of it somebody's ID: what speaks against a reading must be
-/// balanced by dots that speak for it.
+/// Some lattice fits any few dots, and any square of it reads as some ID: contradicting evidence must be
+/// outweighed by supporting dots.
 bool is_trusted(const PlacedMarker& marker, std::size_t extra_dots, const IdDecoder& decoder,
                 const LatticeOptions& options) {
   const std::size_t dots = marker.square.dots.size();
@@ -149,8 +149,8 @@ bool is_trusted(const PlacedMarker& marker, std::size_t extra_dots, const IdDeco
 
 constexpr int pixels_at_once = sizeof(SixteenPixels);
 
-/// Of pixels in a row from here on, bit by bit: those that are at least `lowest_dot_gray` together with their
-/// four neighbours.
+/// One bit for each of 16 pixels in a row: set where the pixel and its four neighbours are at least
+/// `lowest_dot_gray`.
 unsigned inner_pixels(const std::uint8_t* pixels, std::size_t stride) {
   const SixteenPixels beside = least_of(sixteen_at(pixels - 1), sixteen_at(pixels + 1));
   const SixteenPixels above_and_below = least_of(sixteen_at(pixels - stride), sixteen_at(pixels + stride));
@@ -158,8 +158,8 @@ unsigned inner_pixels(const std::uint8_t* pixels, std::size_t stride) {
   return bits_of(least >= static_cast<std::uint8_t>(lowest_dot_gray));
 }
 
-/// Adds the pixels of a run that are in the paper's binary image after its erosion by a cross of three. A
-/// frame narrower than what is looked at together has no room for a marker.
+/// Adds the pixels of a run that remain in the paper's binary image after erosion by a cross of three. Frames
+/// narrower than 18 pixels are skipped: they cannot hold a marker.
 void add_inner_pixels(const cv::Mat& gray, const Run& run, ConfidenceSum& confidence) {
   if (run.row == 0 || run.row + 1 == gray.rows) return;
   const auto* const row = gray.ptr<std::uint8_t>(run.row);
@@ -246,7 +246,7 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const
     append_marker_of_lattice(gray, dots, of_frame);
 }
 
-/// Every way that a marker may hang on the lattice is weighed against all others.
+/// All squares and rotations of a marker on the lattice compete with each other.
 void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots,
                                               std::span<const Dot> of_frame) {
   if (dots.size() > DotsOfArea::static_capacity) return;
@@ -267,7 +267,7 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<con
       if (!best || id.weight > best->id.weight) best = PlacedMarker{square, turn, id};
     }
   });
-  if (!best || !is_decided) return;  // any of the squares may be the one
+  if (!best || !is_decided) return;  // a square with too many undecided cells may be the true one
   const double probability = best->id.weight / all_weight;
   if (probability < options_.lattice.least_probability ||
       !is_trusted(*best, extra_dots_in(best->square, dots), id_decoder_, options_.lattice)) {
@@ -279,8 +279,8 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<con
                               }));
 }
 
-/// The local 'and' of dilation area and eroded image (Fig. 2d) leaves the eroded dots of this marker, whose
-/// gray values Eq. (3) counts. Whatever threshold found them, the paper's is 200.
+/// The local 'and' of dilation area and eroded image (Fig. 2d) leaves this marker's eroded dots, whose gray
+/// values enter Eq. (3). Whichever threshold found them, the paper's 200 applies here.
 double MarkerDetector::confidence_of(const cv::Mat& gray, std::span<const Dot> dots) const {
   ConfidenceSum confidence;
   for (const Dot& dot : dots) {

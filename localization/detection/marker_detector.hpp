@@ -22,42 +22,41 @@ struct DetectorOptions {
   MarkerDecoderOptions decoder;
   LatticeOptions lattice;
   CellEvidenceOptions evidence;
-  /// IDs of the registered markers. With them a marker is read whose cells cannot all be seen, when only one
-  /// of them fits, and no other ID is: a marker of which something as gray as the ceiling hides dots looks
-  /// just like one that hangs there unregistered. Without them every cell must be sure, and each of the 4096
-  /// IDs is as likely as any other.
+  /// IDs of the registered markers. With them, a marker with undecided cells is read when exactly one of them
+  /// fits. Other IDs are rejected: a marker with dots behind an occluder as gray as the ceiling looks just
+  /// like an unregistered one. Without them every cell must be decided, and all 4096 IDs are equally likely.
   std::vector<int> registered_ids;
-  double least_probability = 0.99;  ///< that the ID is right; less is refused
-  /// Of the 16 cells. What covers more of them is large, and cells no longer err independently of each other.
-  /// IDs at distance 4 stay distinct with three lost.
+  double least_probability = 0.99;  ///< posterior of the ID; less is rejected
+  /// Limit on undecided cells of the 16. A larger occluder makes errors of cells dependent. IDs at Hamming
+  /// distance 4 stay distinct with three lost.
   int most_undecided = 3;
-  /// Where the paper's rule fails, look for any lattice of dots, of which some may be hidden. Only with
-  /// registered IDs: where any may hang, each square of a lattice is somebody's.
+  /// Where the paper's rule fails, search for any lattice of dots, some of which may be occluded. Only with
+  /// registered IDs: if any ID were allowed, each square of a lattice would read as one.
   bool lattice_search = true;
-  /// The ID by the evidence of all cells, and a probability with it. Else that of the dots found, Eq. (9),
-  /// with neither.
+  /// ID from the evidence of all cells, with a probability. Otherwise from the dots found, Eq. (9), without
+  /// evidence or probability.
   bool weigh_cells = true;
 };
 
-/// The paper's own way (sections 4.1 and 4.2): the threshold 200 everywhere, centres of binary dots,
-/// direction dots by the farthest pair, the ID by Eq. (9), nothing else tried.
+/// The paper's method (sections 4.1 and 4.2): threshold 200 everywhere, centres of binary dots, direction
+/// dots by the farthest pair, ID by Eq. (9), no fallback.
 DetectorOptions paper_detection();
 
-/// The same, with the registry's markers expected.
+/// The given options, with the registry's IDs as registered IDs.
 DetectorOptions expecting(const MarkerRegistry& registry, DetectorOptions options = {});
 
-/// Reads the markers of frame after frame. Keeps its memory from one to the next: after the first few frames
-/// it takes none.
+/// Detects the markers of frame after frame. Reuses its buffers: allocates nothing after the first few
+/// frames.
 class MarkerDetector {
  public:
   explicit MarkerDetector(const DetectorOptions& options = {});
 
-  /// Every marker that could be decoded, the optimal one (nearest to the image centre, Eq. (1)) first. `gray`
-  /// is CV_8UC1, of any size, and may be a part of a larger frame; any other type throws
-  /// std::invalid_argument. The result holds until the next call.
+  /// All markers that could be decoded, the optimal one (nearest to the image centre, Eq. (1)) first. `gray`
+  /// is CV_8UC1, of any size, and may be a region of a larger frame; any other type throws
+  /// std::invalid_argument. The result is valid until the next call.
   std::span<const DetectedMarker> detect(const cv::Mat& gray);
 
-  /// The same for markers within these parts of the frame; beside them a marker may be missed.
+  /// The same within these parts of the frame; markers outside them may be missed.
   std::span<const DetectedMarker> detect_within(std::span<const cv::Rect> parts, const cv::Mat& gray);
 
  private:

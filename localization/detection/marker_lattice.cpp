@@ -17,7 +17,7 @@ struct Basis {
   Eigen::Matrix2d px_from_places;  ///< columns: one place to the right, one down
 };
 
-/// The square lattice with these two dots `places` apart in a row.
+/// The square lattice on which these two dots are `places` apart in a row.
 Basis square_basis(const Dot& a, const Dot& b, int places) {
   const Vec2 right = (b.center_px - a.center_px) / places;
   Basis basis{.origin_px = a.center_px, .px_from_places = {}};
@@ -25,7 +25,7 @@ Basis square_basis(const Dot& a, const Dot& b, int places) {
   return basis;
 }
 
-/// Dots whose place is near a whole one, each place taken once by the nearest.
+/// Dots near an integer place, the nearest dot for each place.
 LatticeDots dots_on(std::span<const Dot> dots, const Basis& basis, double tolerance) {
   const Eigen::Matrix2d places_from_px = basis.px_from_places.inverse();
   struct Taken {
@@ -58,7 +58,7 @@ bool is_inside(const LatticeDot& dot, int left, int top) {
          dot.row < top + marker_grid_size;
 }
 
-/// Those of them in the square of four by four places that holds most.
+/// The dots in the square of four by four places that holds most of them.
 LatticeDots in_best_square(const LatticeDots& dots) {
   std::ptrdiff_t most = 0;
   int best_left = 0;
@@ -79,7 +79,7 @@ LatticeDots in_best_square(const LatticeDots& dots) {
   return inside;
 }
 
-/// The affine lattice nearest to the dots, by least squares. Nothing for dots in one line.
+/// Least-squares affine lattice of the dots. Nothing for collinear dots.
 std::optional<Basis> fitted(std::span<const Dot> dots, const LatticeDots& on) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
@@ -102,7 +102,7 @@ double mean_radius_px(std::span<const Dot> dots, const LatticeDots& on) {
   return sum / static_cast<double>(on.size());
 }
 
-/// A square seen tilted, of the pitch that the dots' size tells?
+/// True for a tilted square of the pitch that the dots' size implies.
 bool is_plausible(const Basis& basis, double radius_px, const LatticeOptions& options) {
   const double area = basis.px_from_places.determinant();
   if (!(area > 0.0)) return false;

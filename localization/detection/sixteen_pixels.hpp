@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <cstring>
 
-// Sixteen pixels in a register. The vector extensions that GCC and clang share are the one dialect for such
-// code here: they become SSE2 or AVX2 on x86-64 and NEON on arm64, and give the same everywhere.
+// Sixteen pixels in a register. Only vector extensions that GCC and clang share are used: they compile to
+// SSE2 or AVX2 on x86-64 and to NEON on arm64, with identical results.
 namespace lodestar {
 
 using SixteenPixels [[gnu::vector_size(16)]] = std::uint8_t;
-/// What a comparison of them gives: all bits of a byte, or none.
+/// Result of a comparison: all bits of a byte, or none.
 using SixteenAnswers [[gnu::vector_size(16)]] = signed char;
 
 [[gnu::always_inline]] inline SixteenPixels sixteen_at(const std::uint8_t* pixels) {
@@ -22,8 +22,8 @@ using SixteenAnswers [[gnu::vector_size(16)]] = signed char;
   return a < b ? a : b;
 }
 
-/// Bit i is set where answer i is yes. Multiplied, the eight bytes' one bits come to stand side by side in
-/// the uppermost byte.
+/// Bit i is set where answer i is true. A multiplication gathers the lowest bits of eight bytes in the top
+/// byte.
 [[gnu::always_inline]] inline std::uint32_t packed_bits_of(const SixteenAnswers& answers) {
   std::array<std::uint64_t, 2> halves;
   std::memcpy(halves.data(), &answers, sizeof(answers));
@@ -33,7 +33,7 @@ using SixteenAnswers [[gnu::vector_size(16)]] = signed char;
   return packed(halves[0]) | packed(halves[1]) << 8U;
 }
 
-/// The same. x86-64 has one instruction for it, which no vector operation of the language stands for.
+/// The same. x86-64 has one instruction for it, to which no portable vector operation compiles.
 [[gnu::always_inline]] inline std::uint32_t bits_of(const SixteenAnswers& answers) {
 #ifdef __SSE2__
   using Chars [[gnu::vector_size(16)]] = char;
