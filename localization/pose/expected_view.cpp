@@ -5,7 +5,7 @@
 namespace lodestar {
 namespace {
 
-/// The lever from the base to the camera turns with the base.
+/// Jacobian of the camera's pose by the base's: the lever from base to camera rotates with the base.
 Eigen::Matrix<double, 6, 3> camera_by_base(const Eigen::Isometry3d& map_from_base,
                                            const Eigen::Isometry3d& map_from_camera) {
   const Vec3 lever = map_from_camera.translation() - map_from_base.translation();

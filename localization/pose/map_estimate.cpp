@@ -38,10 +38,10 @@ struct Normal {
   Mat6 information_of_dots = Mat6::Zero();  ///< without the prior's
   Vec6 gradient = Vec6::Zero();             ///< of half the cost
   double cost = 0.0;
-  bool is_quadratic = true;  ///< no dot is so far off that its loss is linear
+  bool is_quadratic = true;  ///< no dot is in the linear range of its Huber loss
 };
 
-/// Huber: quadratic up to `scale` sigmas, linear beyond. The weight is that of the quadratic form.
+/// Huber loss: quadratic up to `scale` sigmas, linear beyond. The weight is that of the quadratic form.
 struct Huber {
   double cost = 0.0;
   double weight = 1.0;
@@ -53,7 +53,7 @@ Huber huber(double squared_sigmas, double scale) {
   return {scale * (2.0 * sigmas - scale), scale / sigmas};
 }
 
-/// The same in the camera's own axes, where most of the derivative is zero: by_u and by_v are by (position,
+/// The same in the camera's axes, where most of the derivative is zero: by_u and by_v are by (position,
 /// rotation) of the camera along and about them.
 struct ProjectionInCamera {
   Vec2 pixel;
@@ -61,10 +61,10 @@ struct ProjectionInCamera {
   Vec6 by_v;
 };
 
-/// The middle of a horizontal disc's image less the image of its middle, as rays at unit depth. With the
-/// disc's points q(s, t) seen at depth z(s, t), s and t along the map's axes, the centroid of its image is
-/// off by r^2 / 4 (laplacian(q) / 2 + grad(q) . grad(ln J)), J the change of area, which is as z^-3. Both
-/// terms are multiples of grad(z) . grad(q) / z: -1 and -3.
+/// Centroid of a horizontal disc's image minus the image of its centre, as rays at unit depth. With the
+/// disc's points q(s, t) seen at depth z(s, t), s and t along the map's axes, the centroid is off by r^2 / 4
+/// (laplacian(q) / 2 + grad(q) . grad(ln J)), with J, the change of area, proportional to z^-3. Both terms
+/// are multiples of grad(z) . grad(q) / z: -1 and -3.
 Vec2 disc_offset(const Vec2& normalized, double depth_m, const Eigen::Matrix3d& map_from_camera) {
   Vec2 sum = Vec2::Zero();
   for (const Eigen::Index axis : {0, 1}) {
@@ -96,7 +96,7 @@ std::optional<ProjectionInCamera> project_in_camera(const Eigen::Isometry3d& map
   return projection;
 }
 
-/// From the camera's axes to the map's.
+/// Rotates from the camera's axes to the map's.
 void turn(Normal& normal, const Eigen::Matrix3d& map_from_camera) {
   for (const Eigen::Index i : {0, 3}) {
     for (const Eigen::Index j : {0, 3}) {
@@ -137,8 +137,8 @@ bool tilt_is_known_about(const PosePrior& prior) {
   return prior.tilt_sigma_rad && *prior.tilt_sigma_rad > 0.0;
 }
 
-/// The map's vertical as the mount would have it: upright but for the tilt's error, whose parts are its two
-/// horizontal ones.
+/// Vertical axis of the mount in the map: upright except for the tilt error, which is its two horizontal
+/// components.
 Vec3 upright(const Eigen::Isometry3d& pose, const PosePrior& prior) {
   return pose.linear() * prior.tilt.transpose().col(2);
 }
@@ -160,7 +160,7 @@ void add_prior(const Eigen::Isometry3d& pose, const PosePrior& prior, Normal& no
   }
 }
 
-/// An exact tilt leaves no freedom about the horizontal axes: those rows say "no step" and nothing else.
+/// An exact tilt has no freedom about the horizontal axes: those rows mean "no step".
 void forbid_tilting(Normal& normal) {
   for (const Eigen::Index axis : {3, 4}) {
     normal.information.row(axis).setZero();
@@ -179,7 +179,7 @@ std::optional<Normal> normal_at(const Eigen::Isometry3d& pose, std::span<const S
   return normal;
 }
 
-/// The pose with the same place and heading, but with the tilt that the prior says.
+/// The pose with the same position and heading, but with the prior's tilt.
 Eigen::Isometry3d with_prior_tilt(const Eigen::Isometry3d& pose, const PosePrior& prior) {
   const Eigen::Matrix3d untilted = pose.linear() * prior.tilt.transpose();
   const Vec2 heading = Vec2(untilted(0, 0) + untilted(1, 1), untilted(1, 0) - untilted(0, 1)).normalized();
@@ -192,7 +192,7 @@ Eigen::Isometry3d with_prior_tilt(const Eigen::Isometry3d& pose, const PosePrior
 
 /// The inverse of the information, zero where the tilt is exact.
 std::optional<Mat6> covariance_of(const Normal& normal, bool exact_tilt) {
-  // Metres and radians are of one size here, so that the factorization needs no scaling.
+  // Metres and radians are of similar magnitude here, so that the factorization needs no scaling.
   const Eigen::LDLT<Mat6> factors(normal.information);
   if (factors.info() != Eigen::Success || !factors.isPositive()) return std::nullopt;
   Mat6 covariance = factors.solve(Mat6::Identity());
@@ -204,7 +204,7 @@ std::optional<Mat6> covariance_of(const Normal& normal, bool exact_tilt) {
   return Mat6(0.5 * (covariance + covariance.transpose()));
 }
 
-/// What all frames have in common of the variance of dots, by their weight in a fix.
+/// Share of the dots' variance that is common to all frames, by their weight in a fix.
 double shared_part(std::span<const SurveyedDot> dots) {
   double shared = 0.0;
   double sum = 0.0;
@@ -222,8 +222,7 @@ Vec3 center_of(std::span<const SurveyedDot> dots) {
   return center;
 }
 
-/// How far a dot comes to lie from where the linear view has it after such a step, by the second order of a
-/// perspective view.
+/// Deviation of a dot from its linear prediction after such a step: the second order of a perspective view.
 double bend_px(const Vec6& step, const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots,
                const CameraModel& camera) {
   const double distance_m = (dots.front().point_in_map - pose.translation()).norm();
@@ -284,7 +283,7 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
 
   double damping = 1e-6;
   constexpr int max_iterations = 40;
-  constexpr double small_gain = 1e-3;  // of the cost: a last step of 0.03 sigma, which leaves a tenth of that
+  constexpr double small_gain = 1e-3;  // of the cost: a last step of 0.03 sigma, of which a tenth remains
   constexpr double negligible_bend_px = 1e-4;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     Mat6 damped = normal->information;
@@ -295,7 +294,7 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
     const double expected_gain = -step.dot(normal->gradient);
     const bool is_straight = normal->is_quadratic && bend_px(step, pose, dots, camera) < negligible_bend_px;
     if (damping < 1e-3 && (expected_gain < small_gain || is_straight)) {
-      pose = candidate;  // Newton's last step; where it starts is near enough for the covariance
+      pose = candidate;  // Newton's last step; its start is near enough for the covariance
       normal->cost -= expected_gain;
       break;
     }
@@ -327,13 +326,13 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   return estimate;
 }
 
-/// Laplace's approximation of each mode: its share of the probability is density times volume.
+/// Laplace approximation of each mode: its probability is density times volume.
 MapEstimate likelier(const MapEstimate& a, const MapEstimate& b) {
   const MapEstimate& best = a.cost <= b.cost ? a : b;
   const MapEstimate& other = a.cost <= b.cost ? b : a;
   const double log_ratio =
       0.5 * (best.cost - other.cost + log_determinant(other.covariance) - log_determinant(best.covariance));
-  const double share = 1.0 / (1.0 + std::exp(-log_ratio));  // of the other mode
+  const double share = 1.0 / (1.0 + std::exp(-log_ratio));  // probability of the other mode
   if (!(share > 0.0)) return best;
   const Vec6 apart = step_between(best.map_from_camera, other.map_from_camera);
   MapEstimate result = best;

@@ -9,16 +9,16 @@
 namespace lodestar {
 namespace {
 
-/// Where a marker appears: the box about its outermost dots, and how far it may be from there.
+/// Predicted image of a marker: the box around its outermost dots, and its position error.
 struct Place {
   Eigen::AlignedBox2d box_px;
   double off_px = 0.0;
 };
 
-/// Nothing for a marker that is, or may be, behind the camera.
+/// Nothing for a marker that is wholly or partly behind the camera.
 std::optional<Place> place_of(const Eigen::Isometry3d& map_from_marker, const ExpectedView& view,
                               const CameraModel& camera, const MarkerTrackerOptions& options) {
-  constexpr double reach_m = 1.5 * marker_dot_radius_m;  // beyond the middles of the outermost dots
+  constexpr double reach_m = 1.5 * marker_dot_radius_m;  // beyond the centres of the outermost dots
   constexpr double side_m = (marker_grid_size - 1) * marker_pitch_m;
   const Eigen::Isometry3d camera_from_marker = view.map_from_camera.inverse() * map_from_marker;
   Place place;
@@ -74,7 +74,7 @@ std::span<const DetectedMarker> MarkerTracker::detect(const cv::Mat& gray,
   return found.empty() || lacks_any(found) ? search_all(gray) : found;  // none: it may be anywhere
 }
 
-/// Finds which parts of the frame to look at, and which markers must be there whatever the view's error.
+/// Sets the parts of the frame to search, and the markers that must be in them whatever the view's error.
 void MarkerTracker::expect(const ExpectedView& view) {
   const Eigen::AlignedBox2d frame(Vec2::Zero(), Vec2(camera_.width_px - 1, camera_.height_px - 1));
   for (const MarkerInMap& marker : markers_in_map_) {

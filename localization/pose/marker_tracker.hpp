@@ -13,18 +13,17 @@
 namespace lodestar {
 
 struct MarkerTrackerOptions {
-  /// Every so manieth frame is searched whole, so that a marker that no one expects (moved, or new) is not
-  /// missed for longer.
+  /// Every Nth frame is searched in full, so that an unexpected marker (moved, or new) is found by then.
   int full_search_every = 10;
-  double sigmas = 4.0;         ///< of the expected view's error that are searched about a marker's place
-  double margin_px = 4.0;      ///< and besides
-  double most_of_frame = 0.5;  ///< when the expected places cover more, all is searched
+  double sigmas = 4.0;         ///< of the expected view's error: search range around a marker's place
+  double margin_px = 4.0;      ///< added to it
+  double most_of_frame = 0.5;  ///< above this share of the frame, all of it is searched
 };
 
-/// Reads the markers of frame after frame, and looks first where the registered ones must be seen from about
-/// where the camera is thought to be. The whole frame is searched when nothing is expected, every so often,
-/// and at once when a marker is not read that must be in view, unless the last whole search did not read it
-/// either. What is found is what a search of the whole frame finds in those places. Keeps its memory.
+/// Reads the markers of frame after frame, first where the expected view predicts the registered ones.
+/// Searches the whole frame when nothing is predicted or found, every Nth frame, and at once when a marker
+/// that must be in view is not read, unless the last full search missed it too. In the predicted places it
+/// finds what a full search finds. Reuses its buffers.
 class MarkerTracker {
  public:
   MarkerTracker(const MarkerRegistry& registry, const CameraModel& camera,
@@ -33,7 +32,7 @@ class MarkerTracker {
   /// As MarkerDetector::detect().
   std::span<const DetectedMarker> detect(const cv::Mat& gray, const std::optional<ExpectedView>& expected);
 
-  /// Was the last frame searched whole?
+  /// True when the last frame was searched in full.
   [[nodiscard]] bool searched_all() const { return frames_since_full_search_ == 0; }
 
  private:
@@ -51,9 +50,9 @@ class MarkerTracker {
   CameraModel camera_;
   MarkerTrackerOptions options_;
   MarkerDetector detector_;
-  std::vector<cv::Rect> parts_;    ///< of the frame, where markers are expected
+  std::vector<cv::Rect> parts_;    ///< of the frame, around predicted markers
   std::vector<int> must_be_seen_;  ///< IDs, by the expected view
-  std::vector<int> not_seen_;      ///< of those, what the last whole search did not read
+  std::vector<int> not_seen_;      ///< of those, the ones that the last full search missed
   int frames_since_full_search_ = 0;
 };
 

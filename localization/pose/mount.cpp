@@ -6,8 +6,8 @@
 namespace lodestar {
 namespace {
 
-/// How the base's place and heading move with the camera's pose (translation, rotation about the map's axes):
-/// the base hangs on the camera by a lever, and its heading is the direction of its x axis in the plane.
+/// Jacobian of the base's position and heading by the camera's pose (translation, rotation about the map's
+/// axes): a lever connects base and camera, and the heading is the horizontal direction of the base's x axis.
 Eigen::Matrix<double, 3, 6> base_by_camera(const Eigen::Isometry3d& map_from_camera,
                                            const Eigen::Isometry3d& map_from_base) {
   const Vec3 lever = map_from_base.translation() - map_from_camera.translation();
@@ -56,8 +56,7 @@ std::optional<Circle> fit_circle(const std::vector<Vec2>& points) {
   Vec2 mean = Vec2::Zero();
   for (const Vec2& point : points) mean += point / static_cast<double>(points.size());
   std::optional<Circle> circle = algebraic_circle(points, mean);
-  // The algebraic fit prefers small circles under noise; Gauss and Newton on the distances themselves mend
-  // that.
+  // The algebraic fit is biased towards small circles under noise; Gauss-Newton on the distances corrects it.
   for (int iteration = 0; circle && iteration < 20; ++iteration) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Vec3 right = Vec3::Zero();

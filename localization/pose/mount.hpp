@@ -10,13 +10,13 @@
 
 namespace lodestar {
 
-/// Where the robot is by one camera fix. Covariances are of (x_m, y_m, yaw_rad) in the map frame.
+/// Robot pose from one camera fix. Covariances are of (x_m, y_m, yaw_rad) in the map frame.
 struct PlanarFix {
   Stamp stamp;
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d shared_covariance = Eigen::Matrix3d::Zero();  ///< the part of it that neighbours share
-  std::vector<int> ids;                                         ///< of the markers that it rests on
+  Eigen::Matrix3d shared_covariance = Eigen::Matrix3d::Zero();  ///< the part of it that nearby fixes share
+  std::vector<int> ids;                                         ///< of the markers used
 };
 
 /// Mount compensation, Eq. (17) for any mount: map_from_base = map_from_camera * camera_from_base. With the
@@ -28,8 +28,8 @@ struct Circle {
   double radius_m = 0.0;
 };
 
-/// The circle with the least squared distances to the points: where the camera went while the robot spun on
-/// the spot, whose radius is the r of Eq. (17). Nothing for fewer than three points or points on a line.
+/// Least-squares circle through the points: the camera's path while the robot spins on the spot, whose radius
+/// is the r of Eq. (17). Nothing for fewer than three points or collinear points.
 std::optional<Circle> fit_circle(const std::vector<Vec2>& points);
 
 }  // namespace lodestar

@@ -40,7 +40,7 @@ struct RealRoots {
   std::size_t count = 0;
 };
 
-/// Real roots of x^3 + b x^2 + c x + d (Viete's trigonometric form, or Cardano's), polished by Newton's
+/// Real roots of x^3 + b x^2 + c x + d (Viete's trigonometric form, or Cardano's), refined by Newton's
 /// method.
 RealRoots cubic_roots(double b, double c, double d) {
   const double shift = b / 3.0;
@@ -50,7 +50,7 @@ RealRoots cubic_roots(double b, double c, double d) {
   RealRoots roots;
   if (discriminant > 0.0) {
     const double s = std::sqrt(discriminant);
-    const double u = std::cbrt(-0.5 * q + (q > 0.0 ? -s : s));  // the sum that does not cancel
+    const double u = std::cbrt(-0.5 * q + (q > 0.0 ? -s : s));  // the sign without cancellation
     roots = {{(u == 0.0 ? 0.0 : u - p / (3.0 * u)) - shift}, 1};
   } else {
     const double radius = 2.0 * std::sqrt(std::max(-p / 3.0, 0.0));
@@ -71,15 +71,15 @@ RealRoots cubic_roots(double b, double c, double d) {
   return roots;
 }
 
-/// A form of rank two and the line in which its two planes through the origin meet.
+/// A form of rank two, which splits into two planes through the origin.
 struct DegenerateForm {
   Mat3 form;
   Mat3 adjugate;  ///< -v v^T with v = p x q / 2 of the planes p and q
-  /// How far the planes are from falling together; not positive when they are not real.
+  /// Separation of the planes; not positive when they are not real.
   [[nodiscard]] double quality() const { return -adjugate.trace() / form.squaredNorm(); }
 };
 
-/// The degenerate form of the pencil that the two homogeneous equations span whose planes are farthest apart;
+/// Of the pencil of the two homogeneous equations, the degenerate form with the best separated planes;
 /// nothing when none has real planes.
 std::optional<DegenerateForm> best_degenerate_form(const Mat3& first, const Mat3& second) {
   const Mat3 adjugate_of_second = adjugate(second);
@@ -98,8 +98,8 @@ std::optional<DegenerateForm> best_degenerate_form(const Mat3& first, const Mat3
   return best->quality() > 0.0 ? best : std::nullopt;
 }
 
-/// Normals of the planes into which a form falls apart: with v = p x q / 2 the matrix p q^T is the form
-/// (p q^T + q p^T) / 2 and the antisymmetric matrix of v, up to the sign, which only swaps p and q.
+/// Normals of the two planes of a degenerate form: with v = p x q / 2 the matrix p q^T is the form (p q^T + q
+/// p^T) / 2 plus the antisymmetric matrix of v, up to the sign, which only swaps p and q.
 std::array<Vec3, 2> planes_of(const DegenerateForm& degenerate) {
   Eigen::Index k = 0;
   const double squared = -degenerate.adjugate.diagonal().minCoeff(&k);
@@ -117,7 +117,7 @@ std::array<Vec3, 2> planes_of(const DegenerateForm& degenerate) {
   return {Vec3(product.col(column)), Vec3(product.row(row))};
 }
 
-/// Where the form vanishes on the plane: up to two directions of the three depths.
+/// Zeros of the form on the plane: up to two directions of the three depths.
 std::array<std::optional<Vec3>, 2> directions_on(const Vec3& plane_normal, const Mat3& form) {
   const Vec3 normal = plane_normal.normalized();
   const Vec3 p = normal.unitOrthogonal();
@@ -128,7 +128,7 @@ std::array<std::optional<Vec3>, 2> directions_on(const Vec3& plane_normal, const
   const double scale = a * a + b * b + c * c;
   double discriminant = b * b - a * c;
   if (discriminant < -1e-6 * scale) return {};
-  discriminant = std::max(discriminant, 0.0);  // touching: noise parts the double root of a frontal view
+  discriminant = std::max(discriminant, 0.0);  // double root of a frontal view, split by noise
   const double s = b + (b >= 0.0 ? std::sqrt(discriminant) : -std::sqrt(discriminant));
   // a u^2 + 2 b u v + c v^2 = 0 has the roots (u : v) = (-s : a) and (-c : s), neither of which cancels.
   return {Vec3(-s * p + a * q), Vec3(-c * p + s * q)};
@@ -144,7 +144,7 @@ Vec3 residual_of(const Triangle& triangle, const Vec3& depths) {
   return residual;
 }
 
-/// Newton's method on Eq. (10). Where two solutions nearly fall together it halves the distance to them.
+/// Newton's method on Eq. (10). Near a double solution each step halves the distance to it.
 std::optional<Vec3> polished(const Triangle& triangle, Vec3 depths) {
   constexpr double rounding = 2e-15;  // of the squared depths
   for (int iteration = 0; iteration < 8; ++iteration) {
@@ -160,14 +160,14 @@ std::optional<Vec3> polished(const Triangle& triangle, Vec3 depths) {
     if (!step.allFinite()) break;
     depths -= step;
   }
-  constexpr double tolerance = 1e-6;  // of the squared sides: a double root that noise has parted stays near
+  constexpr double tolerance = 1e-6;  // of the squared sides: accepts a double root split by noise
   const bool good =
       depths.allFinite() && (depths.array() > 0.0).all() &&
       residual_of(triangle, depths).cwiseAbs().maxCoeff() < tolerance * triangle.squared_sides.sum();
   return good ? std::optional(depths) : std::nullopt;
 }
 
-/// The direction of the depths, brought to scale by the sum of Eq. (10).
+/// Scales a direction of the depths by the sum of Eq. (10) and refines it.
 std::optional<Vec3> depths_along(const Triangle& triangle, Vec3 direction) {
   if (direction.sum() < 0.0) direction = -direction;
   if (!((direction.array() > 0.0).all())) return std::nullopt;

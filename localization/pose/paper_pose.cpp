@@ -7,7 +7,7 @@
 namespace lodestar {
 namespace {
 
-/// O, X and Y as seen, and where they are on the ceiling.
+/// O, X and Y in the image and on the ceiling.
 std::array<SurveyedDot, 3> direction_dots_of(const DetectedMarker& marker,
                                              const Eigen::Isometry3d& map_from_marker) {
   const auto surveyed = [&](GridCell cell, const Vec2& center_px) {

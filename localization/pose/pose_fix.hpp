@@ -12,14 +12,15 @@
 
 namespace lodestar {
 
-/// What is known of the camera before looking. Without any of it the pose has six free degrees of freedom.
+/// Prior of the camera's pose. Without any of it the pose has six degrees of freedom.
 struct PosePrior {
-  /// Roll and pitch of the camera as mounted on a base that stands level: nominally
-  /// map_from_camera.linear() = Rz(yaw) * tilt with tilt = Ry(pitch) * Rx(roll) and any yaw (that of the
-  /// mount is part of it). Identity: the camera looks straight up.
+  /// Roll and pitch of the camera as mounted on a level base: nominally map_from_camera.linear() = Rz(yaw) *
+  /// tilt with tilt = Ry(pitch) * Rx(roll) and any yaw (which includes the mount's). Identity: the camera
+  /// looks straight up.
   Eigen::Matrix3d tilt = Eigen::Matrix3d::Identity();
-  /// The true rotation is D * Rz(yaw) * tilt, D a small one about a horizontal axis of the map. This is the
-  /// standard deviation of its angle about each of two such axes. Nothing: tilt is free. 0: exact.
+  /// The true rotation is D * Rz(yaw) * tilt, with D a small rotation about a horizontal axis of the map.
+  /// This is the standard deviation of its angle about each of two such axes. Nothing: tilt is free. 0:
+  /// exact.
   std::optional<double> tilt_sigma_rad;
   /// Height of the camera in the map frame, and its standard deviation (> 0). Nothing: height is free.
   std::optional<double> height_m;
@@ -28,29 +29,27 @@ struct PosePrior {
 
 struct PoseFixOptions {
   PosePrior prior;
-  double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, where the dot does not tell
-  /// How far a dot may be off its place in the marker, in each coordinate: film is cut and glued by hand.
+  double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, for dots without their own
+  /// Standard deviation of a dot's position in its marker, per coordinate: film is cut and glued by hand.
   double dot_place_sigma_m = 0.0;
-  /// By what share all dots may lie nearer to the picture's middle than they should, or farther. A ceiling's
-  /// light that falls off towards the corners pulls them inwards, by 0.0005 px at 175 px (test
-  /// Dots.are_pulled).
+  /// Standard deviation of a common scale error of the image about its centre. Ceiling light that falls off
+  /// towards the corners pulls dots inwards, by 0.0005 px at 175 px (test Dots.are_pulled).
   double scale_sigma = 3e-6;
-  double max_residual_px = 1.5;  ///< a fix whose dots miss by more (root mean square) is refused
-  /// And one that explains the dots only by a tilt and height that the prior all but excludes (chi-square): a
-  /// marker that hangs a few centimetres elsewhere than surveyed leaves small residuals on a tilted robot.
-  /// With 3 degrees of freedom (two of tilt, height) a true pose goes beyond 30 once in 700,000 frames.
+  double max_residual_px = 1.5;  ///< fixes with a larger root mean square reprojection error are refused
+  /// Fixes whose tilt and height the prior all but excludes (chi-square) are refused: a marker displaced by a
+  /// few centimetres leaves small residuals on a tilted robot. With 3 degrees of freedom (two of tilt,
+  /// height) a true pose exceeds 30 once in 700,000 frames.
   double max_prior_chi2 = 30.0;
-  double robust_scale = 3.0;  ///< Huber's loss starts at so many sigmas
+  double robust_scale = 3.0;  ///< Huber loss is linear beyond this, in sigmas
 };
 
-/// A pose of the camera in the map, from one frame.
+/// Camera pose in the map, from one frame.
 struct PoseFix {
   Stamp stamp;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   /// Of (x_m, y_m, z_m, rotation about the map's x, y, z axes in rad); zero where the prior is exact.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  /// The part of it that comes from dots off their places: fixes by the same dots, from about the same place,
-  /// share that error.
+  /// The part of it from displaced dots: fixes by the same dots, from about the same place, share that error.
   Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<int> ids;      ///< of the markers used, the optimal one first
   double confidence = 0.0;   ///< of the optimal marker, Eq. (3)
@@ -58,7 +57,7 @@ struct PoseFix {
   double residual_px = 0.0;  ///< root mean square
 };
 
-/// The camera's pose by one frame's markers, as PoseFixer finds it.
+/// Camera pose from one frame's markers, as by PoseFixer.
 std::optional<PoseFix> fix_pose(Stamp stamp, std::span<const DetectedMarker> markers,
                                 const MarkerRegistry& registry, const CameraModel& camera,
                                 const PoseFixOptions& options);

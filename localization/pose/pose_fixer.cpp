@@ -10,12 +10,12 @@
 namespace lodestar {
 namespace {
 
-/// Of small numbers, which std::hypot would guard from overflow.
+/// For small numbers, without the overflow protection of std::hypot.
 double root_of_squares(double a, double b) {
   return std::sqrt(a * a + b * b);
 }
 
-/// How large a metre of the marker's plane is in the picture, by the edges that its frame spans.
+/// Image scale of the marker's plane, from the edges OX and OY.
 double px_per_m(const DetectedMarker& seen) {
   constexpr double edges_m = 2 * (marker_grid_size - 1) * marker_pitch_m;
   return ((seen.x_px - seen.o_px).norm() + (seen.y_px - seen.o_px).norm()) / edges_m;
@@ -41,7 +41,7 @@ KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& ma
   return known;
 }
 
-/// Root mean square distance of dots from where the pose would show them.
+/// Root mean square reprojection error.
 double residual_px(const Eigen::Isometry3d& map_from_camera, std::span<const SurveyedDot> dots,
                    const CameraModel& camera) {
   const Eigen::Isometry3d camera_from_map = map_from_camera.inverse();
@@ -54,7 +54,7 @@ double residual_px(const Eigen::Isometry3d& map_from_camera, std::span<const Sur
   return std::sqrt(sum / static_cast<double>(dots.size()));
 }
 
-/// Does every marker lie about where a pose that the prior allows would show it?
+/// True when the prior allows the pose and the reprojection error of each marker is small enough.
 bool fits(const MapEstimate& estimate, std::span<const KnownMarker> markers, const CameraModel& camera,
           const PoseFixOptions& options) {
   if (prior_cost(estimate.map_from_camera, options.prior) > options.max_prior_chi2) return false;
@@ -69,8 +69,8 @@ struct Guess {
 };
 using Guesses = InlineVector<Guess, 5>;
 
-/// What P3P makes of the optimal marker, the first, and what it looks like from below; the pose that explains
-/// all dots best comes first. A tilt that the prior knows has been tried already.
+/// P3P solutions for the optimal marker (the first), and its level guess when the prior's tilt is unknown;
+/// the lowest cost over all dots comes first. A known tilt has been tried already.
 Guesses guesses(const KnownMarker& optimal, std::span<const SurveyedDot> dots, const CameraModel& camera,
                 const PoseFixOptions& options) {
   Guesses scored;
@@ -87,12 +87,12 @@ Guesses guesses(const KnownMarker& optimal, std::span<const SurveyedDot> dots, c
   return scored;
 }
 
-/// Where a mirrored view may explain the dots too, both have their say.
+/// Merges both modes of the planar ambiguity.
 MapEstimate with_mirrored_view(const MapEstimate& estimate, std::span<const SurveyedDot> dots,
                                const CameraModel& camera, const PoseFixOptions& options) {
   if (options.prior.tilt_sigma_rad == 0.0) return estimate;
   const Eigen::Isometry3d other = mirrored(estimate.map_from_camera, dots);
-  constexpr double hopeless = 50.0;  // twice the logarithm of the odds
+  constexpr double hopeless = 50.0;  // twice the log odds
   if (prior_cost(other, options.prior) > estimate.cost + hopeless) return estimate;
   const std::optional<MapEstimate> mirrored_estimate = maximize_posterior(other, dots, camera, options);
   return mirrored_estimate ? likelier(estimate, *mirrored_estimate) : estimate;
@@ -111,8 +111,8 @@ PoseFixer::PoseFixer(const MarkerRegistry& registry, const CameraModel& camera) 
 const PoseFix* PoseFixer::fix(Stamp stamp, std::span<const DetectedMarker> markers,
                               const PoseFixOptions& options) {
   find_known(markers, options);
-  // A marker that hangs elsewhere than surveyed contradicts the others. Three or more can tell which; of two
-  // that contradict each other nobody knows, and a robot must not guess.
+  // A displaced marker contradicts the others. Among three or more it can be identified; between two it
+  // cannot, and the fix is refused.
   while (!known_.empty()) {
     const std::optional<MapEstimate> estimate = best_estimate(known_, options);
     if (estimate && fits(*estimate, known_, camera_, options)) {
@@ -131,8 +131,7 @@ const PoseFixer::MarkerInMap* PoseFixer::marker_in_map(int id) const {
   return place != markers_in_map_.end() && place->id == id ? &*place : nullptr;
 }
 
-/// Registered markers in the order of the detections. One ID cannot hang in two places: seen twice, it tells
-/// nothing.
+/// Registered markers in the order of the detections. An ID that is seen twice is ambiguous and ignored.
 void PoseFixer::find_known(std::span<const DetectedMarker> markers, const PoseFixOptions& options) {
   known_.clear();
   for (const DetectedMarker& marker : markers) {
@@ -143,9 +142,8 @@ void PoseFixer::find_known(std::span<const DetectedMarker> markers, const PoseFi
   }
 }
 
-/// The maximum of the posterior: of the guesses, the first that leads to a pose that fits all markers, or
-/// else the best. Where the tilt is known, the pose with that tilt leads there and nothing else need be
-/// tried.
+/// Maximum of the posterior: from the first guess that leads to a pose that fits all markers, or else the
+/// best one. With a known tilt, the guess with that tilt leads there and no other needs to be tried.
 std::optional<MapEstimate> PoseFixer::best_estimate(std::span<const KnownMarker> markers,
                                                     const PoseFixOptions& options) {
   dots_.clear();
@@ -167,7 +165,7 @@ std::optional<MapEstimate> PoseFixer::best_estimate(std::span<const KnownMarker>
   return with_mirrored_view(*best, dots_, camera_, options);
 }
 
-/// By O, X and Y of all markers that hang as high as the first.
+/// From O, X and Y of all markers at the first one's height; from all dots of a single marker.
 std::optional<Eigen::Isometry3d> PoseFixer::level_guess_by(std::span<const KnownMarker> markers,
                                                            const PosePrior& prior) {
   constexpr double same_height_m = 0.001;
@@ -181,7 +179,7 @@ std::optional<Eigen::Isometry3d> PoseFixer::level_guess_by(std::span<const Known
   return level_guess(guess_dots_, camera_, prior);
 }
 
-/// Keeps all known markers but the one without which the others agree best; none when none agree.
+/// Removes the marker without which the others agree best; removes all when none agree.
 void PoseFixer::reject_outlier_marker(const PoseFixOptions& options) {
   best_others_.clear();
   double least_cost = std::numeric_limits<double>::infinity();
@@ -197,7 +195,7 @@ void PoseFixer::reject_outlier_marker(const PoseFixOptions& options) {
   std::swap(known_, best_others_);
 }
 
-/// While the camera stands, every frame has the same errors but for noise, and tells nothing new of them.
+/// While the camera stands still, frames differ only by noise and add no information.
 void PoseFixer::learn(const MapEstimate& estimate) {
   constexpr double moved_px = 0.5;
   const Vec2& at_px = dots_.front().center_px;

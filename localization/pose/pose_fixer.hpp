@@ -12,7 +12,7 @@
 
 namespace lodestar {
 
-/// A detected marker whose place on the ceiling is known.
+/// A detected marker of known position on the ceiling.
 struct KnownMarker {
   int id = 0;
   double confidence = 0.0;
@@ -20,19 +20,20 @@ struct KnownMarker {
   InlineVector<SurveyedDot, MarkerDots::static_capacity> dots;
 };
 
-/// Finds the camera's pose frame after frame and learns their VarianceFactor. Soon it takes no more memory.
+/// Computes the camera's pose of frame after frame and learns the dots' VarianceFactor. Allocates nothing
+/// after the first frames.
 class PoseFixer {
  public:
   PoseFixer(const MarkerRegistry& registry, const CameraModel& camera);
 
-  /// P3P on the optimal (first registered) marker's O, X and Y (Eq. (10)-(15)), and the pose with the prior's
-  /// tilt, are scored by all dots; from the best one on, the maximum a posteriori estimate over all dots of
-  /// all registered markers with the prior. Where a mirrored view explains the dots almost as well, the
-  /// covariance covers both.
+  /// Initial guesses are the pose with the prior's tilt and P3P on O, X and Y (Eq. (10)-(15)) of the optimal
+  /// (first registered) marker, in the order of their cost over all dots. From them on, the maximum a
+  /// posteriori estimate over all dots of all registered markers with the prior. Where the other mode of the
+  /// planar ambiguity explains the dots almost as well, the covariance covers both.
   ///
-  /// A marker that contradicts those which agree (it hangs elsewhere than surveyed) is left out, and so is an
-  /// ID that is seen twice. Null when no registered marker is left, when two contradict each other, or when
-  /// the dots agree with no pose. The result holds until the next call.
+  /// Rejects a displaced marker that contradicts the others, and an ID that is seen twice. Null when no
+  /// registered marker is left, when two contradict each other, or when the dots agree with no pose. The
+  /// result is valid until the next call.
   const PoseFix* fix(Stamp stamp, std::span<const DetectedMarker> markers, const PoseFixOptions& options);
 
  private:
@@ -51,15 +52,15 @@ class PoseFixer {
   void learn(const MapEstimate& estimate);
   void conclude(Stamp stamp, const MapEstimate& estimate);
 
-  std::vector<MarkerInMap> markers_in_map_;  ///< each ID that one marker has, by ID
+  std::vector<MarkerInMap> markers_in_map_;  ///< IDs registered exactly once, sorted by ID
   CameraModel camera_;
   std::vector<KnownMarker> known_;
   std::vector<KnownMarker> others_;
   std::vector<KnownMarker> best_others_;
-  std::vector<SurveyedDot> dots_;  ///< of the markers that were looked at last
+  std::vector<SurveyedDot> dots_;  ///< of the markers evaluated last
   std::vector<SurveyedDot> guess_dots_;
   VarianceFactor variance_factor_;
-  Vec2 learned_at_px_ = Vec2::Zero();  ///< where the first dot was in the frame that was learned from last
+  Vec2 learned_at_px_ = Vec2::Zero();  ///< first dot's position when the factor was last updated
   PoseFix fix_;
 };
 

@@ -12,7 +12,7 @@ std::optional<Vec3> ray_through(const Vec2& pixel, const CameraModel& camera) {
   return Vec3(normalized->x(), normalized->y(), 1.0).normalized();
 }
 
-/// Where the ray pierces the plane at unit height above a camera whose tilt is undone.
+/// Intersection of the ray with the plane at unit height above the camera, after removing its tilt.
 std::optional<Vec2> level_ray(const Vec2& pixel, const CameraModel& camera, const Eigen::Matrix3d& tilt) {
   const std::optional<Vec2> normalized = camera.normalized(pixel);
   if (!normalized) return std::nullopt;
@@ -37,7 +37,7 @@ P3pSolutions p3p_guesses(const std::array<SurveyedDot, 3>& direction_dots, const
 
 std::optional<Eigen::Isometry3d> level_guess(std::span<const SurveyedDot> dots, const CameraModel& camera,
                                              const PosePrior& prior) {
-  // Sums of products of rays and points as complex numbers, about the first of each, then about the means.
+  // Sums of products of rays and points as complex numbers, relative to the first of each, then to the means.
   const std::optional<Vec2> first_ray = level_ray(dots.front().center_px, camera, prior.tilt);
   if (!first_ray) return std::nullopt;
   const Vec3& first_point = dots.front().point_in_map;

@@ -7,7 +7,7 @@ namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// The symmetric form of the k-th coordinate of theta x p + theta x (theta x u) / 2 in (p, theta).
+/// Symmetric matrix of the k-th coordinate of theta x p + theta x (theta x u) / 2 in (p, theta).
 Mat6 form_of(Eigen::Index k, const Vec3& u) {
   Mat6 form = Mat6::Zero();
   const Eigen::Index next = (k + 1) % 3;

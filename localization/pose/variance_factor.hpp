@@ -4,16 +4,16 @@
 
 namespace lodestar {
 
-/// How much larger the variance of dots is than what they say of themselves: the variance of unit weight of
-/// least squares (Mikhail, Observations and Least Squares, 1976). A dot knows of noise; that the lens is so
-/// sharp that pixels sample its edge too coarsely, or calibrated only so well, shows in what is left when all
-/// dots of a frame have been fitted by one pose. It is a property of the camera, learned fit after fit,
-/// beginning with 1 and never less: that dots happen to fit well is no reason to be surer.
+/// Variance factor of the dots, the variance of unit weight of least squares (Mikhail, Observations and Least
+/// Squares, 1976): true variance over the dots' own. A dot's own variance covers noise; coarse sampling of
+/// its edge by a sharp lens, and calibration errors, appear only in the residuals of a frame's fit. A
+/// property of the camera, learned fit after fit from 1, and never less: a fit that is good by chance adds no
+/// confidence.
 class VarianceFactor {
  public:
-  /// What a fit left: the sum of squared residuals in sigmas, the dots' variances taken `value()` times, and
-  /// what it should be, the count of measurements less that of what they determined. One fit that fails badly
-  /// tells no more than `most` times what it should.
+  /// Adds one fit: its sum of squared residuals in sigmas, with the dots' variances scaled by `value()`, and
+  /// the expectation of this sum, the number of measurements less that of the parameters they determine. One
+  /// bad fit counts for at most `most` times its expectation.
   void add(double chi2, double freedom) {
     constexpr double most = 3.0;
     weight_ = std::min(weight_ + freedom, remembered);
@@ -24,7 +24,7 @@ class VarianceFactor {
   [[nodiscard]] double value() const { return value_; }
 
  private:
-  static constexpr double assumed = 200.0;        // the first assumption counts as so many residuals
+  static constexpr double assumed = 200.0;        // weight of the initial value, in residuals
   static constexpr double remembered = 50'000.0;  // some 4000 fits by one marker
   static constexpr double greatest = 25.0;  // sigmas five times as large: beyond it, something else is wrong
 
