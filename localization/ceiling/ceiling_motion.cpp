@@ -12,13 +12,13 @@ namespace {
 constexpr int most_iterations = 12;
 constexpr double settled_m = 2e-4;
 constexpr double settled_rad = 2e-4;
-constexpr double least_noise_gray = 0.2;  // of the reduced picture: whole gray values leave some
+constexpr double least_noise_gray = 0.2;  // of the reduced image: quantization to whole gray values
 constexpr double least_lean_rad = 1e-5;
 constexpr double outlier_sigmas = 3.5;
-/// Of the variance, as neighbouring points do not err independently: the picture is smooth. GROWTH
+/// Factor on the variance, as errors of neighbouring points are correlated: the image is smooth.
 constexpr double error_growth = 3.0;
 
-/// Correlation of weighted pairs, made sum by sum.
+/// Correlation of weighted pairs, accumulated from sums.
 class Correlation {
  public:
   void add(double a, double b, double weight) {
@@ -66,7 +66,7 @@ bool CeilingMotion::set_keyframe() {
   points_.clear();
   keyframe_stamp_.reset();
   const int side = options_.cell_px;
-  // Not near the edge, where a vignette is no slow change: what is beyond it nobody knows.
+  // Excludes the border: beyond it there is no image, so a vignette there is not removed as slow change.
   const auto margin = static_cast<int>(options_.view.contrast_reach_px);
   for (int top = margin; top + side + margin <= current_.rows; top += side)
     for (int left = margin; left + side + margin <= current_.cols; left += side)
@@ -121,7 +121,7 @@ std::optional<CeilingMotion::Point> CeilingMotion::point_at(int row, int column)
   return point;
 }
 
-/// By every fourth point.
+/// Evaluates every fourth point.
 CeilingMotion::Overlap CeilingMotion::overlap(const Pose2& keyframe_from_now) const {
   constexpr std::size_t every = 4;
   const Pose2 now_from_keyframe = inverse(keyframe_from_now);
@@ -139,7 +139,7 @@ CeilingMotion::Overlap CeilingMotion::overlap(const Pose2& keyframe_from_now) co
           .shift_px = shifts_px / static_cast<double>(in_view)};
 }
 
-/// False where too few of the kept points are in view.
+/// False when too few of the keyframe's points are in view.
 bool CeilingMotion::sample(const Alignment& alignment, std::vector<Sample>& seen) const {
   const Pose2 now_from_keyframe = inverse(alignment.keyframe_from_now);
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(now_from_keyframe.yaw_rad).toRotationMatrix();
@@ -154,7 +154,8 @@ bool CeilingMotion::sample(const Alignment& alignment, std::vector<Sample>& seen
              options_.least_share_in_view * static_cast<double>(points_.size());
 }
 
-/// Of the difference of both pictures (standard deviation), whatever less than half of the points say.
+/// Standard deviation of the difference of both frames, robust against outliers of fewer than half of the
+/// points.
 double CeilingMotion::noise_of(std::span<const Sample> seen) {
   std::vector<double> misses;
   misses.reserve(seen.size());
@@ -163,8 +164,7 @@ double CeilingMotion::noise_of(std::span<const Sample> seen) {
   return std::max(sigma_of_median * median(std::move(misses)), least_noise_gray);
 }
 
-/// One step of Gauss and Newton, with weights after Geman and McClure. How the camera leans is known
-/// beforehand, a little.
+/// One Gauss-Newton step with Geman-McClure weights and a weak prior on the camera's lean.
 std::optional<CeilingMotion::Fit> CeilingMotion::fit(std::span<const Sample> seen,
                                                      const Vec2& lean_rad) const {
   const double noise_gray = noise_of(seen);
@@ -213,7 +213,7 @@ std::optional<VisualOdometryIncrement> CeilingMotion::motion(const Pose2& expect
     if (!sample(alignment, seen)) return std::nullopt;
     const std::optional<Fit> fitted = fit(seen, alignment.lean_rad);
     if (!fitted) return std::nullopt;
-    // The current picture, where it is taken to alignment, shows the kept one changed: so it lies changed.
+    // At this alignment the current frame shows the keyframe changed, so the alignment changes likewise.
     const Pose2 shift{fitted->change.head<2>(), fitted->change[2]};
     alignment.keyframe_from_now = shift * alignment.keyframe_from_now;
     alignment.lean_rad += fitted->change.tail<2>();

@@ -17,86 +17,87 @@ namespace lodestar {
 
 struct CeilingMotionOptions {
   CeilingViewOptions view;
-  int cell_px = 16;        ///< points are spread over the reduced picture by cells of this side,
-  int most_in_a_cell = 4;  ///< the sharpest so many of each
+  int cell_px = 16;        ///< points are spread over the reduced image by cells of this side
+  int most_in_a_cell = 4;  ///< sharpest points used per cell
   int least_points = 100;
-  double least_contrast_gray = 0.4;  ///< standard deviation at the points; less is a plain ceiling
-  double least_correlation = 0.8;    ///< of both pictures at the points, when they alignment upon each other,
-  double least_share_agreeing = 0.6;  ///< at so many of those in view or more; the others are no ceiling
-  double least_share_in_view = 0.5;   ///< of the kept picture's points
-  double new_keyframe_share_in_view = 0.75;  ///< with fewer than these a new picture is kept
-  /// Nearer to the kept picture than this (mean over its points) nobody can tell the ceiling from what the
-  /// camera carries along, and wheels know as much.
+  double least_contrast_gray = 0.4;   ///< standard deviation at the points; below it, too little texture
+  double least_correlation = 0.8;     ///< of both frames at the points, once aligned
+  double least_share_agreeing = 0.6;  ///< inliers of the points in view; outliers are not on the ceiling
+  double least_share_in_view = 0.5;   ///< of the keyframe's points
+  double new_keyframe_share_in_view = 0.75;  ///< with fewer of them, a new keyframe is set
+  /// Below this mean shift of its points from the keyframe, the ceiling cannot be told from what the camera
+  /// carries along, and odometry is as accurate.
   double least_shift_px = 3.0;
-  double max_deviation_m = 0.04;  ///< from what was expected; farther away something else looks alike
+  double max_deviation_m = 0.04;  ///< from the prediction; farther off, a false match is likely
   double max_deviation_rad = radians(6.0);
-  double sharpness_sigma_px = 0.1;  ///< a sharp edge between pixels is not known better than to this
-  double own_sigma_m = 0.0004;      ///< of the method, besides noise
+  double sharpness_sigma_px = 0.1;  ///< position uncertainty of a sharp edge between pixels
+  double own_sigma_m = 0.0004;      ///< of the method, in addition to noise
   double own_sigma_rad = radians(0.02);
 };
 
-/// The height at which all markers hang, within 5 cm; nothing when they don't, or there are none.
+/// The markers' common height, if they agree within 5 cm; nothing when they do not, or there are none.
 std::optional<double> ceiling_height_m(const MarkerRegistry& registry);
 
-/// How the robot moves under whatever can be seen of the ceiling besides markers: joints, stains, lamps. A
-/// picture of it is kept, and each later one laid over it so that both agree best, moved and turned on a
-/// plane at the ceiling's height (Lucas and Kanade 1981, by the inverse compositional algorithm of Baker and
-/// Matthews 2004), and leaning a little, as a body that sways makes it. So errors don't add up as long as the
-/// kept picture is in view. What the camera itself carries along, or a shadow, is outvoted.
+/// Visual odometry on whatever texture the ceiling has besides markers: joints, stains, lamps. Each frame is
+/// aligned to a keyframe by a planar motion at the ceiling's height (Lucas and Kanade 1981, by the inverse
+/// compositional algorithm of Baker and Matthews 2004) and a small lean, as of a swaying body. Errors do not
+/// accumulate while the keyframe is in view. Shadows, and what the camera itself carries along, are rejected
+/// as outliers.
 class CeilingMotion {
  public:
-  /// `lean_sigma_rad`: of a swaying body's camera, about each of two axes.
+  /// `lean_sigma_rad`: lean of a swaying body's camera, standard deviation about each of two axes.
   CeilingMotion(const CameraModel& camera, const Eigen::Isometry3d& base_from_camera, double ceiling_height_m,
                 double lean_sigma_rad, const CeilingMotionOptions& options = {});
 
-  /// From now on this is the current picture. CV_8UC1 of the camera's size.
+  /// Sets the current frame, CV_8UC1 of the camera's size.
   void set_frame(const Frame& frame);
 
-  /// Keeps the current picture. False, and nothing is kept any more, where the ceiling is too plain.
+  /// Makes the current frame the keyframe. False, without a keyframe, where the ceiling has too little
+  /// texture.
   bool set_keyframe();
 
   [[nodiscard]] std::optional<Stamp> keyframe_stamp() const { return keyframe_stamp_; }
 
-  /// Would a robot there see so little of the kept picture that another should be kept?
+  /// True when a robot there sees so little of the keyframe that a new one should be set.
   [[nodiscard]] bool leaves_view(const Pose2& keyframe_from_now) const {
     return overlap(keyframe_from_now).share_in_view < options_.new_keyframe_share_in_view;
   }
 
-  /// From the kept picture to the current one, near to what is expected. Nothing where these do not show the
-  /// same.
+  /// Increment from the keyframe to the current frame, near the prediction. Nothing when the shift is too
+  /// small or the frames do not match.
   [[nodiscard]] std::optional<VisualOdometryIncrement> motion(const Pose2& expected_keyframe_from_now) const;
 
-  /// Standard deviation of how far a swaying body's camera sees itself aside.
+  /// Standard deviation of the view's lateral offset on the ceiling, due to sway.
   [[nodiscard]] double sway_m() const { return sway_m_; }
 
  private:
-  /// A shift (m) along x and y and a turn (rad) about the base's origin, and a camera that leans (rad) along
-  /// x and y while the middle of its picture stays: then the picture is wider on one side.
+  /// Shift (m) along x and y, turn (rad) about the base's origin, and lean of the camera (rad) along x and y
+  /// with the image centre fixed, which widens the image on one side.
   using Change = Eigen::Matrix<double, 5, 1>;
-  /// A point of the kept picture.
+  /// A point of the keyframe.
   struct Point {
-    Vec2 on_ceiling_m;  ///< in the base frame of then
+    Vec2 on_ceiling_m;  ///< in the base frame of the keyframe
     Vec2 pixel;
     double gray = 0.0;
-    double gray_variance = 0.0;  ///< by what is not known of a sharp edge
+    double gray_variance = 0.0;  ///< from the position uncertainty of a sharp edge
     Change gray_by_change;
   };
-  /// How the current picture lies upon the kept one.
+  /// Alignment of the current frame to the keyframe.
   struct Alignment {
     Pose2 keyframe_from_now;
     Vec2 lean_rad = Vec2::Zero();
   };
-  /// What the current picture has of the kept one.
+  /// The part of the keyframe that is in view.
   struct Overlap {
     double share_in_view = 0.0;
-    double shift_px = 0.0;  ///< mean, of those points
+    double shift_px = 0.0;  ///< mean, of the points in view
   };
   struct Sample {
     const Point* point;
-    double gray;  ///< of the current picture
+    double gray;  ///< in the current frame
   };
   struct Fit {
-    Change change;  ///< of the kept picture, so that both agree better
+    Change change;  ///< increment of the alignment
     Eigen::Matrix<double, 5, 5> covariance;
     double share_agreeing = 0.0;
     double correlation = 0.0;

@@ -50,7 +50,7 @@ std::optional<Vec2> CeilingView::pixel_of(const Vec2& on_ceiling_m) const {
   const std::optional<Vec2> pixel =
       camera_.project(camera_from_base_ * Vec3(on_ceiling_m.x(), on_ceiling_m.y(), height_m_));
   if (!pixel) return std::nullopt;
-  const double middle = 0.5 * (reduction_ - 1.0);  // of the pixels that became one
+  const double middle = 0.5 * (reduction_ - 1.0);  // centre of the pixels that became one
   return Vec2((pixel->x() - middle) / reduction_, (pixel->y() - middle) / reduction_);
 }
 

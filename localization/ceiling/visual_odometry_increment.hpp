@@ -7,14 +7,14 @@
 
 namespace lodestar {
 
-/// How the base has moved from one picture of the ceiling to another, as these show it.
+/// Motion of the base from one frame of the ceiling to another, by visual odometry.
 struct VisualOdometryIncrement {
   Stamp from;
   Stamp to;
   Pose2 then_from_now;
-  /// Of (x_m, y_m, yaw_rad) in the base frame of then.
+  /// Of (x_m, y_m, yaw_rad) in the base frame at `from`.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  /// A body that sways looks aside: by so much a picture's place is off from the base's (standard deviation).
+  /// Standard deviation of the lateral offset between a frame's pose and the base's, due to the body's sway.
   double sway_m = 0.0;
 };
 
