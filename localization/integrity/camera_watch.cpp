@@ -8,14 +8,14 @@
 namespace lodestar {
 namespace {
 
-/// What a few rows of the picture look like.
+/// Summary of some rows of an image.
 struct Sample {
   std::uint64_t hash = 0;
   int darkest = 255;
   int brightest = 0;
 };
 
-/// Every sixteenth row, by eight pixels at a time (multiply and rotate, as FNV with wider words).
+/// Every sixteenth row, eight pixels at a time (xor, multiply and xor-shift: FNV-1a with wider words).
 Sample sample_of(const cv::Mat& gray) {
   constexpr int row_step = 16;
   constexpr std::uint64_t prime = 0x9e3779b97f4a7c15ULL;
@@ -83,8 +83,8 @@ std::optional<CameraFault> CameraWatch::fault(Stamp now) const {
   return fault_;
 }
 
-/// Over the last fifty frames or so. One long silence says little of the usual ones, and stamps of another
-/// clock nothing.
+/// Averages over the last fifty frames or so. A long silence counts as no more than `longest_silence`, and
+/// stamps that do not ascend are ignored.
 void CameraWatch::learn_pace(Stamp captured) {
   constexpr double share_of_newest = 0.02;
   const std::optional<Stamp> before = std::exchange(last_capture_, captured);
@@ -94,7 +94,7 @@ void CameraWatch::learn_pace(Stamp captured) {
   pace_s_ = pace_s_ > 0.0 ? std::lerp(pace_s_, apart_s, share_of_newest) : apart_s;
 }
 
-/// Of a camera that loses the share p of its frames, k in a row are lost once in p^-k frames.
+/// A camera that loses the share p of its frames loses k in a row once in p^-k frames.
 Duration CameraWatch::silence_to_miss() const {
   const Duration least = std::max<Duration>(options_.max_silence, from_seconds(3.0 * period_s_));
   if (!(pace_s_ > period_s_)) return least;

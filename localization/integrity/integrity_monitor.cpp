@@ -7,7 +7,7 @@
 namespace lodestar {
 namespace {
 
-/// Markers that agree with each other are one witness, whichever they are.
+/// Key of fixes by several markers: they count as one witness, whichever markers they are.
 constexpr int several = -1;
 
 }  // namespace
@@ -83,8 +83,8 @@ bool IntegrityMonitor::is_gross(const FixVerdict& fix) const {
           std::abs(wrap_angle(fix.map_from_base.yaw_rad - fix.expected->yaw_rad)) > options_.gross_rad);
 }
 
-/// The belief that begins anew after wheels were wrong cannot begin farther away than they have rolled since:
-/// there a marker lies, or somebody has carried the robot.
+/// After an odometry failure, a new belief cannot start farther away than the wheels have rolled since.
+/// Otherwise a marker is displaced, or the robot was carried.
 bool IntegrityMonitor::is_out_of_reach(const FixVerdict& start) const {
   return failure_ && (start.map_from_base.position_m - failure_->position_m).norm() >
                          rolled_m_ - failure_->rolled_m + options_.gross_m;

@@ -10,44 +10,43 @@
 namespace lodestar {
 
 struct IntegrityOptions {
-  /// A fix farther from the estimate is no error of survey, wheels or floor: thirty times the 10 mm by which
-  /// markers taped up by hand are off, and less than the 0.4 m by which `lodestar campaign` carries robots
-  /// off at least.
+  /// A fix farther from the estimate is no error of survey, wheels or floor: thirty times the 10 mm error of
+  /// markers taped up by hand, and less than 0.4 m, the smallest displacement of a carried robot in `lodestar
+  /// campaign`.
   double gross_m = 0.3;
   double gross_rad = radians(20.0);
   int gross_fixes_to_stop = 2;  ///< in a row
-  /// What one marker says of the estimate's error may change by so much while all of its fixes contradict.
+  /// One marker's fixes may change their error of the estimate by this while all of them contradict.
   double steady_m = 0.04;
   double steady_rad = radians(4.0);
-  double rolled_m = 0.01;  ///< less than this the wheels have not moved the robot: somebody else has
-  Duration calm = std::chrono::seconds(1);  ///< without a new cause, before the robot may go on
-  /// So many times that the wheels were wrong, within this time, are no accident.
+  double rolled_m = 0.01;  ///< wheels that rolled less have not moved the robot: it was carried
+  Duration calm = std::chrono::seconds(1);  ///< time without a new cause before the robot may drive on
+  /// This many odometry failures within `memory` are no accident.
   std::size_t most_wheel_errors = 3;
   Duration memory = std::chrono::seconds(20);
 };
 
-/// Why the estimate is in doubt.
+/// Why the estimate is not trusted.
 enum class IntegrityAlarm {
-  contradicted,   ///< fixes say that the robot is somewhere quite else
-  moved,          ///< the estimate has just moved to where fixes say that the robot is
-  wheels_wrong,   ///< the wheels say otherwise than what is seen, more and more
-  carried_away,   ///< somebody has put the robot elsewhere; for good
-  wheels_broken,  ///< the wheels were wrong again and again; for good
+  contradicted,   ///< fixes place the robot far from the estimate
+  moved,          ///< the estimate has just been relocated to the fixes
+  wheels_wrong,   ///< odometry contradicts the fixes by a changing error
+  carried_away,   ///< the robot was carried elsewhere; latched
+  wheels_broken,  ///< repeated odometry failures; latched
 };
 
-/// What one fix said, and what came of it.
+/// A fix, and the filter's decision on it.
 struct FixVerdict {
   Stamp stamp;
   std::span<const int> ids;
   Pose2 map_from_base;
-  std::optional<Pose2> expected;  ///< where the estimate had the robot
+  std::optional<Pose2> expected;  ///< the estimate at the fix's time
   FixOutcome outcome = FixOutcome::collecting;
 };
 
-/// Watches how fixes contradict the estimate. A marker that hangs elsewhere contradicts steadily: it always
-/// sees the same error of the estimate, wherever the robot drives. So does a robot that was carried away, but
-/// grossly. Where the error of one marker changes as the robot drives, it is the wheels that are wrong. A
-/// value type.
+/// Watches how fixes contradict the estimate. A displaced marker contradicts steadily: its fixes show the
+/// same error of the estimate wherever the robot drives. So does a robot that was carried away, but grossly.
+/// Where the error by one marker changes as the robot drives, odometry is wrong. A value type.
 class IntegrityMonitor {
  public:
   explicit IntegrityMonitor(const IntegrityOptions& options = {}) : options_(options) {}
@@ -55,26 +54,26 @@ class IntegrityMonitor {
   void add_travel(const WheelTravel& reading);
   void add_fix(const FixVerdict& fix);
 
-  /// True once for each time that the wheels turned out wrong: what was believed by them is void.
+  /// True once per odometry failure: the belief that rests on odometry is void.
   bool take_odometry_failure();
 
-  /// Nothing when there is no doubt. For good means: until somebody makes a new Doubt.
+  /// Nothing when the estimate is trusted. Latched alarms last until a new IntegrityMonitor is made.
   [[nodiscard]] std::optional<IntegrityAlarm> alarm(Stamp now) const;
 
-  /// Have fixes contradicted the estimate, and none agreed since?
+  /// True when fixes have contradicted the estimate and none has agreed since.
   [[nodiscard]] bool is_contradicted() const { return !witnesses_.empty(); }
 
-  /// How far the wheels have rolled since a fix agreed with the estimate.
+  /// Distance rolled since a fix agreed with the estimate.
   [[nodiscard]] double rolled_since_agreement_m() const { return rolled_m_ - rolled_at_agreement_m_; }
 
  private:
-  /// What the fixes of one marker say, as long as none agrees: where the estimate must be moved.
+  /// Correction of the estimate by one marker's fixes, while none agrees.
   struct Witness {
     Pose2 map_from_estimated;
     double rolled_m = 0.0;
   };
 
-  /// Where the estimate had the robot when its wheels turned out wrong.
+  /// Position of the estimate at an odometry failure.
   struct OdometryFailure {
     Vec2 position_m;
     double rolled_m = 0.0;

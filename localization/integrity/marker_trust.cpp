@@ -8,7 +8,7 @@
 namespace lodestar {
 namespace {
 
-/// Where the marker must hang if the estimate is right, less where the registry has it.
+/// Displacement of the marker from its registered pose, if the estimate is right.
 Vec3 offset_of(const MarkerSighting& sighting) {
   const Pose2 map_from_surveyed = sighting.map_from_base_expected * inverse(sighting.map_from_base_by_marker);
   Vec3 offset;
@@ -17,7 +17,7 @@ Vec3 offset_of(const MarkerSighting& sighting) {
   return offset;
 }
 
-/// As the last one, and nowhere else.
+/// Appends the ID and removes its earlier occurrence.
 void add_last(std::vector<int>& ids, int id) {
   std::erase(ids, id);
   ids.push_back(id);

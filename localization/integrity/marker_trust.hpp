@@ -11,44 +11,43 @@ namespace lodestar {
 
 struct MarkerTrustOptions {
   int witnesses = 2;                   ///< other markers that must agree with the estimate, before and after
-  int contradictions_to_distrust = 6;  ///< confirmed contradictions, agreements deducted
-  double tolerated_offset_m = 0.03;    ///< a marker surveyed no worse than this is never accused
+  int contradictions_to_distrust = 6;  ///< confirmed contradictions, since it last agreed
+  double tolerated_offset_m = 0.03;    ///< smaller displacements may be survey errors
   double tolerated_turn_rad = radians(3.0);
-  std::size_t remembered_witnesses = 6;  ///< the markers that agreed last
+  std::size_t remembered_witnesses = 6;  ///< latest markers that agreed
 };
 
-/// A marker that hangs elsewhere than surveyed.
+/// A marker displaced from its survey.
 struct DistrustedMarker {
   int id = 0;
-  Vec2 offset_m = Vec2::Zero();  ///< of its dot O from where the registry has it, in the map frame
-  double turn_rad = 0.0;         ///< of its direction, counter-clockwise
-  int fixes = 0;                 ///< that speak against it
+  Vec2 offset_m = Vec2::Zero();  ///< of its dot O from its registered position, in the map frame
+  double turn_rad = 0.0;         ///< of its orientation, counter-clockwise
+  int fixes = 0;                 ///< confirmed contradictions
 };
 
-/// What the fix of one marker alone says, beside what the estimate expected.
+/// Fix of one marker alone, with the estimate's prediction.
 struct MarkerSighting {
   int id = 0;
   Vec2 marker_in_map = Vec2::Zero();  ///< as surveyed
   Pose2 map_from_base_by_marker;
   Pose2 map_from_base_expected;
-  double squared_distance = 0.0;  ///< of the two, Mahalanobis with 3 degrees of freedom
+  double squared_distance = 0.0;  ///< between the two, Mahalanobis with 3 degrees of freedom
 };
 
-/// Finds out which markers no longer hang where they were surveyed. A marker is charged when its fix
-/// contradicts an estimate that others agreed with before; the charge counts once others agree with the
-/// estimate afterwards too. So neither a slipping wheel, nor a robot that was carried away, nor one other
-/// marker that moved puts the blame on a healthy one. A value type.
+/// Detects markers displaced from their survey. A marker is charged when its fix contradicts an estimate that
+/// others agreed with before; the charge is confirmed once others agree with the estimate afterwards too. So
+/// wheel slip, a carried robot or one other displaced marker does not accuse a healthy one. A value type.
 class MarkerTrust {
  public:
   explicit MarkerTrust(const MarkerTrustOptions& options = {}) : options_(options) {}
 
-  /// What one marker alone says. Fixes that agree with the estimate belong to add_agreement() instead.
+  /// Adds a fix of one marker alone. Fixes that agree with the estimate belong to add_agreement() instead.
   void add_contradiction(const MarkerSighting& sighting);
 
-  /// These markers, together, agree with the estimate.
+  /// Adds a fix by these markers, together, that agrees with the estimate.
   void add_agreement(std::span<const int> ids);
 
-  /// The estimate was wrong: no open charge stands, nor what witnesses said for it.
+  /// The estimate was wrong: discards the unconfirmed charges, and the witnesses for the estimate.
   void estimate_moved();
 
   [[nodiscard]] bool trusts(int id) const;
@@ -63,8 +62,8 @@ class MarkerTrust {
     Vec3 offset_sum = Vec3::Zero();  ///< x_m, y_m, yaw_rad
   };
   struct Suspect {
-    Contradictions open;            ///< too few others have agreed with the estimate since
-    std::vector<int> confirmed_by;  ///< those that have
+    Contradictions open;            ///< unconfirmed: too few others have agreed with the estimate since
+    std::vector<int> confirmed_by;  ///< markers that have agreed since
     Contradictions confirmed;
     bool distrusted = false;
   };
