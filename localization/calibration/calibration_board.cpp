@@ -20,7 +20,8 @@ std::vector<cv::Point3f> corners_on(const CalibrationBoard& board) {
   return points;
 }
 
-/// The window in which a corner is refined holds no other corner: a third of the way to the nearest one.
+/// Half the side of a corner's refinement window, which holds no other corner: a third of the distance to the
+/// nearest.
 int refinement_window_px(const std::vector<cv::Point2f>& corners, int columns) {
   double nearest_px = 1e9;
   const auto step = static_cast<std::size_t>(columns);
@@ -33,7 +34,7 @@ int refinement_window_px(const std::vector<cv::Point2f>& corners, int columns) {
   return std::clamp(static_cast<int>(nearest_px / 3.0), 2, 11);
 }
 
-/// Looks for saddles first (Duda and Frese 2018), with more effort where that fails, then for quadrangles.
+/// Searches for saddle points (Duda and Frese 2018), then with more effort, then for quadrangles.
 bool find_roughly(const cv::Mat& gray, cv::Size size, std::vector<cv::Point2f>& corners) {
   constexpr int quick = cv::CALIB_CB_NORMALIZE_IMAGE;
   constexpr int thorough = quick | cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY;
@@ -44,8 +45,8 @@ bool find_roughly(const cv::Mat& gray, cv::Size size, std::vector<cv::Point2f>& 
          cv::findChessboardCorners(gray, size, corners, quadrangles);
 }
 
-/// Where the gradients around a corner are all square to the way there: five times nearer than what either
-/// search returns.
+/// Sub-pixel corners: the gradients around a corner are orthogonal to the direction to it. Five times more
+/// accurate than either search.
 void refine(const cv::Mat& gray, int columns, std::vector<cv::Point2f>& corners) {
   const int window_px = refinement_window_px(corners, columns);
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-4);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// The flat boards that cameras are calibrated with.
+// Flat boards for camera calibration.
 namespace lodestar {
 
 enum class BoardKind { chessboard, charuco };
@@ -19,16 +19,16 @@ struct CalibrationBoard {
   std::string dictionary;  ///< ChArUco: such as DICT_5X5_100
 };
 
-/// The corners of a board that one image shows: where each is on the board (z = 0), and where in the image
-/// (pixel centres have integer coordinates).
+/// The board's corners in one image: positions on the board (z = 0) and in the image (pixel centres have
+/// integer coordinates).
 struct BoardView {
   std::vector<cv::Point3f> points_m;
   std::vector<cv::Point2f> pixels;
 };
 
-/// Finds the board in a gray image (CV_8UC1), its corners to a fraction of a pixel. A chessboard must be in
-/// view as a whole; of a ChArUco board a part is enough. Nothing when there is none. Throws InputError for a
-/// ChArUco board with an unknown dictionary, or in a build without OpenCV's aruco module.
+/// Finds the board in a gray image (CV_8UC1), with sub-pixel corners. A chessboard must be fully in view; a
+/// part of a ChArUco board is enough. Nothing when there is none. Throws InputError for a ChArUco board with
+/// an unknown dictionary, or in a build without OpenCV's aruco module.
 std::optional<BoardView> find_board(const cv::Mat& gray, const CalibrationBoard& board);
 
 }  // namespace lodestar

@@ -15,12 +15,12 @@ enum class CameraFlaw {
   too_few_boards,   ///< not enough images show the board
   one_orientation,  ///< the boards are nearly parallel: focal length and distance cannot be told apart
   poor_coverage,    ///< the corners leave too much of the image empty
-  large_error,      ///< the corners miss the model by too much
+  large_error,      ///< the reprojection error is too large
   outlier_views,    ///< some images fit far worse than the others
   undetermined      ///< no solution, or one that the images hardly determine
 };
 
-/// As it is named in results: `too-few-boards`.
+/// Name in results: `too-few-boards`.
 std::string_view to_string(CameraFlaw flaw);
 
 struct CameraCalibrationOptions {
@@ -29,11 +29,12 @@ struct CameraCalibrationOptions {
   double least_tilt_spread_rad = radians(8.0);  ///< root mean square angle of the boards to their mean
   double least_coverage = 0.5;                  ///< share of the cells that hold corners
   double most_rms_px = 0.5;                     ///< reprojection error over all corners
-  double outlier_ratio = 3.0;      ///< an image so many times worse than the median one, and than most_rms_px
+  /// An outlier's error is this many times the median image's, and more than most_rms_px.
+  double outlier_ratio = 3.0;
   double most_focal_sigma = 0.01;  ///< standard deviation of the focal lengths, relative
 };
 
-/// Which parts of the image hold corners, on a grid of cells.
+/// The parts of the image that hold corners, on a grid of cells.
 struct Coverage {
   static constexpr int columns = 8;
   static constexpr int rows = 6;
@@ -42,7 +43,7 @@ struct Coverage {
   [[nodiscard]] double share() const;
 };
 
-/// What a set of views tells. The camera may be used when there are no flaws.
+/// Result of a set of views. The camera may be used when there are no flaws.
 struct CameraCalibration {
   std::optional<LensFit> fit;  ///< nothing when there are too few boards or no solution
   Coverage coverage;
@@ -51,7 +52,7 @@ struct CameraCalibration {
   std::vector<CameraFlaw> flaws;
 };
 
-/// Fits the lens and judges the set.
+/// Fits the lens and checks the set.
 CameraCalibration calibrate_camera(std::span<const BoardView> views, int width_px, int height_px,
                                    const CameraCalibrationOptions& options = {});
 

@@ -7,9 +7,9 @@
 
 namespace lodestar {
 
-/// A chessboard whose white squares hold ArUco markers, so that a part of it is enough. This is the only
-/// place that needs OpenCV's aruco module; a build without it throws InputError here, as does an unknown
-/// dictionary. Nothing for fewer than eight corners or corners on one line.
+/// A chessboard whose white squares hold ArUco markers, so that a part of it is enough. The only place that
+/// needs OpenCV's aruco module; a build without it throws InputError here, as does an unknown dictionary.
+/// Nothing for fewer than eight corners or collinear corners.
 std::optional<BoardView> find_charuco_board(const cv::Mat& gray, const CalibrationBoard& board);
 
 }  // namespace lodestar

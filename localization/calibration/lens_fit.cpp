@@ -9,7 +9,7 @@
 namespace lodestar {
 namespace {
 
-/// What OpenCV's solvers work on.
+/// Unknowns of OpenCV's solvers.
 struct Solution {
   cv::Matx33d k = cv::Matx33d::eye();
   std::vector<double> distortion;
@@ -29,7 +29,7 @@ std::size_t coefficient_count(LensModel model) {
   return 0;
 }
 
-/// The views as OpenCV takes them.
+/// The views in OpenCV's format.
 struct Corners {
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> pixels;
@@ -42,8 +42,8 @@ cv::Matx33d guessed_matrix(cv::Size size, double focal_px) {
   return {focal_px, 0.0, 0.5 * (size.width - 1), 0.0, focal_px, 0.5 * (size.height - 1), 0.0, 0.0, 1.0};
 }
 
-/// From a guessed focal length, freeing the coefficients a few at a time: a strongly distorting lens leads
-/// the full model astray when all are free from the start. Returns the root mean square error.
+/// Starts from a guessed focal length and frees the coefficients in stages: with strong distortion the full
+/// model does not converge when all are free from the start. Returns the root mean square error.
 double solve_in_stages(const Corners& corners, LensModel model, double focal_px, Solution& solution) {
   solution.k = guessed_matrix(corners.size, focal_px);
   constexpr int guess = cv::CALIB_USE_INTRINSIC_GUESS;
@@ -74,8 +74,8 @@ bool is_finite(const Solution& solution) {
   return std::ranges::all_of(solution.k.val, finite) && std::ranges::all_of(solution.distortion, finite);
 }
 
-/// The best of several starts, from a wide lens to a long one: each may end in a valley of its own, and in
-/// the wrong one the corners miss by tens of pixels.
+/// The best of several starts, from a wide lens to a long one: each may end in its own local minimum, and in
+/// a wrong one the reprojection error is tens of pixels.
 std::optional<Solution> solve(std::span<const BoardView> views, cv::Size size, LensModel model) {
   Corners corners{.size = size};
   for (const BoardView& view : views) {
@@ -105,8 +105,8 @@ std::optional<Solution> solve(std::span<const BoardView> views, cv::Size size, L
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// How one view's corners miss, and how they move with the intrinsics (fx fy cx cy, distortion) and with the
-/// board's place.
+/// Reprojection errors of one view, and their derivatives by the intrinsics (fx fy cx cy, distortion) and by
+/// the board's pose.
 struct Linearized {
   Eigen::VectorXd error;
   Eigen::MatrixXd by_intrinsics;
@@ -135,7 +135,7 @@ Linearized linearize(const BoardView& view, const Solution& solution, std::size_
   const Eigen::Map<const RowMajor> all(jacobian.ptr<double>(), jacobian.rows, jacobian.cols);
   const auto intrinsics = static_cast<Eigen::Index>(4 + coefficient_count(model));
   constexpr Eigen::Index place = 6;
-  // OpenCV's columns: intrinsics, place, skew (fisheye); place, intrinsics (otherwise).
+  // OpenCV's columns: intrinsics, pose, skew (fisheye); pose, intrinsics (otherwise).
   linear.by_intrinsics = all.middleCols(model == LensModel::fisheye ? 0 : place, intrinsics);
   linear.by_place = all.middleCols(model == LensModel::fisheye ? intrinsics : 0, place);
   return linear;
@@ -144,7 +144,7 @@ Linearized linearize(const BoardView& view, const Solution& solution, std::size_
 IntrinsicSigmas sigmas_of(const Eigen::MatrixXd& normal, double variance_px2) {
   const Eigen::Index count = normal.rows();
   Eigen::VectorXd sigma = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity());
-  // Focal lengths and coefficients differ by orders of magnitude: scaled to a unit diagonal first.
+  // Scaled to a unit diagonal, as focal lengths and coefficients differ by orders of magnitude.
   const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * normal * scale.asDiagonal());
   constexpr double singular = 1e-14;

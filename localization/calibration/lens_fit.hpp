@@ -25,19 +25,19 @@ struct IntrinsicSigmas {
   std::array<double, 8> coefficients{};
 };
 
-/// The camera, and where the boards were.
+/// The camera, and the boards' orientations.
 struct LensFit {
   CameraModel camera;
   IntrinsicSigmas sigmas;
   std::vector<Vec3> board_normals;  ///< of each view, in the camera frame
-  std::vector<double> rms_px;       ///< of each view: root of the mean squared distance of its corners
+  std::vector<double> rms_px;       ///< of each view: root mean square reprojection error
   double all_rms_px = 0.0;          ///< over the corners of all views
 };
 
-/// Zhang's method (A flexible new technique for camera calibration, PAMI 2000): homographies give a first
-/// camera, then the sum of squared reprojection errors is least over intrinsics, distortion and the places of
-/// all boards; for the fisheye model, Kannala and Brandt's (2006). By OpenCV. The standard deviations are
-/// those of the normal equations with the boards' places eliminated. Nothing when there is no solution.
+/// Zhang's method (A flexible new technique for camera calibration, PAMI 2000): homographies give an initial
+/// camera, then the sum of squared reprojection errors is minimized over intrinsics, distortion and the poses
+/// of all boards; for the fisheye model, Kannala and Brandt's (2006). By OpenCV. The standard deviations are
+/// those of the normal equations with the boards' poses eliminated. Nothing when there is no solution.
 std::optional<LensFit> fit_lens(std::span<const BoardView> views, int width_px, int height_px,
                                 LensModel model);
 

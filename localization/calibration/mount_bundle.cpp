@@ -14,13 +14,13 @@
 namespace lodestar {
 namespace {
 
-constexpr double least_sideways_m = 1e-4;  ///< what a step's arc leaves out
+constexpr double least_sideways_m = 1e-4;  ///< deviation from a step's arc
 constexpr double least_wobble_rad = 1e-4;  ///< no floor is flatter
 
 /// A frame's unknowns: x, y, yaw and two of wobble.
 using Place = Eigen::Matrix<double, 5, 1>;
 
-/// All unknowns as Ceres moves them. The mount turns about the base's axes, from `base_from_camera` on.
+/// All unknowns as Ceres has them. The mount rotates about the base's axes, starting at `base_from_camera`.
 struct Unknowns {
   std::vector<Place> places;
   Vec3 position_m = Vec3::Zero();
@@ -41,7 +41,7 @@ Eigen::Matrix3d skew(const Vec3& v) {
   return matrix;
 }
 
-/// How a rotation by `vector` turns, about the fixed axes, as the vector changes: the left Jacobian of SO(3).
+/// Left Jacobian of SO(3): rotation about the fixed axes, per change of `vector`.
 Eigen::Matrix3d turn_by_vector(const Vec3& vector) {
   const double angle = vector.norm();
   const Eigen::Matrix3d cross = skew(vector);
@@ -50,8 +50,8 @@ Eigen::Matrix3d turn_by_vector(const Vec3& vector) {
          (angle - std::sin(angle)) / (angle * angle * angle) * cross * cross;
 }
 
-/// The dots of one frame: where map_from_camera = place * wobble * mount shows them, less where they were
-/// seen. By the place, the mount's position and its turn.
+/// Reprojection errors of one frame's dots, with map_from_camera = place * wobble * mount. Parameters: the
+/// place, the mount's position and its turn.
 class DotsOfFrame : public ceres::CostFunction {
  public:
   DotsOfFrame(const MountProblem& problem, const MountFrame& frame, const Unknowns& unknowns)
@@ -60,7 +60,7 @@ class DotsOfFrame : public ceres::CostFunction {
     *mutable_parameter_block_sizes() = {5, 3, 3};
   }
 
-  /// False when a dot lies behind the camera.
+  /// False when a dot is behind the camera.
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
     const CameraPose pose =
         camera_pose(Eigen::Map<const Place>(parameters[0]), Eigen::Map<const Vec3>(parameters[1]),
@@ -81,7 +81,7 @@ class DotsOfFrame : public ceres::CostFunction {
   }
 
  private:
-  /// Its derivative is that of the translation and of the rotation about the map's axes.
+  /// The derivative is that of the translation and of the rotation about the map's axes.
   struct CameraPose {
     Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
     Eigen::Matrix<double, 6, 11> by_unknowns = Eigen::Matrix<double, 6, 11>::Zero();
@@ -108,7 +108,7 @@ class DotsOfFrame : public ceres::CostFunction {
     return pose;
   }
 
-  /// Two rows of one block's derivative, row by row as Ceres has them; null for a block that stays.
+  /// Two rows of one block's derivative, row-major as in Ceres; null for a constant block.
   template <int Columns>
   static void write(const Eigen::Matrix<double, 2, Columns>& rows, std::size_t dot, double* jacobian) {
     if (jacobian == nullptr) return;
@@ -120,11 +120,11 @@ class DotsOfFrame : public ceres::CostFunction {
   const Unknowns& unknowns_;
 };
 
-/// The wheels between two frames roll an arc; what is left over is slip, in the base's directions half-way.
+/// Slip between two frames: their motion less the wheels' arc, in the base's axes at half the turn.
 struct SlipBetweenFrames {
   double left_m = 0.0;  ///< rolled, as reported
   double right_m = 0.0;
-  Vec3 weight;  ///< of the slip ahead, aside and turned
+  Vec3 weight;  ///< of the slip forward, sideways and in turn
 
   SlipBetweenFrames(const MountProblem& problem, const MountFrame& before, const MountFrame& after)
       : left_m(after.left_m - before.left_m), right_m(after.right_m - before.right_m) {
@@ -155,7 +155,7 @@ struct SlipBetweenFrames {
   }
 
  private:
-  /// The same direction between -pi and pi.
+  /// Wraps to -pi..pi.
   template <typename T>
   static T wrapped(const T& angle) {
     using std::floor;
@@ -164,14 +164,14 @@ struct SlipBetweenFrames {
   }
 };
 
-/// Observations of some unknowns themselves: `mean`, each with its deviation. Ceres owns it.
+/// Prior of some unknowns: `mean`, with their standard deviations. Ceres owns it.
 template <int Rows, int Columns>
 ceres::CostFunction* belief_of(const Eigen::Matrix<double, Rows, Columns>& which,
                                const Eigen::Matrix<double, Rows, 1>& sigmas, const Eigen::VectorXd& mean) {
   return new ceres::NormalPrior(sigmas.cwiseInverse().asDiagonal() * which, mean);
 }
 
-/// The least-squares problem with its residuals by kind.
+/// The least-squares problem, with its residual blocks by kind.
 class Bundle {
  public:
   Bundle(const MountProblem& problem, const MountState& start) : problem_(problem) {
@@ -199,7 +199,7 @@ class Bundle {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_, &summary);
     if (!summary.IsSolutionUsable()) return std::nullopt;
-    // From here on the turn is counted from the solution, so that its covariance is about the base's axes.
+    // From here on the turn is relative to the solution, so that its covariance is about the base's axes.
     unknowns_.base_from_camera = rotation_by(unknowns_.turn_rad) * unknowns_.base_from_camera;
     unknowns_.turn_rad.setZero();
     const double freedom = std::max(1, summary.num_residuals - summary.num_effective_parameters);
@@ -230,7 +230,7 @@ class Bundle {
     }
   }
 
-  /// What is believed of wobble and wheels before looking.
+  /// Priors of wobble and wheels.
   void add_beliefs() {
     const double wobble_rad = std::max(problem_.belief.wobble_sigma_rad, least_wobble_rad);
     Eigen::Matrix<double, 2, 5> wobble = Eigen::Matrix<double, 2, 5>::Zero();
@@ -256,8 +256,8 @@ class Bundle {
       ceres_.SetManifold(block.data(), new ceres::SubsetManifold(3, fixed));
   }
 
-  /// Zero where fixed. What the log says nothing about gets a deviation of about 1 (m or rad) instead of
-  /// infinity.
+  /// Zero where fixed. What the log does not determine gets a standard deviation of about 1 (m or rad)
+  /// instead of infinity.
   std::optional<Eigen::Matrix<double, 9, 9>> shared_covariance() {
     const std::vector<double*> shared{unknowns_.position_m.data(), unknowns_.turn_rad.data(),
                                       unknowns_.wheels.data()};
@@ -274,11 +274,11 @@ class Bundle {
     return values;
   }
 
-  /// In deviations.
+  /// In standard deviations.
   double rms_of(const std::vector<ceres::ResidualBlockId>& blocks) {
     ceres::Problem::EvaluateOptions options;
     options.residual_blocks = blocks;
-    double cost = 0.0;  // Ceres has half the squares
+    double cost = 0.0;  // Ceres halves the sum of squares
     std::vector<double> residuals;
     if (blocks.empty() || !ceres_.Evaluate(options, &cost, &residuals, nullptr, nullptr)) return 0.0;
     return std::sqrt(2.0 * cost / static_cast<double>(residuals.size()));

@@ -10,7 +10,7 @@
 // The least-squares problem behind calibrate_mount().
 namespace lodestar {
 
-/// The unknowns that all frames share. Rotations of the mount are about the base's axes.
+/// Unknowns shared by all frames. Rotations of the mount are about the base's axes.
 enum MountUnknown : std::size_t {
   at_x,
   at_y,
@@ -24,7 +24,7 @@ enum MountUnknown : std::size_t {
 };
 inline constexpr std::size_t mount_unknowns = 9;
 
-/// Where the base was in one frame, and how its body leaned.
+/// The base's pose in one frame, and the lean of its body.
 struct BasePlace {
   Vec2 position_m = Vec2::Zero();
   double yaw_rad = 0.0;
@@ -47,18 +47,17 @@ struct MountSolution {
   double wheel_rms = 0.0;  ///< in standard deviations
 };
 
-/// What the bundle takes as given.
+/// Input of the bundle adjustment.
 struct MountProblem {
   std::span<const MountFrame> frames;
   const CameraModel& camera;
   MountBelief belief;
   MountCalibrationOptions options;
-  std::array<bool, mount_unknowns> fixed{};  ///< these stay as the start has them
+  std::array<bool, mount_unknowns> fixed{};  ///< kept at their start values
 };
 
-/// Levenberg-Marquardt with sparse normal equations. Nothing when dots come to lie behind the camera or the
-/// equations have no solution. The covariance holds for the noise of the options, or for what is found if
-/// that is more.
+/// Levenberg-Marquardt with sparse normal equations. Nothing when dots get behind the camera or the equations
+/// have no solution. The covariance is for the noise of the options, or for that of the residuals if larger.
 std::optional<MountSolution> solve_mount(const MountProblem& problem, const MountState& start);
 
 }  // namespace lodestar

@@ -7,7 +7,7 @@
 namespace lodestar {
 namespace {
 
-/// What the wheels rolled from one frame to the next.
+/// Odometry from one frame to the next.
 struct Rolled {
   double forward_m = 0.0;
   double turn_rad = 0.0;
@@ -35,16 +35,16 @@ std::vector<MountFrame> spaced(std::span<const MountFrame> frames, const MountBe
   return kept;
 }
 
-/// The parts of the drive that each tell something of the mount.
+/// The parts of the drive that determine the mount.
 struct Drive {
   std::size_t spin_begin = 0;  ///< frames of the longest stretch of turning on the spot
   std::size_t spin_end = 0;
   double spin_rad = 0.0;
   double straight_m = 0.0;
-  Vec2 ahead = Vec2::Zero();  ///< sum of the straight ways, forward, in the camera's level directions
+  Vec2 ahead = Vec2::Zero();  ///< sum of the straight steps, forward, in the camera's level axes
 };
 
-/// One motion outweighs the other by so much when the robot turns on the spot, or drives straight.
+/// Ratio of one motion to the other for a step that counts as turning on the spot, or as straight.
 constexpr double clear_ratio = 4.0;
 
 bool is_turning(const Rolled& step, double track_width_m) {
@@ -94,15 +94,15 @@ std::optional<Circle> circle_of(std::span<const MountFrame> frames, const Drive&
   return fit_circle(points);
 }
 
-/// On the straight the base goes along its own x axis; the camera's yaw on the base is minus the direction
-/// in which the camera sees itself go. Without a straight way, as believed.
+/// On the straight the base moves along its own x axis; the camera's yaw on the base is minus the direction
+/// of motion in the camera's axes. Without a straight drive, the prior yaw.
 double first_yaw(const Drive& drive, const MountBelief& belief) {
-  constexpr double least_m = 0.3;  // fixes off by 5 mm leave 1 degree: a first estimate
+  constexpr double least_m = 0.3;  // fixes off by 5 mm give 1 degree: enough for a start
   return drive.ahead.norm() > least_m ? -heading_of(drive.ahead) : belief.angles.yaw_rad;
 }
 
-/// Eq. (17): the circle's centre is the base's place, so each frame of the spin shows the camera's offset;
-/// the mean of all is its first estimate.
+/// Eq. (17): the circle's centre is the base's position, so each frame of the spin gives the camera's offset;
+/// their mean is the initial value.
 MountState first_state(std::span<const MountFrame> frames, const Drive& drive, const Circle& circle,
                        const MountBelief& belief) {
   MountState state;
@@ -130,7 +130,7 @@ double sigma(const MountSolution& solution, std::size_t unknown) {
   return std::sqrt(solution.covariance(at, at));
 }
 
-/// Fixes what the log does not measure, as believed. True when there is any such part.
+/// Fixes what the log does not measure at its prior value. True when there is any such part.
 bool keep_unmeasured(const MountSolution& solution, MountProblem& problem, MountState& state) {
   const MountCalibrationOptions& options = problem.options;
   const MountBelief& belief = problem.belief;
@@ -146,7 +146,7 @@ bool keep_unmeasured(const MountSolution& solution, MountProblem& problem, Mount
     angles.pitch_rad = belief.angles.pitch_rad;
   }
   if (sigma(solution, about_z) > options.most_yaw_sigma_rad) {
-    // The same places of the camera, told from a base that is turned.
+    // The same camera poses, relative to a rotated base.
     const double turn_rad = wrap_angle(belief.angles.yaw_rad - angles.yaw_rad);
     problem.fixed[about_z] = true;
     angles.yaw_rad = belief.angles.yaw_rad;
@@ -164,7 +164,7 @@ MountEstimate estimate_of(const MountSolution& solution, const MountProblem& pro
   const MountState& state = solution.state;
   MountEstimate estimate{.angles = angles_of(state.base_from_camera), .position_m = state.position_m};
   estimate.position_sigmas_m = {sigma(solution, at_x), sigma(solution, at_y), sigma(solution, at_z)};
-  // Roll and pitch turn about axes that the yaw has turned.
+  // Roll and pitch are about axes that the yaw has rotated.
   const Eigen::Matrix2d camera_from_base = Eigen::Rotation2Dd(-estimate.angles.yaw_rad).toRotationMatrix();
   const Eigen::Matrix2d tilt =
       camera_from_base * solution.covariance.block<2, 2>(about_x, about_x) * camera_from_base.transpose();
@@ -190,7 +190,7 @@ bool contradicts(const MountEstimate& estimate, const MountBelief& belief,
          is_off(estimate.track_width_m / belief.track_width_m);
 }
 
-/// All unknowns first; what stays uncertain is then fixed as believed, and the rest solved again.
+/// Solves for all unknowns; then fixes what is uncertain at its prior value and solves again.
 std::optional<MountEstimate> full_estimate(MountProblem problem, MountState state) {
   std::optional<MountSolution> solution = solve_mount(problem, state);
   if (!solution) return std::nullopt;
@@ -229,7 +229,7 @@ MountCalibration calibrate_mount(std::span<const MountFrame> frames, const Camer
   refuse_if(used.size() < options.least_frames, MountFlaw::too_few_fixes);
   refuse_if(result.turns < options.least_turns, MountFlaw::too_few_turns);
   if (!result.flaws.empty() || !result.circle) {
-    refuse_if(result.flaws.empty(), MountFlaw::contradiction);  // turned by the wheels, not by the camera
+    refuse_if(result.flaws.empty(), MountFlaw::contradiction);  // odometry turned, the camera did not
     return result;
   }
   result.estimate = full_estimate({.frames = used, .camera = camera, .belief = belief, .options = options},

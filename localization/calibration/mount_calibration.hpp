@@ -9,11 +9,11 @@
 #include "localization/pose/mount.hpp"
 #include "maps/camera_model.hpp"
 
-// Where the camera sits on the base, from a log of five turns on the spot and a straight drive.
+// Calibrates the camera's mount on the base, from a log of five turns on the spot and a straight drive.
 namespace lodestar {
 
-/// One frame of the log: the registered dots in view, the pose that they give by themselves, and how far the
-/// wheels had rolled by then.
+/// One frame of the log: the registered dots in view, the pose from them alone, and the wheels' travel by
+/// then.
 struct MountFrame {
   std::vector<SurveyedDot> dots;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
@@ -21,49 +21,49 @@ struct MountFrame {
   double right_m = 0.0;
 };
 
-/// What is believed before: the robot file's mount and track width.
+/// Prior: the robot file's mount and track width.
 struct MountBelief {
   RollPitchYaw angles;  ///< the camera's rotation on the base: Rz(yaw) Ry(pitch) Rx(roll)
   Vec3 position_m = Vec3::Zero();
   double track_width_m = 0.4;
-  double wobble_sigma_rad = radians(0.1);  ///< of the body on the floor, each axis
+  double wobble_sigma_rad = radians(0.1);  ///< of the body on the floor, about each axis
 };
 
 /// Why a log does not calibrate the mount.
 enum class MountFlaw {
-  too_few_fixes,        ///< registered markers were seen in too few places
-  too_few_turns,        ///< no turning on the spot that is long enough
-  offset_undetermined,  ///< the offset of the camera stays too uncertain
-  contradiction         ///< dots, registry and wheels do not fit together
+  too_few_fixes,        ///< too few frames with registered markers
+  too_few_turns,        ///< too little turning on the spot
+  offset_undetermined,  ///< the standard deviation of the camera's offset is too large
+  contradiction         ///< dots, registry and odometry are inconsistent
 };
 
-/// As it is named in results: `too-few-turns`.
+/// Name in results: `too-few-turns`.
 std::string_view to_string(MountFlaw flaw);
 
 struct MountCalibrationOptions {
-  double spacing_rad = radians(6.0);  ///< frames nearer to the last one that was used are left out: turned
-  double spacing_m = 0.04;            ///< or driven by less
+  double spacing_rad = radians(6.0);  ///< a frame is used after a turn by this since the last one used,
+  double spacing_m = 0.04;            ///< or after a drive by this
   std::size_t least_frames = 40;
   double least_turns = 2.0;
   double dot_sigma_px = 0.03;
-  double slip_sigma_per_sqrt_m = 0.003;      ///< of the ground covered, each wheel
-  double sideways_sigma_per_sqrt_m = 0.001;  ///< of the base
+  double slip_sigma_per_sqrt_m = 0.003;      ///< random slip of each wheel
+  double sideways_sigma_per_sqrt_m = 0.001;  ///< lateral slip of the base
   double encoder_sigma_m = 0.0005;
-  double wheel_scale_sigma = 0.02;  ///< how unequal wheels, and the track width, may be before looking
+  double wheel_scale_sigma = 0.02;  ///< prior of the wheels' scales and the track width
   double most_offset_sigma_m = 0.003;
-  // A part whose standard deviation is larger is not measured: it keeps what was believed.
+  // A part with a larger standard deviation is not measured and keeps its prior value.
   double most_height_sigma_m = 0.005;
   double most_tilt_sigma_rad = radians(0.1);
   double most_yaw_sigma_rad = radians(0.3);
-  double most_dot_rms_px = 1.0;  ///< beyond, registry or camera are wrong
-  double most_wheel_rms = 4.0;   ///< in standard deviations; beyond, the wheels tell of another drive
+  double most_dot_rms_px = 1.0;  ///< above it, the registry or the camera model is wrong
+  double most_wheel_rms = 4.0;   ///< in standard deviations; above it, odometry contradicts the frames
 };
 
-/// The mount as far as the log tells it.
+/// The mount, as far as the log determines it.
 struct MountEstimate {
   RollPitchYaw angles;
   Vec3 position_m = Vec3::Zero();
-  RollPitchYaw angle_sigmas;  ///< 0 for what was kept as believed
+  RollPitchYaw angle_sigmas;  ///< 0 for parts that keep their prior value
   Vec3 position_sigmas_m = Vec3::Zero();
   bool measured_height = false;
   bool measured_tilt = false;
@@ -75,25 +75,24 @@ struct MountEstimate {
   double wheel_rms = 0.0;  ///< in standard deviations
 };
 
-/// What a log tells. The estimate may be used when there are no flaws.
+/// Result of a log. The estimate may be used when there are no flaws.
 struct MountCalibration {
-  std::size_t frames = 0;  ///< that were used
-  double turns = 0.0;      ///< on the spot, in the longest stretch of turning
+  std::size_t frames = 0;  ///< used
+  double turns = 0.0;      ///< on the spot, in the longest spin
   double straight_m = 0.0;
-  std::optional<Circle> circle;  ///< where the camera went meanwhile, Eq. (17)
+  std::optional<Circle> circle;  ///< the camera's path in this spin, Eq. (17)
   std::optional<MountEstimate> estimate;
   std::vector<MountFlaw> flaws;
 };
 
-/// The circle of Eq. (17) first; from there the least squares over all dots and wheel readings of the mount,
-/// the wheels' sizes and, for each frame, the base's place, heading and wobble. Frames are in the order of
-/// time.
+/// Starts from the circle of Eq. (17) and solves the least squares over all dots and wheel readings for the
+/// mount, the wheels' scales and, for each frame, the base's position, heading and wobble. Frames are in
+/// order of time.
 ///
-/// What is measured follows from the standard deviations: turning on the spot gives the offset in the
-/// camera's own directions but never the yaw, which takes a straight drive; the tilt takes dots that show it
-/// by perspective, in single frames, over the place that they take in the image while the robot turns, or by
-/// markers at several heights. A part that is not measured keeps what was believed, and the rest is measured
-/// as if that were true.
+/// The standard deviations decide what is measured: turning on the spot gives the offset in the camera's axes
+/// but never the yaw, which needs a straight drive; the tilt needs dots that show it by perspective, in
+/// single frames, over their places in the image while the robot turns, or by markers at several heights. A
+/// part that is not measured keeps its prior value, and the rest is solved with it fixed.
 MountCalibration calibrate_mount(std::span<const MountFrame> frames, const CameraModel& camera,
                                  const MountBelief& belief, const MountCalibrationOptions& options = {});
 
