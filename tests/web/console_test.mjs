@@ -235,11 +235,9 @@ describe('seeing', () => {
     const share = () => page.evaluate(() => window.lodestar.console.coverage.shares().one);
     const before = await share();
     await page.getByRole('button', { name: 'Suggest next marker' }).click();
-    const shareIs = (holds) =>
-      page.waitForFunction(`(${holds})(window.lodestar.console.coverage.shares().one, ${before})`);
-    await shareIs((now, then) => now > then + 0.02);
+    await page.waitForFunction((then) => window.lodestar.console.coverage.shares().one > then + 0.02, before, { polling: 50 });
     await page.keyboard.press('Control+z');
-    await shareIs((now, then) => now === then);
+    await page.waitForFunction((then) => window.lodestar.console.coverage.shares().one === then, before, { polling: 50 });
 
     // The same from scratch as by moving: nothing is left behind.
     const equal = await page.evaluate(() => {
