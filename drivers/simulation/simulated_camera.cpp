@@ -8,7 +8,7 @@
 namespace lodestar {
 namespace {
 
-enum Purpose : std::uint64_t { tilt_of_body = 1, loss_of_frames = 2 };
+enum CameraPurpose : std::uint64_t { tilt_of_body = 1, loss_of_frames = 2 };
 
 void check(const SimulatedCameraOptions& options) {
   if (options.exposure < Duration::zero() || options.exposure >= options.period) {
@@ -54,7 +54,7 @@ void SimulatedCamera::observe(Stamp now, const Pose2& true_map_from_base) {
     if (event > now) break;
     const Eigen::Isometry3d map_from_camera = map_from_camera_at(event, *last_, current);
     if (!open_) {
-      open_ = Exposure{next_number_++, event, map_from_camera, map_from_camera};
+      open_ = Exposure{next_number_++, event, map_from_camera, map_from_camera, {}};
     } else {
       open_->map_from_camera_at_closing = map_from_camera;
       if (!is_lost(open_->number)) on_their_way_.push_back(*open_);
@@ -65,16 +65,22 @@ void SimulatedCamera::observe(Stamp now, const Pose2& true_map_from_base) {
 }
 
 void SimulatedCamera::rehang(const MarkerRegistry& registry, std::vector<CeilingDisc> more_lamps) {
+  for (Exposure& exposure : on_their_way_) form(exposure);
   image_former_.rehang(hang_markers(registry, options_, seed_), std::move(more_lamps));
 }
 
 std::optional<Frame> SimulatedCamera::poll() {
   if (on_their_way_.empty() || arrival_of(on_their_way_.front()) > last_->stamp) return std::nullopt;
-  const Exposure exposure = on_their_way_.front();
+  Exposure exposure = on_their_way_.front();
   on_their_way_.pop_front();
-  return Frame{exposure.opening + options_.exposure / 2,
-               image_former_.expose(exposure.map_from_camera_at_opening, exposure.map_from_camera_at_closing,
-                                    exposure.number)};
+  form(exposure);
+  return Frame{exposure.opening + options_.exposure / 2, exposure.gray};
+}
+
+void SimulatedCamera::form(Exposure& exposure) {
+  if (!exposure.gray.empty()) return;
+  exposure.gray = image_former_.expose(exposure.map_from_camera_at_opening,
+                                       exposure.map_from_camera_at_closing, exposure.number);
 }
 
 void SimulatedCamera::keep_newest(std::size_t frames) {

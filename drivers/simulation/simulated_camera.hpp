@@ -28,7 +28,7 @@ class SimulatedCamera : public Camera {
   /// The base's true pose at `now`. Stamps ascend; motion is interpolated linearly between them.
   void observe(Stamp now, const Pose2& true_map_from_base);
 
-  /// From the next frame on: replaces the markers, and the lamps in addition to the ceiling's own.
+  /// Replaces the markers, and the lamps in addition to the ceiling's own, for frames exposed from now on.
   void rehang(const MarkerRegistry& registry, std::vector<CeilingDisc> more_lamps);
 
   /// A frame is rendered when it is polled; one that is not polled costs nothing.
@@ -47,8 +47,10 @@ class SimulatedCamera : public Camera {
     Stamp opening;
     Eigen::Isometry3d map_from_camera_at_opening;
     Eigen::Isometry3d map_from_camera_at_closing;
+    cv::Mat gray;  ///< formed when it arrives, or when the ceiling changes before
   };
 
+  void form(Exposure& exposure);
   [[nodiscard]] Stamp opening_of(std::uint64_t number) const;
   [[nodiscard]] Stamp arrival_of(const Exposure& exposure) const;
   [[nodiscard]] bool is_lost(std::uint64_t number) const;
