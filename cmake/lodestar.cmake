@@ -15,8 +15,11 @@ endif()
 add_library(lodestar_properties INTERFACE)
 target_include_directories(lodestar_properties INTERFACE ${PROJECT_SOURCE_DIR})
 # A field left out of a designated initializer takes the default that its struct gives it: meant so.
-target_compile_options(lodestar_properties INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+target_compile_options(lodestar_properties INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Werror
   -Wno-missing-field-initializers)
+if(NOT LODESTAR_TOGETHER)
+  target_compile_options(lodestar_properties INTERFACE -Wshadow)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # libstdc++ 12 calls its own deprecated temporary buffers in std::stable_sort.
   target_compile_options(lodestar_properties INTERFACE -Wno-deprecated-declarations)
@@ -42,11 +45,12 @@ endif()
 set(lodestar_headers_of_all <algorithm> <array> <cmath> <cstdint> <deque> <filesystem> <fstream> <functional> <map> <memory>
   <optional> <set> <span> <string> <variant> <vector> <Eigen/Cholesky> <Eigen/Eigenvalues> <Eigen/Geometry>)
 
-# lodestar_library(NAME SOURCES ... USES ... [PRECOMPILES HEADER... | SHARES OTHER] [TOGETHER]): one room's target, its arrows
-# on one line. It precompiles these headers besides those of all, or uses what another has precompiled. TOGETHER: where each
-# source reads a library that takes seconds (CLI11), several are compiled as one.
+# lodestar_library(NAME SOURCES ... USES ... [PRECOMPILES HEADER... | SHARES OTHER]): one room's target, its arrows on one
+# line. It precompiles these headers besides those of all, or uses what another has precompiled. Several sources are compiled
+# as one, for most of a compiler's time goes into headers. What hides a name is then found only where each source is compiled
+# alone, as by the presets for lint and sanitizers.
 function(lodestar_library name)
-  cmake_parse_arguments(ARG "TOGETHER" "SHARES" "SOURCES;USES;PRECOMPILES" ${ARGN})
+  cmake_parse_arguments(ARG "" "SHARES" "SOURCES;USES;PRECOMPILES" ${ARGN})
   add_library(lodestar_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(lodestar_${name} PUBLIC lodestar_properties ${ARG_USES})
   if(ARG_SHARES)
@@ -54,8 +58,8 @@ function(lodestar_library name)
   elseif(ARG_PRECOMPILES)
     target_precompile_headers(lodestar_${name} PRIVATE ${lodestar_headers_of_all} ${ARG_PRECOMPILES})
   endif()
-  if(ARG_TOGETHER AND LODESTAR_TOGETHER)
-    set_target_properties(lodestar_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 9)
+  if(LODESTAR_TOGETHER)
+    set_target_properties(lodestar_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
 endfunction()
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_side_px = 32768;
+constexpr int max_image_side_px = 32768;
 
 /// The values of either kind of file, before they are checked.
 struct Calibration {
@@ -102,8 +102,8 @@ void read_unused(StrictYaml& yaml) {
 CameraModel load_camera_info(const fs::path& file) {
   StrictYaml yaml = StrictYaml::load(file);
   Calibration calibration;
-  calibration.width_px = yaml.integer("image_width", 1, max_side_px);
-  calibration.height_px = yaml.integer("image_height", 1, max_side_px);
+  calibration.width_px = yaml.integer("image_width", 1, max_image_side_px);
+  calibration.height_px = yaml.integer("image_height", 1, max_image_side_px);
   calibration.matrix = read_matrix(yaml.mapping("camera_matrix"), 3, 3);
   if (yaml.has("distortion_model")) calibration.model = yaml.text("distortion_model");
   calibration.coefficients = read_matrix(yaml.mapping("distortion_coefficients"), 1, std::nullopt);
@@ -130,8 +130,8 @@ CameraModel load_file_storage(const fs::path& file, std::string text) {
   text.front() = '#';
   StrictYaml yaml = StrictYaml::parse(text, file);
   Calibration calibration;
-  calibration.width_px = yaml.integer("image_width", 1, max_side_px);
-  calibration.height_px = yaml.integer("image_height", 1, max_side_px);
+  calibration.width_px = yaml.integer("image_width", 1, max_image_side_px);
+  calibration.height_px = yaml.integer("image_height", 1, max_image_side_px);
   calibration.matrix = read_opencv_matrix(yaml.mapping("camera_matrix"), 3, 3);
   calibration.coefficients = read_opencv_matrix(yaml.mapping("distortion_coefficients"), 1, std::nullopt);
   if (calibration.coefficients.size() == 8) calibration.model = "rational_polynomial";

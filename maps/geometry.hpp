@@ -11,6 +11,8 @@ namespace lodestar {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 
+inline constexpr double mm_per_m = 1000.0;
+
 constexpr double radians(double deg) {
   return deg * (std::numbers::pi / 180.0);
 }

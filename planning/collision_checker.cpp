@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "maps/distance_field.hpp"
+#include "planning/touching.hpp"
 
 namespace lodestar {
 namespace {
 
-constexpr double touching = 1e-9;  ///< cells; rounding must not turn touching into overlapping
 constexpr double rounding = 1e-3;  ///< cells; generous to single precision
 
 /// Distance from a point to the square of a cell, squared.

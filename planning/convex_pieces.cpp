@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
+#include "planning/touching.hpp"
+
 namespace lodestar {
 namespace {
-
-constexpr double touching = 1e-9;  ///< rounding must not turn touching into overlapping
 
 std::array<Vec2, 4> square_of(Cell cell) {
   const Vec2 low(cell.column, cell.row);

@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "maps/input_error.hpp"
+#include "planning/touching.hpp"
 
 namespace lodestar {
 namespace {
-
-constexpr double touching = 1e-9;  ///< cells; rounding must not turn touching into overlapping
 
 /// In cells, low ends and high ends.
 struct Bounds {

@@ -12,14 +12,14 @@ namespace {
 /// In the library, pixel centres are at half-integer coordinates.
 constexpr double half_pixel = 0.5;
 
-struct Settings {
+struct AprilTagSettings {
   float decimate = 1.0F;
   float sigma = 0.0F;
 };
 
 class AprilTag final : public SquareTags {
  public:
-  explicit AprilTag(const Settings& settings)
+  explicit AprilTag(const AprilTagSettings& settings)
       : family_(tag36h11_create()), detector_(apriltag_detector_create()) {
     apriltag_detector_add_family(detector_.get(), family_.get());
     detector_->nthreads = 1;
@@ -100,7 +100,7 @@ class AprilTag final : public SquareTags {
   cv::Mat copy_;
 };
 
-MethodChoice choice(const Settings& settings) {
+MethodChoice choice(const AprilTagSettings& settings) {
   return {"apriltag",
           fmt::format("tag36h11, decimate {}, sigma {}, edges refined", settings.decimate, settings.sigma),
           [settings] { return std::make_unique<AprilTag>(settings); }};

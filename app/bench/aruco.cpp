@@ -9,14 +9,14 @@ namespace {
 
 namespace aruco = cv::aruco;
 
-struct Settings {
+struct ArucoSettings {
   int refinement = aruco::CORNER_REFINE_SUBPIX;
   int window_px = 5;  ///< of the sub-pixel refinement, to each side
 };
 
 class Aruco final : public SquareTags {
  public:
-  explicit Aruco(const Settings& settings)
+  explicit Aruco(const ArucoSettings& settings)
       : dictionary_(aruco::getPredefinedDictionary(aruco::DICT_4X4_50)),
         parameters_(aruco::DetectorParameters::create()),
         offset_px_(settings.refinement == aruco::CORNER_REFINE_APRILTAG ? 0.5 : 0.0) {
@@ -88,7 +88,7 @@ class Aruco final : public SquareTags {
   double offset_px_;
 };
 
-MethodChoice choice(const std::string& refinement, const Settings& settings) {
+MethodChoice choice(const std::string& refinement, const ArucoSettings& settings) {
   return {"aruco", fmt::format("4x4_50, corners refined by {}", refinement),
           [settings] { return std::make_unique<Aruco>(settings); }};
 }

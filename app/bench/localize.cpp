@@ -15,7 +15,7 @@
 namespace lodestar {
 namespace {
 
-enum Purpose : std::uint64_t { markers_of_scene = 61, views_of_scene, ceiling_of_scene };
+enum ScenePurpose : std::uint64_t { markers_of_scene = 61, views_of_scene, ceiling_of_scene };
 
 /// Accumulates squares for root mean squares.
 class SpreadSum {
@@ -60,7 +60,7 @@ MethodResult run_method(BenchMethod& method, const cv::Mat& gray, const MarkerRe
   return result;
 }
 
-double median(const std::vector<double>& values) {
+double lower_median(const std::vector<double>& values) {
   return percentile(values, 0.5).value_or(0.0);
 }
 
@@ -169,8 +169,8 @@ ScenePoint measure(const BenchScene& scene, const MethodChoice& choice, int tria
     free.add(result.free, view.map_from_camera,
              cramer_rao_bound(view.map_from_camera, dots, camera, Tilt::free));
   }
-  point.median_us = median(method_us);
-  point.threshold_us = median(threshold_us);
+  point.median_us = lower_median(method_us);
+  point.threshold_us = lower_median(threshold_us);
   point.upright = upright.errors();
   point.upright_bound = upright.bounds();
   point.free = free.errors();

@@ -5,8 +5,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double mm_per_m = 1000.0;
-
 Json spread_json(const PoseSpread& rms, const PoseSpread& bound) {
   const auto ratio = [](double value, double least) { return least > 0.0 ? Json(value / least) : Json(); };
   return {{"poses", rms.poses},

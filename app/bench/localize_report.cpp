@@ -11,8 +11,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double mm_per_m = 1000.0;
-
 std::string over_bound(double value, double bound) {
   return bound > 0.0 ? fmt::format("{:.2f}", value / bound) : std::string("-");
 }

@@ -11,7 +11,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double mm_per_m = 1000.0;
 constexpr double off_axis_m = 0.7;
 constexpr double promised_ratio = 1.15;
 
@@ -21,7 +20,7 @@ BenchScene plain_scene() {
 }
 
 /// 10 000 frames determine the mean to 1.4 %; more would expose that the noise is only approximately normal.
-int frames_for_consistency(const BenchLocalizeOptions& options) {
+int consistency_frames(const BenchLocalizeOptions& options) {
   return std::min(options.frames, 10'000);
 }
 
@@ -38,7 +37,7 @@ class Work {
     double points = 3.0 * methods + 4.0 * static_cast<double>(options.peers.size());
     for (const std::string& sweep : options.sweeps) points += methods * static_cast<double>(points_of(sweep));
     return points * options.trials + 3.0 * methods * options.frames +
-           static_cast<double>(consistency_conditions()) * frames_for_consistency(options);
+           static_cast<double>(consistency_conditions()) * consistency_frames(options);
   }
 
   const std::function<void(double)>& progress_;
@@ -166,7 +165,7 @@ BenchLocalizeResult bench_localize(const BenchLocalizeOptions& options,
     result.sweeps.push_back(run_sweep(name, result.methods, options.trials, options.seed, done));
   }
   count_hard_frames(result, work);
-  result.consistency = measure_consistency(frames_for_consistency(options), options.seed,
+  result.consistency = measure_consistency(consistency_frames(options), options.seed,
                                            [&work](int frames) { work.did(frames); });
   judge(result);
   return result;

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum Purpose : std::uint64_t { building = 1, faults };
+enum MissionPurpose : std::uint64_t { building = 1, faults };
 
 std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
   std::map<std::uint64_t, MissionOutcome> outcomes;

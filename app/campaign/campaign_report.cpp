@@ -14,7 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double ms_per_s = 1000.0;
-constexpr double mm_per_m = 1000.0;
 
 /// Statistics of all missions, or of those with one kind of fault.
 struct Tally {

@@ -13,7 +13,7 @@
 namespace lodestar {
 namespace {
 
-enum Purpose : std::uint64_t { walls = 1, furniture, markers, places };
+enum SitePurpose : std::uint64_t { walls = 1, furniture, markers, places };
 
 constexpr double resolution_m = 0.05;
 constexpr int wall_cells = 2;
@@ -69,7 +69,7 @@ void divide(OccupancyMap& map, const Area& area, Random& random, std::vector<Are
   divide(map, oriented({{end, along.low.row}, along.high}), random, rooms);
 }
 
-OccupancyMap building(Random random, Random of_furniture) {
+OccupancyMap draw_building(Random random, Random of_furniture) {
   OccupancyMap map;
   map.resolution_m = resolution_m;
   map.columns = cells(random.uniform(7.0, 13.0));
@@ -148,7 +148,7 @@ Site random_site(const Site& robot_and_cameras, const std::vector<int>& ids, std
   Site site = robot_and_cameras;
   for (std::uint64_t attempt = 0;; ++attempt) {
     const Random random = Random(seed).stream(attempt);
-    site.map.map = building(random.stream(walls), random.stream(furniture));
+    site.map.map = draw_building(random.stream(walls), random.stream(furniture));
     if (set_start_and_goal(site, random.stream(places))) {
       site.registry = ceiling_of(site.map.map, ids, random.stream(markers));
       return site;

@@ -49,8 +49,6 @@ double number_in(const json& value, double limit) {
   return value.get<double>();
 }
 
-constexpr double far_m = 1e5;
-
 Goal goal_from_json(const json& goal) {
   if (!goal.is_array() || goal.size() < 2 || goal.size() > 3)
     throw InputError("wanted [x_m, y_m] or [x_m, y_m, yaw_deg]");

@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double far_m = 1e5;
 constexpr std::size_t longest_name = 80;
 
 /// A quoted string that YAML and JSON read alike.

@@ -40,7 +40,6 @@ ordered_json SiteCoverage::issues(const MarkerRegistry& draft) const {
 
 ordered_json SiteCoverage::deviations(const Site& site, const MarkerRegistry& registry) const {
   constexpr double apart_m = 0.25;
-  constexpr double mm_per_m = 1000.0;
   const OccupancyMap& map = site.map.map;
   VisibilityOptions options = visibility_options(site.robot);
   options.stride = std::max(1, static_cast<int>(std::lround(apart_m / map.resolution_m)));

@@ -26,7 +26,7 @@ std::optional<double> finite_number(const char* begin, const char* end) {
   return usable ? std::optional(value) : std::nullopt;
 }
 
-bool is_image(const fs::path& file) {
+bool is_image_name(const fs::path& file) {
   constexpr std::array endings{".png", ".pgm", ".bmp", ".jpg", ".jpeg", ".tif", ".tiff"};
   return std::ranges::find(endings, file.extension().string()) != endings.end();
 }
@@ -40,11 +40,11 @@ LoggedImage logged_image(const fs::path& file) {
   return {Stamp(from_seconds(*stamp_s)), file};
 }
 
-std::vector<LoggedImage> images_in(const fs::path& folder) {
+std::vector<LoggedImage> logged_images(const fs::path& folder) {
   if (!is_folder(folder)) throw InputError(folder, 0, "no such folder", "images and wheels.csv");
   std::vector<LoggedImage> images;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && is_image(entry.path())) images.push_back(logged_image(entry.path()));
+    if (entry.is_regular_file() && is_image_name(entry.path())) images.push_back(logged_image(entry.path()));
   }
   if (images.empty()) throw InputError(folder, 0, "a folder without images", "images named by their stamp");
   std::ranges::sort(images, {}, &LoggedImage::stamp);
@@ -106,7 +106,7 @@ std::optional<WheelTravel> DriveLog::travel_at(Stamp stamp) const {
 }
 
 DriveLog load_drive_log(const fs::path& folder) {
-  return {.images = images_in(folder), .wheels = read_wheels(folder / "wheels.csv")};
+  return {.images = logged_images(folder), .wheels = read_wheels(folder / "wheels.csv")};
 }
 
 cv::Mat read_logged_image(const fs::path& file, const CameraModel& camera) {

@@ -7,7 +7,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double mm_per_m = 1000.0;
 constexpr double pitch_mm = marker_pitch_m * mm_per_m;
 constexpr double dot_radius_mm = marker_dot_radius_m * mm_per_m;
 constexpr double side_mm = (marker_grid_size - 1) * pitch_mm;

@@ -12,8 +12,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double mm_per_m = 1000.0;
-
 std::string goal_row(const GoalRecord& goal, const std::optional<ArrivalScore>& score) {
   const std::string error = score ? fmt::format("{:.1f} mm", mm_per_m * score->position_error_m) : "";
   std::string heading;

@@ -11,15 +11,15 @@ namespace {
 const std::array cell_colors{cv::Scalar(120, 120, 235), cv::Scalar(150, 225, 255), cv::Scalar(170, 225, 170),
                              cv::Scalar(110, 185, 90)};
 const std::array cell_words{"none", "one", "two", "three or more markers, at every heading"};
-const cv::Scalar ink(40, 40, 40);
-const cv::Scalar marker_color(0, 140, 255);
+const cv::Scalar title_ink(40, 40, 40);
+const cv::Scalar marker_cross_color(0, 140, 255);
 
 void draw_legend(Canvas& canvas) {
   Vec2 at = canvas.pixel(canvas.low_m()) + Vec2(0.0, 45.0);
   constexpr double text_px = 20.0;
   for (std::size_t i = 0; i < cell_colors.size(); ++i) {
     canvas.draw_box_px(at - Vec2(0.0, 12.0), at + Vec2(24.0, 12.0), cell_colors.at(i));
-    canvas.draw_text_px(at + Vec2(34.0, 0.0), cell_words.at(i), text_px, ink);
+    canvas.draw_text_px(at + Vec2(34.0, 0.0), cell_words.at(i), text_px, title_ink);
     at.x() += 74.0 + Canvas::text_width_px(cell_words.at(i), text_px);
   }
 }
@@ -52,8 +52,8 @@ cv::Mat draw_visibility(const Visibility& visibility, const MarkerRegistry& regi
   canvas.draw_frame();
   for (const RegisteredMarker& marker : registry.markers) {
     const Vec2 at = canvas.pixel(map_from_marker(registry, marker).translation().head<2>());
-    canvas.draw_disc_px(at, 7.0, marker_color);
-    canvas.draw_label_px(at + Vec2(0.0, 20.0), fmt::format("{}", marker.id), 15.0, ink, 0.5);
+    canvas.draw_disc_px(at, 7.0, marker_cross_color);
+    canvas.draw_label_px(at + Vec2(0.0, 20.0), fmt::format("{}", marker.id), 15.0, title_ink, 0.5);
   }
   draw_legend(canvas);
   return canvas.picture();

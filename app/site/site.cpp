@@ -14,8 +14,6 @@ void expect_format(StrictYaml& yaml, const std::string& format) {
   (void)yaml.integer("version", 1, 1);
 }
 
-constexpr double far_m = 1e5;  ///< no indoor site is this large; a larger number is a mistake of units
-
 Vec2 read_position(StrictYaml& yaml) {
   const double x_m = yaml.number("x_m", -far_m, far_m);
   const double y_m = yaml.number("y_m", -far_m, far_m);

@@ -28,7 +28,6 @@ enum DriveChannel : std::size_t {
   static_transform
 };
 
-constexpr double mm_per_m = 1000.0;
 constexpr Duration message_period = std::chrono::milliseconds(50);  ///< of poses, at most
 
 Message message(DriveChannel channel, Stamp stamp, const MessageJson& json) {

@@ -30,21 +30,24 @@ const Json time_of_day = object({{"sec", integer}, {"nsec", integer}});
 const Json vector2 = object({{"x", number}, {"y", number}});
 const Json vector3 = object({{"x", number}, {"y", number}, {"z", number}});
 const Json quaternion = object({{"x", number}, {"y", number}, {"z", number}, {"w", number}});
-const Json pose = object({{"position", vector3}, {"orientation", quaternion}});
+const Json pose_type = object({{"position", vector3}, {"orientation", quaternion}});
 const Json color = object({{"r", number}, {"g", number}, {"b", number}, {"a", number}});
 
 Json scene_update() {
-  const Json cube = object({{"pose", pose}, {"size", vector3}, {"color", color}});
-  const Json cylinder = object(
-      {{"pose", pose}, {"size", vector3}, {"bottom_scale", number}, {"top_scale", number}, {"color", color}});
-  const Json label = object({{"pose", pose},
+  const Json cube = object({{"pose", pose_type}, {"size", vector3}, {"color", color}});
+  const Json cylinder = object({{"pose", pose_type},
+                                {"size", vector3},
+                                {"bottom_scale", number},
+                                {"top_scale", number},
+                                {"color", color}});
+  const Json label = object({{"pose", pose_type},
                              {"billboard", truth_value},
                              {"font_size", number},
                              {"scale_invariant", truth_value},
                              {"color", color},
                              {"text", text}});
   const Json line = object({{"type", integer},
-                            {"pose", pose},
+                            {"pose", pose_type},
                             {"thickness", number},
                             {"scale_invariant", truth_value},
                             {"points", list_of(vector3)},
@@ -74,7 +77,7 @@ Json grid() {
   const Json field = object({{"name", text}, {"offset", integer}, {"type", integer}});
   return object({{"timestamp", time_of_day},
                  {"frame_id", text},
-                 {"pose", pose},
+                 {"pose", pose_type},
                  {"column_count", integer},
                  {"cell_size", vector2},
                  {"row_stride", integer},
@@ -95,7 +98,7 @@ Json camera_calibration() {
                  {"P", list_of(number)}});
 }
 
-Json drive() {
+Json drive_schema() {
   return object({{"timestamp", time_of_day},
                  {"x_m", number},
                  {"y_m", number},
@@ -110,7 +113,7 @@ Json drive() {
                  {"stop", text}});
 }
 
-Json fix() {
+Json fix_schema() {
   return object({{"timestamp", time_of_day},
                  {"x_m", number},
                  {"y_m", number},
@@ -131,28 +134,29 @@ Json estimate_error() {
 }
 
 std::map<std::string, Json, std::less<>> all_schemas() {
-  return {{"foxglove.FrameTransform", object({{"timestamp", time_of_day},
-                                              {"parent_frame_id", text},
-                                              {"child_frame_id", text},
-                                              {"translation", vector3},
-                                              {"rotation", quaternion}})},
-          {"foxglove.PoseInFrame", object({{"timestamp", time_of_day}, {"frame_id", text}, {"pose", pose}})},
-          {"foxglove.PosesInFrame",
-           object({{"timestamp", time_of_day}, {"frame_id", text}, {"poses", list_of(pose)}})},
-          {"foxglove.Grid", grid()},
-          {"foxglove.SceneUpdate", scene_update()},
-          {"foxglove.CompressedImage",
-           object({{"timestamp", time_of_day}, {"frame_id", text}, {"data", bytes}, {"format", text}})},
-          {"foxglove.CameraCalibration", camera_calibration()},
-          {"foxglove.Log", object({{"timestamp", time_of_day},
-                                   {"level", integer},
-                                   {"message", text},
-                                   {"name", text},
-                                   {"file", text},
-                                   {"line", integer}})},
-          {"lodestar.Drive", drive()},
-          {"lodestar.Fix", fix()},
-          {"lodestar.EstimateError", estimate_error()}};
+  return {
+      {"foxglove.FrameTransform", object({{"timestamp", time_of_day},
+                                          {"parent_frame_id", text},
+                                          {"child_frame_id", text},
+                                          {"translation", vector3},
+                                          {"rotation", quaternion}})},
+      {"foxglove.PoseInFrame", object({{"timestamp", time_of_day}, {"frame_id", text}, {"pose", pose_type}})},
+      {"foxglove.PosesInFrame",
+       object({{"timestamp", time_of_day}, {"frame_id", text}, {"poses", list_of(pose_type)}})},
+      {"foxglove.Grid", grid()},
+      {"foxglove.SceneUpdate", scene_update()},
+      {"foxglove.CompressedImage",
+       object({{"timestamp", time_of_day}, {"frame_id", text}, {"data", bytes}, {"format", text}})},
+      {"foxglove.CameraCalibration", camera_calibration()},
+      {"foxglove.Log", object({{"timestamp", time_of_day},
+                               {"level", integer},
+                               {"message", text},
+                               {"name", text},
+                               {"file", text},
+                               {"line", integer}})},
+      {"lodestar.Drive", drive_schema()},
+      {"lodestar.Fix", fix_schema()},
+      {"lodestar.EstimateError", estimate_error()}};
 }
 
 }  // namespace

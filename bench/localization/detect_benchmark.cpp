@@ -143,12 +143,12 @@ void motion_by_the_ceiling(benchmark::State& state) {
     return frame;
   };
   CeilingMotion ceiling(camera, Eigen::Isometry3d::Identity(), ceiling_m, 0.002);
-  ceiling.look(frame_at(0, 0.0));
-  if (!ceiling.keep()) return state.SkipWithError("too plain a ceiling");
+  ceiling.set_frame(frame_at(0, 0.0));
+  if (!ceiling.set_keyframe()) return state.SkipWithError("too plain a ceiling");
   const Frame frame = frame_at(way_px, 0.05);
   const Pose2 expected{{ceiling_m * way_px / camera.fx_px + 0.004, -0.003}, 0.005};
   for ([[maybe_unused]] auto _ : state) {
-    ceiling.look(frame);
+    ceiling.set_frame(frame);
     const std::optional<VisualOdometryIncrement> motion = ceiling.motion(expected);
     if (!motion) state.SkipWithError("the pictures do not agree");
     benchmark::DoNotOptimize(motion);

@@ -16,7 +16,6 @@ namespace tables = odrive::tables;
 constexpr std::array spoken{tables::heartbeat,           tables::encoder_estimates,  tables::set_axis_state,
                             tables::set_controller_mode, tables::set_input_velocity, tables::clear_errors};
 
-constexpr double mm_per_m = 1000.0;
 /// Readings of the two axes are combined only when they are about equally old.
 constexpr Duration most_apart = std::chrono::milliseconds(300);
 constexpr Duration most_apart_moving = std::chrono::milliseconds(40);
@@ -65,13 +64,13 @@ class OdriveProtocol final : public BaseProtocol {
       const std::uint32_t offset = offset_of(is_right);
       const CanFrame& frame = received.frame;
       Axis& axis = is_right ? right_ : left_;
-      if (const auto heartbeat = decode(tables::heartbeat, frame, offset)) {
+      if (const auto heartbeat = lodestar::decode(tables::heartbeat, frame, offset)) {
         axis.heartbeat = received.stamp;
         axis.errors = static_cast<std::uint32_t>((*heartbeat)[0]);
         axis.state = static_cast<std::uint8_t>((*heartbeat)[1]);
         heard.from_base = true;
         heard.system = system_state(received.stamp);
-      } else if (const auto estimate = decode(tables::encoder_estimates, frame, offset)) {
+      } else if (const auto estimate = lodestar::decode(tables::encoder_estimates, frame, offset)) {
         axis.estimate = received.stamp;
         axis.position_rev = (*estimate)[0];
         axis.velocity_rps = (*estimate)[1];

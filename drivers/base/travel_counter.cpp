@@ -12,7 +12,6 @@ double difference(double newer, double older) {
   return static_cast<std::int32_t>(steps);
 }
 
-constexpr double mm_per_m = 1000.0;
 /// Frames are stamped on arrival, which may be late: a reading may cover this much more than its interval.
 constexpr double stamp_slack_s = 0.05;
 

@@ -13,7 +13,7 @@
 namespace lodestar {
 namespace {
 
-enum Purpose : std::uint64_t {
+enum CeilingPurpose : std::uint64_t {
   dots_of_markers = 11,
   places_of_lamps,
   places_of_glints,

@@ -9,7 +9,7 @@
 namespace lodestar {
 namespace {
 
-enum Purpose : std::uint64_t { stains = 21, tones_of_tiles, specks };
+enum TexturePurpose : std::uint64_t { stains = 21, tones_of_tiles, specks };
 
 constexpr int side = CeilingTexture::side;
 constexpr int tiles = 8;  // along a side

@@ -107,7 +107,7 @@ class Sight {
 };
 
 /// Blends light over a pixel; `gray` is premultiplied by `opacity`.
-void lay_over(std::int16_t& pixel, double opacity, double gray) {
+void cover_with(std::int16_t& pixel, double opacity, double gray) {
   const double units = LightImage::units_per_gray * std::clamp(gray, 0.0, LightImage::brightest_gray);
   pixel = static_cast<std::int16_t>(pixel * (1.0 - std::clamp(opacity, 0.0, 1.0)) + units + 0.5);
 }
@@ -136,7 +136,7 @@ void paint_plain(const PrintedSquare& square, const Sight& sight, const Window& 
       const double share =
           share_of_stripe(place.x() * width, width) * share_of_stripe(place.y() * height, height);
       if (share > 0.0)
-        lay_over(image.row(v)[u], share, share * square.gray.front() * vignetting.at(Vec2(u, v)));
+        cover_with(image.row(v)[u], share, share * square.gray.front() * vignetting.at(Vec2(u, v)));
     }
   }
 }
@@ -162,7 +162,7 @@ void paint_pattern(const PrintedSquare& square, const Sight& sight, const Window
     for (int u = window.left; u <= window.right; ++u) {
       const cv::Vec2f& seen =
           samples(margin + (v - window.top) * fine + fine / 2, margin + (u - window.left) * fine + fine / 2);
-      lay_over(image.row(v)[u], seen[0], seen[1] * vignetting.at(Vec2(u, v)));
+      cover_with(image.row(v)[u], seen[0], seen[1] * vignetting.at(Vec2(u, v)));
     }
   }
 }

@@ -12,7 +12,7 @@
 namespace lodestar {
 namespace {
 
-enum Purpose : std::uint64_t { numbers = 31, rows_of_frames };
+enum NoisePurpose : std::uint64_t { numbers = 31, rows_of_frames };
 
 constexpr std::size_t table_size = std::size_t{1} << 17U;
 constexpr double one_sigma = 4096.0;

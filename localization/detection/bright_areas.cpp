@@ -12,7 +12,7 @@
 namespace lodestar {
 namespace {
 
-constexpr int tile = LocalThresholds::tile_px;
+constexpr int tile_px = LocalThresholds::tile_px;
 
 /// Bit i is set when pixel i of a tile's row is bright.
 std::uint32_t bright_bits(const std::uint8_t* pixels, int count, std::uint8_t threshold) {
@@ -24,9 +24,9 @@ std::uint32_t bright_bits(const std::uint8_t* pixels, int count, std::uint8_t th
 /// The same for several rows of a tile.
 void find_bright_bits(const std::uint8_t* pixels, std::size_t stride, int count, std::uint8_t threshold,
                       std::span<std::uint32_t> rows) {
-  if (count == tile) {
+  if (count == tile_px) {
     for (std::uint32_t& bits : rows) {
-      bits = bits_of(sixteen_at(pixels) >= threshold) | bits_of(sixteen_at(pixels + tile / 2) >= threshold)
+      bits = bits_of(sixteen_at(pixels) >= threshold) | bits_of(sixteen_at(pixels + tile_px / 2) >= threshold)
                                                             << 16U;
       pixels += stride;
     }
@@ -199,15 +199,15 @@ const BrightAreas& BrightAreaFinder::find(const cv::Mat& gray, const LocalThresh
 void BrightAreaFinder::find_runs(const cv::Mat& gray, const LocalThresholds& thresholds) {
   runs_.clear();
   for (int tile_row = 0; tile_row < thresholds.tile_rows(); ++tile_row) {
-    const int top = tile_row * tile;
-    const int rows = std::min(tile, gray.rows - top);
+    const int top = tile_row * tile_px;
+    const int rows = std::min(tile_px, gray.rows - top);
     active_.clear();
     for (int column = 0; column < thresholds.tile_columns(); ++column) {
       const std::uint8_t threshold = thresholds.of_tile(tile_row, column);
       if (threshold == LocalThresholds::nothing_bright) continue;
       ActiveTile& active = active_.emplace_back();
-      active.left = column * tile;
-      active.width = std::min(tile, gray.cols - active.left);
+      active.left = column * tile_px;
+      active.width = std::min(tile_px, gray.cols - active.left);
       find_bright_bits(gray.ptr<std::uint8_t>(top) + active.left, gray.step[0], active.width, threshold,
                        std::span(active.bright_bits).first(static_cast<std::size_t>(rows)));
     }

@@ -7,8 +7,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double radii_per_pitch = marker_pitch_m / marker_dot_radius_m;
-
 std::pair<std::size_t, std::size_t> farthest_pair(std::span<const Dot> dots) {
   std::pair<std::size_t, std::size_t> best;
   double longest = -1.0;

@@ -8,6 +8,8 @@
 
 namespace lodestar {
 
+inline constexpr double radii_per_pitch = marker_pitch_m / marker_dot_radius_m;
+
 /// Maps a marker's grid to the image by a homography about the grid's middle. The perspective of so small a
 /// marker is slight, so a prior holds it near zero.
 class MarkerGrid {

@@ -10,8 +10,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double radii_per_pitch = marker_pitch_m / marker_dot_radius_m;
-
 struct Basis {
   Vec2 origin_px;
   Eigen::Matrix2d px_from_places;  ///< columns: one place to the right, one down
