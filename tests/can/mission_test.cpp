@@ -41,7 +41,7 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   ASSERT_GT(logged.size(), 300U);
   EXPECT_TRUE(is_zero_command(logged.back()));
 
-  // Commands came steadily: one every 20 ms, two periods and what this kernel takes.
+  // At most 1 % of the commands come later than two periods of 20 ms and 25 ms for this kernel.
   const auto commands = witness->heard(is_motion_command, Stamp{});
   EXPECT_EQ(commands.size(), logged.size());
   std::size_t late = 0;
