@@ -54,7 +54,7 @@ TEST(SensorNoise, is_gaussian) {
   int beyond_two_sigma = 0;
   int beyond_three_sigma = 0;
   for (const double value : values) {
-    // 2 and 3 sigma plus half a gray level, as values are rounded: 8 stands for all from 7.5 on.
+    // 2 and 3 sigma plus half a gray level, as values are rounded: 9 stands for all from 8.5 on.
     if (std::abs(value - 128.0) > 8.5) ++beyond_two_sigma;
     if (std::abs(value - 128.0) > 12.5) ++beyond_three_sigma;
   }
