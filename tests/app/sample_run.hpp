@@ -4,8 +4,8 @@
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
 
-// A drive small enough to be followed by hand: from (1, 1) to (3, 1) and back, one metre a second, with a
-// truth and an estimate each half second.
+// A drive small enough to check by hand: from (1, 1) to (3, 1) and back at 1 m/s, with ground truth and an
+// estimate every half second.
 namespace lodestar::sample {
 
 inline Stamp at_s(double time_s) {
@@ -28,7 +28,7 @@ inline OccupancyMap floor() {
   return map;
 }
 
-/// One marker whose middle is over (2, 1.5).
+/// One marker centred over (2, 1.5).
 inline MarkerRegistry ceiling() {
   MarkerRegistry registry;
   registry.markers.push_back(

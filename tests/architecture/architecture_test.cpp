@@ -34,7 +34,7 @@ std::vector<std::string> sources_under(const std::string& folder) {
   return files;
 }
 
-/// All headers of ours that a file includes, directly or through others.
+/// All of our headers that a file includes, directly or through others.
 std::set<std::string> reached_from(const std::string& file) {
   std::set<std::string> reached;
   std::vector<std::string> open{file};
@@ -73,7 +73,7 @@ TEST_P(Room, links_only_along_the_arrows) {
 
 TEST_P(Room, is_not_led_back_to_itself) {
   for (const std::string& used : arrows().at(GetParam()))
-    EXPECT_FALSE(usable_by(used).contains(GetParam())) << "by way of " << used;
+    EXPECT_FALSE(usable_by(used).contains(GetParam())) << "through " << used;
 }
 
 INSTANTIATE_TEST_SUITE_P(Architecture, Room, testing::ValuesIn(all_rooms()), [](const auto& room) {

@@ -7,19 +7,19 @@
 namespace lodestar {
 namespace {
 
-/// The judge of the simulated world, and all else that is true there.
+/// The simulated world: scoring and ground truth.
 const std::string judge = "drivers/simulation";
-/// Who may hear it, besides drivers/: those that simulate, report and measure.
+/// Rooms that may use it, besides drivers/: those that simulate, report and measure.
 const std::set<std::string> judged{"app/report", "app/simulate", "app/campaign", "app/bench", "app/hosting"};
 
-/// Folders whose own folders are rooms.
+/// Folders whose subfolders are rooms.
 const std::set<std::string> houses{"app", "drivers", "localization"};
 
 std::string folder_of(const std::string& path) {
   return path.substr(0, path.find('/'));
 }
 
-/// The room that a target is, by its name: the last part of its room's. Nothing for a name that is none.
+/// The room of a target, whose name is the last part of the room's; nothing for an unknown name.
 std::optional<std::string> room_of_target(const std::string& name) {
   for (const auto& [room, used] : arrows())
     if (room.substr(room.find('/') + 1) == name) return room;

@@ -22,7 +22,7 @@ std::string page() {
   return text.str();
 }
 
-/// A folder with one source file, and what is said of a row that has this cell for the code.
+/// A folder with one source file, and the complaints about a row with this cell for the code.
 class RottenPage : public testing::Test {
  protected:
   RottenPage() {

@@ -27,7 +27,7 @@ TEST(TestFiles, StayShort) {
     EXPECT_LE(lines_of(entry.path()), longest_source_lines) << entry.path();
     ++seen;
   }
-  EXPECT_GT(seen, 100) << "files of tests are not where they are looked for";
+  EXPECT_GT(seen, 100) << "no test files where they are looked for";
 }
 
 }  // namespace

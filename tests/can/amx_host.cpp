@@ -1,5 +1,5 @@
-// A host whose CPU has AMX, for tests on those that have none: the area of a process has 11008 bytes, says
-// that the configuration of tiles is in use, and is taken as a whole and without AMX or not at all.
+// Simulates a host CPU with AMX for tests on hosts without: the XSAVE area of a process has 11008 bytes and
+// marks the tile configuration as in use; a write is accepted only if whole and without AMX parts.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -25,7 +25,7 @@ constexpr std::uint64_t tile_configuration = 1U << 17;
 alignas(64) std::array<std::byte, area_size> area;
 
 long get_area(pid_t process, void* note, iovec& wanted) {
-  area.fill(std::byte{0xA5});  // tiles full of something
+  area.fill(std::byte{0xA5});  // tile data that is not zero
   iovec here{area.data(), area.size()};
   if (next_ptrace(PTRACE_GETREGSET, process, note, &here) < 0) return -1;
   xstate::set_parts_in_use(area, xstate::parts_in_use(area) | tile_configuration);

@@ -3,7 +3,7 @@
 
 #include "tests/can/lab.hpp"
 
-// What the base itself, its people and its neighbours on the bus do.
+// Faults of the base, interventions of people, and other nodes on the bus.
 namespace lodestar {
 namespace {
 
@@ -31,8 +31,8 @@ class BaseFaults : public CanLab {
     start_run("--goal " + goal);
   }
 
-  /// Since when the base says that it drives otherwise than it is told, by so much that it counts, until the
-  /// navigator has told it to stand.
+  /// Time since which the base reports a speed that differs from the command by more than 0.3 m/s, until the
+  /// navigator's zero command.
   std::optional<Stamp> strays_from_commands() const {
     constexpr double counts_mps = 0.3;
     std::optional<Stamp> since;
@@ -52,7 +52,7 @@ class BaseFaults : public CanLab {
     return since;
   }
 
-  /// The last reading of the odometer in which the left wheel had moved on, before the base stood.
+  /// The last odometer frame in which the left wheel's count changed.
   std::optional<StampedCanFrame> left_wheel_last_counted() const {
     std::optional<StampedCanFrame> last;
     std::optional<agilex::Odometer> before;
@@ -77,7 +77,8 @@ TEST_F(BaseFaults, an_emergency_stop_is_latched_and_not_ended_by_its_release) {
       [](const CanFrame& frame) { return agilex::decode_system_state(frame) && !says_emergency_stop(frame); },
       pressed->stamp, 5s);
   ASSERT_TRUE(released);
-  EXPECT_FALSE(witness->wait_for(is_moving_command, released->stamp, 1s)) << "moves without a resume";
+  EXPECT_FALSE(witness->wait_for(is_moving_command, released->stamp, 1s))
+      << "motion commanded without a resume";
   EXPECT_EQ(resume_and_wait_for_the_end(40s), 0);
 }
 
@@ -93,7 +94,8 @@ TEST_F(BaseFaults, the_remote_control_is_not_fought) {
   measure("remote control takes over", taken->stamp);
   run->signal(SIGKILL);
   sleep_until(monotonic_now() + 300ms);
-  EXPECT_TRUE(witness->heard(is_motion_command, silent).empty()) << "not even by the guard";
+  EXPECT_TRUE(witness->heard(is_motion_command, silent).empty())
+      << "the navigator or the guard still sends commands";
 }
 
 TEST_F(BaseFaults, a_fault_bit_stops) {
@@ -114,7 +116,7 @@ TEST_F(BaseFaults, a_silent_base_is_noticed_within_100_ms) {
   ASSERT_FALSE(moving.empty());
   expect_within(120ms, heard.back().stamp, moving.back().stamp, "the last moving command");
   const auto zero = witness->wait_for(is_zero_command, moving.back().stamp, 1s);
-  ASSERT_TRUE(zero) << "send zero anyway";
+  ASSERT_TRUE(zero) << "no zero command";
   expect_within(40ms, moving.back().stamp, zero->stamp, "the zero command");
   EXPECT_TRUE(witness->heard(is_moving_command, zero->stamp).empty());
   measure("base silent", heard.back().stamp);
@@ -138,9 +140,9 @@ TEST_F(BaseFaults, a_runaway_base_is_noticed) {
   measure("base runs away", *strays);
 }
 
-/// The wheel turns, its count does not: the base seems to drive a curve that nobody wants, and the markers
-/// say that it does not drive it. Where the markers say so first, the robot brakes and tries again from where
-/// they have it, twice at most.
+/// The wheel turns but its count does not change: odometry shows a curve that nobody commanded, and marker
+/// fixes contradict it. Where the fixes reveal it first, the robot brakes and tries again from their pose,
+/// twice at most.
 TEST_F(BaseFaults, a_stuck_encoder_ends_the_drive_within_60_cm) {
   drive("stuck-encoder@1.5");
   ASSERT_TRUE(wait_for_any_words({"base: stopped by a fault", "the wheels cannot be believed"}, 20s));
@@ -154,7 +156,7 @@ TEST_F(BaseFaults, a_stuck_encoder_ends_the_drive_within_60_cm) {
   EXPECT_EQ(truth.contacts, 0);
 }
 
-/// What is seen overrules what the wheels say.
+/// Marker fixes override odometry.
 TEST_F(BaseFaults, slipping_wheels_are_driven_through) {
   drive("slip@1+2");
   EXPECT_EQ(wait_for_the_end(40s), 0);

@@ -1,6 +1,6 @@
 #include "tests/can/lab.hpp"
 
-// The cable between the navigator and the base: bad, or cut.
+// A bad or cut cable between navigator and base.
 namespace lodestar {
 namespace {
 
@@ -8,8 +8,9 @@ using namespace std::chrono_literals;
 
 class CutLab : public CanLab {
  protected:
-  /// The navigator hears nothing any more, stops within 100 ms and a command, and says so. When it heard the
-  /// base last; nothing when it did not stop.
+  /// Expects that the navigator, which no longer receives anything, stops within 100 ms and one command
+  /// period, and reports the fault. Returns when it last received a frame of the base; nothing when it did
+  /// not stop.
   std::optional<Stamp> expect_cut_noticed(const std::string& cut_by) {
     const auto says_anything = [](const CanFrame& frame) {
       return frame.id == agilex::system_state_id || frame.id == agilex::odometer_id;
@@ -19,7 +20,7 @@ class CutLab : public CanLab {
     const Stamp cut = monotonic_now();
     EXPECT_TRUE(shell(cut_by));
     const auto zero = navigator_side.wait_for(is_zero_command, cut, 2s);
-    EXPECT_TRUE(zero) << "send zero anyway";
+    EXPECT_TRUE(zero) << "no zero command";
     if (!zero) return std::nullopt;
     const Stamp last = navigator_side.heard(says_anything, Stamp{}, zero->stamp).back().stamp;
     expect_within(120ms, last, zero->stamp, "the zero command");
@@ -40,7 +41,7 @@ class Cable : public CutLab {
   }
   void take_cable_away() override { (void)shell("ip link del vxcan0 2>/dev/null"); }
 
-  /// Both ways.
+  /// In both directions.
   void spoil(const std::string& how) {
     for (const std::string& end : {navigator_end, base_end}) {
       ASSERT_TRUE(shell("tc qdisc replace dev " + end + " root netem limit 1000 " + how));
@@ -76,15 +77,15 @@ TEST_F(Cable, that_delays_doubles_and_reorders_frames_is_driven_through) {
   EXPECT_FALSE(wait_for_words("fault", 0s)) << run->output();
 }
 
-/// No check sum watches here, so that whatever arrives may be wrong: identifier, length, content.
+/// This bus has no checksum: a received frame may have a wrong arbitration ID, length or data.
 TEST_F(Cable, that_spoils_what_the_base_says_breaks_nothing) {
   start_base();
   start_run("--goal 2.4,5.5");
   wait_until_driving();
   ASSERT_TRUE(shell("tc qdisc replace dev " + base_end + " root netem limit 1000 corrupt 20%"));
-  EXPECT_FALSE(run->wait(3s)) << "it ended by itself";
+  EXPECT_FALSE(run->wait(3s)) << "the run ended early";
   ASSERT_TRUE(shell("tc qdisc del dev " + base_end + " root"));
-  const bool is_stopped = wait_for_words("base: stopped by a fault", 1s);  // spoilt words may say anything
+  const bool is_stopped = wait_for_words("base: stopped by a fault", 1s);  // corrupt frames may say so
   EXPECT_EQ(is_stopped ? resume_and_wait_for_the_end(40s) : wait_for_the_end(40s), 0);
   const Truth truth = end_base();
   EXPECT_NEAR(truth.x_m, 2.4, 0.04);
@@ -101,7 +102,7 @@ TEST_F(Cable, that_is_cut_is_noticed_within_100_ms) {
 
   const Stamp back = monotonic_now();
   ASSERT_TRUE(shell("ip link set vxcan1 up"));
-  EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s)) << "moves without a resume";
+  EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s)) << "motion commanded without a resume";
   EXPECT_EQ(resume_and_wait_for_the_end(40s), 0);
 }
 
@@ -116,12 +117,12 @@ TEST_F(Cable, that_takes_no_more_frames_is_noticed_and_brings_no_old_ones_later)
   measure("interface takes no frames", stalled);
   ASSERT_TRUE(shell("tc qdisc del dev vxcan0 root"));
   const Stamp flows = monotonic_now();
-  EXPECT_LE(witness->heard(is_moving_command, stalled + 300ms).size(), 2U) << "one old command, or two";
-  EXPECT_FALSE(witness->wait_for(is_moving_command, flows, 1s)) << "moves without a resume";
+  EXPECT_LE(witness->heard(is_moving_command, stalled + 300ms).size(), 2U) << "more than two old commands";
+  EXPECT_FALSE(witness->wait_for(is_moving_command, flows, 1s)) << "motion commanded without a resume";
   EXPECT_EQ(resume_and_wait_for_the_end(40s), 0);
 }
 
-/// Two buses and a gateway between them, which neither end sees: its cut leaves both interfaces as they were.
+/// Two buses joined by a gateway that neither end sees: cutting it leaves both interfaces up.
 class Gateway : public CutLab {
  protected:
   void lay_cable() override {

@@ -3,7 +3,7 @@
 #include "tests/app/net/socket_client.hpp"
 #include "tests/can/lab.hpp"
 
-// The console beside a robot on a real kernel's CAN: people send it from a browser.
+// The web console of a robot on a real kernel's CAN: operators command it from a browser.
 namespace lodestar {
 namespace {
 
@@ -29,7 +29,7 @@ class Console : public CanLab {
     return client;
   }
 
-  /// With a hand on the wheel until the robot says so.
+  /// Holds control (a "hold" message every 200 ms) until the robot prints the words.
   bool drive_until(SocketClient& client, const std::string& words, Duration longest) const {
     for (const Stamp end = monotonic_now() + longest; monotonic_now() < end;) {
       client.send(R"({"type": "hold"})");
@@ -52,7 +52,8 @@ class Console : public CanLab {
 TEST_F(Console, sends_the_robot_which_arrives) {
   serve();
   const auto client = at_the_wheel();
-  EXPECT_FALSE(witness->wait_for(is_moving_command, Stamp{}, 500ms)) << "moves before it is sent";
+  EXPECT_FALSE(witness->wait_for(is_moving_command, Stamp{}, 500ms))
+      << "motion commanded before a goal was sent";
   client->send(R"({"type": "go", "goals": [[2.4, 5.5]]})");
   EXPECT_TRUE(drive_until(*client, "goal 1: arrived", 40s)) << run->output();
   EXPECT_TRUE(wait_for_words("run folder: ", 20s));
@@ -64,7 +65,7 @@ TEST_F(Console, sends_the_robot_which_arrives) {
   EXPECT_EQ(truth.contacts, 0);
 }
 
-/// A browser that is closed, or a network that is gone: nobody is at the wheel.
+/// A closed browser, or a lost network: nobody is in control.
 TEST_F(Console, a_driver_who_is_gone_stops_the_robot) {
   serve();
   auto client = at_the_wheel();
@@ -72,7 +73,7 @@ TEST_F(Console, a_driver_who_is_gone_stops_the_robot) {
   ASSERT_TRUE(drive_until_fast(*client)) << run->output();
   const Stamp gone = monotonic_now();
   client.reset();
-  expect_no_motion_after(2500ms, gone);  // to brake from 0.6 m/s within the limits takes 1.2 s
+  expect_no_motion_after(2500ms, gone);  // braking from 0.6 m/s within the limits takes 1.2 s
 }
 
 TEST_F(Console, anybody_stops_the_robot) {

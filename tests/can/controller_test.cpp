@@ -40,7 +40,8 @@ TEST_F(Controller, that_goes_bus_off_is_noticed_and_driven_with_again_after_a_re
   adapter->back_on_bus();
   const Stamp back = monotonic_now();
   ASSERT_TRUE(shell("ip link set " + navigator_end + " down && ip link set " + navigator_end + " up"));
-  EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s)) << "moves without a resume, or an old command";
+  EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s))
+      << "motion commanded without a resume, or an old command";
   EXPECT_EQ(resume_and_wait_for_the_end(40s), 0);
 }
 

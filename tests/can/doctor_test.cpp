@@ -2,7 +2,7 @@
 
 #include "tests/can/lab.hpp"
 
-// Why does it not move? The doctor looks, and says so.
+// `lodestar doctor` reports why the robot does not move.
 namespace lodestar {
 namespace {
 
@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 class Doctor : public CanLab {
  protected:
-  /// Its exit code; what it said is in `report`.
+  /// Returns the exit code; the output is in `report`.
   std::optional<int> examine(const std::string& options = "") {
     Process doctor(
         {"sh", "-c", LODESTAR_BINARY " doctor " + site + " --can " + navigator_end + " " + options});
@@ -19,7 +19,7 @@ class Doctor : public CanLab {
     return ended;
   }
 
-  /// The whole line of that finding, and the remedy in the next one, if any.
+  /// The line of that finding, and its remedy from the next line, if any.
   [[nodiscard]] std::string finding(const std::string& what) const {
     std::istringstream lines(report);
     std::string found;
@@ -47,7 +47,7 @@ TEST_F(Doctor, finds_nothing_wrong_with_a_base_that_waits_for_a_drive) {
        {"map", "registry", "interface", "base", "mode", "e-stop", "faults", "masters", "camera", "markers"}) {
     EXPECT_EQ(finding(what).substr(0, 2), "ok") << what << " in:\n" << report;
   }
-  EXPECT_TRUE(witness->heard(is_motion_command, Stamp{}).empty()) << "a doctor only looks";
+  EXPECT_TRUE(witness->heard(is_motion_command, Stamp{}).empty()) << "the doctor commanded motion";
 
   EXPECT_EQ(examine("--json >doctor.json"), 0);
   EXPECT_TRUE(
@@ -80,10 +80,10 @@ TEST_F(Doctor, names_a_camera_that_is_not_plugged_in) {
   start_speaking_base();
   EXPECT_EQ(examine(), 1);
   EXPECT_NE(finding("camera").find("/dev/video9"), std::string::npos) << report;
-  EXPECT_EQ(finding("base").substr(0, 2), "ok") << "all else is looked at nevertheless\n" << report;
+  EXPECT_EQ(finding("base").substr(0, 2), "ok") << "the other checks run nevertheless\n" << report;
 }
 
-/// Somebody else drives for a moment, then the base is stopped.
+/// Another master drives the base for a moment, then its emergency stop is pressed.
 TEST_F(Doctor, names_an_emergency_stop_and_another_master) {
   start_speaking_base("--fault estop@0.1");
   Process other({"sh", "-c",

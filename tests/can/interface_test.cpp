@@ -2,14 +2,13 @@
 
 #include "tests/can/lab.hpp"
 
-// What happens to the interface itself: each fault is latched, lived through, and after an explicit resume
-// the mission goes on.
+// Faults of the CAN interface itself: each is latched, and the mission continues after an explicit resume.
 namespace lodestar {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration one_period = 20ms;  ///< between two words of the base
+constexpr Duration one_period = 20ms;  ///< between two frames of the base
 
 class Interface : public CanLab {
  protected:
@@ -19,13 +18,13 @@ class Interface : public CanLab {
     wait_until_driving();
   }
 
-  /// The last that anybody heard on an interface that is gone now.
+  /// Stamp of the last frame received on an interface that has since been removed.
   Stamp last_frame() const { return witness->last(is_anything).value_or(Stamp{}); }
 
-  /// The robot stays where it is until somebody resumes, and then arrives.
+  /// The robot stays stopped until an operator resumes, and then arrives.
   void expect_latched_until_resume(const std::string& words, Stamp back) {
     EXPECT_TRUE(wait_for_words(words, 2s));
-    EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s)) << "moves without a resume";
+    EXPECT_FALSE(witness->wait_for(is_moving_command, back, 1s)) << "motion commanded without a resume";
     EXPECT_EQ(resume_and_wait_for_the_end(40s), 0);
     const Truth truth = end_base();
     EXPECT_NEAR(truth.x_m, 2.4, 0.03);
@@ -49,7 +48,7 @@ TEST_F(Interface, removed_and_plugged_in_again) {
   drive();
   ASSERT_TRUE(shell("ip link del vcan0"));
   const Stamp off = last_frame();
-  constexpr Duration removal = 60ms;  // the kernel waits for several ticks while it takes a device away
+  constexpr Duration removal = 60ms;  // the kernel takes several ticks to remove a device
   expect_said_within(one_period + 20ms + removal, "base: stopped by a fault", off);
   sleep_until(monotonic_now() + 500ms);
   const Stamp back = monotonic_now();
@@ -84,7 +83,7 @@ TEST_F(Interface, error_passive_makes_it_slow) {
   EXPECT_TRUE(witness->heard(drives_faster_than(0.35), passive + 1s).empty());
   words.end();
   EXPECT_EQ(wait_for_the_end(40s), 0);
-  EXPECT_EQ(run->output().find("CAN controller"), std::string::npos) << "a warning is no fault";
+  EXPECT_EQ(run->output().find("CAN controller"), std::string::npos) << "a warning was reported as a fault";
 }
 
 }  // namespace

@@ -31,14 +31,13 @@ bool a_guard_is_there() {
   });
 }
 
-/// A guard commands the base to stop for a while after its navigator has ended, also on the next test's
-/// interface.
+/// A guard sends stop commands for a while after its navigator has ended, also on the next test's interface.
 void wait_until_guards_have_ended() {
   const Stamp end = monotonic_now() + 5s;
   while (a_guard_is_there() && monotonic_now() < end) std::this_thread::sleep_for(5ms);
 }
 
-constexpr Duration kernel_slack = 25ms;  ///< of User-Mode Linux: two and a half of its ticks
+constexpr Duration kernel_slack = 25ms;  ///< of User-Mode Linux: 2.5 of its ticks
 
 }  // namespace
 
@@ -104,7 +103,7 @@ Stamp CanLab::wait_until_driving() {
   for (const Stamp end = monotonic_now() + 40s; monotonic_now() < end;) {
     if (witness->wait_for(drives_faster_than(0.3), monotonic_now(), 300ms)) return monotonic_now();
   }
-  ADD_FAILURE() << "never drove";
+  ADD_FAILURE() << "the base never drove";
   return monotonic_now();
 }
 
@@ -132,7 +131,7 @@ void CanLab::expect_said_within(Duration bound, const std::string& words, Stamp 
     said = run->said(words, since);
     std::this_thread::sleep_for(5ms);
   }
-  ASSERT_TRUE(said) << "never said: " << words;
+  ASSERT_TRUE(said) << "never printed: " << words;
   expect_within(bound, since, *said, words);
 }
 
@@ -142,7 +141,7 @@ void CanLab::expect_no_motion_after(Duration bound, Stamp since) const {
   const auto moving = witness->heard(is_moving_command, since);
   if (moving.empty()) return;
   expect_within(bound, since, moving.back().stamp, "the last moving command");
-  EXPECT_GT(monotonic_now() - moving.back().stamp, quiet) << "still commanded";
+  EXPECT_GT(monotonic_now() - moving.back().stamp, quiet) << "motion is still commanded";
 }
 
 std::optional<int> CanLab::wait_for_the_end(Duration longest, Stamp since) const {
@@ -168,7 +167,8 @@ bool CanLab::resume(Duration longest) {
 }
 
 std::optional<int> CanLab::resume_and_wait_for_the_end(Duration longest) {
-  constexpr Duration patience = 5s;  // until all that the base has to say was heard again
+  // Time for all of the base's messages to be received again.
+  constexpr Duration patience = 5s;
   const Stamp asked = monotonic_now();
   if (!resume(patience)) {
     ADD_FAILURE() << "cannot resume";

@@ -34,9 +34,9 @@ TEST(MachineClock, DoesNotPassAnInterruptThatWasNotTaken) {
   EXPECT_FALSE(clock.take_interrupt());
   EXPECT_EQ(clock.host_time_until_due(), 4 * ms);
   EXPECT_EQ(clock.look(13 * ms), 2 * ms);
-  EXPECT_EQ(clock.look(22 * ms), 2 * ms + 1) << "whoever waits for the time gets there";
+  EXPECT_EQ(clock.look(22 * ms), 2 * ms + 1) << "each read advances the clock";
   EXPECT_TRUE(clock.take_interrupt());
-  EXPECT_FALSE(clock.take_interrupt()) << "once";
+  EXPECT_FALSE(clock.take_interrupt()) << "the interrupt is taken once";
   EXPECT_EQ(clock.until_due(), std::nullopt);
 }
 

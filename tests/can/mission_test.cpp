@@ -4,13 +4,13 @@
 
 #include "tests/can/lab.hpp"
 
-// Whole missions by the real command line over a real kernel's CAN.
+// Whole missions by the command line over a real kernel's CAN.
 namespace lodestar {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration start_up = 20s;  ///< of a program, on a machine that has much to do
+constexpr Duration start_up = 20s;  ///< of a program on a busy machine
 
 class Mission : public CanLab {};
 
@@ -27,8 +27,7 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   EXPECT_NEAR(truth.heading_deg, 90.0, 2.0);
   EXPECT_EQ(truth.contacts, 0);
 
-  // The log of another program: CAN mode was asked for before the first command, and the last one stands
-  // still.
+  // The log of another program: CAN mode is requested before the first command, and the last command is zero.
   const std::vector<LoggedCanFrame> log = load_candump("candump.log");
   std::vector<CanFrame> logged;
   bool asked = false;
@@ -42,7 +41,7 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   ASSERT_GT(logged.size(), 300U);
   EXPECT_TRUE(is_zero_command(logged.back()));
 
-  // Commands came steadily: one every 20 ms, two periods and what this kernel takes.
+  // At most 1 % of the commands come later than two periods of 20 ms and 25 ms for this kernel.
   const auto commands = witness->heard(is_motion_command, Stamp{});
   EXPECT_EQ(commands.size(), logged.size());
   std::size_t late = 0;
@@ -54,7 +53,7 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   EXPECT_FALSE(load_candump("run/can.log").empty());
 }
 
-/// Whatever fills disks: a drive does not depend on them.
+/// A full disk must not affect the drive.
 TEST_F(Mission, a_full_disk_ends_the_log_and_not_the_drive) {
   ASSERT_TRUE(shell("mkdir -p /run/small && mount -t tmpfs -o size=16k tmpfs /run/small"));
   start_base();
@@ -81,7 +80,7 @@ TEST_F(Mission, arrives_with_an_odrive) {
   EXPECT_NEAR(truth.y_m, 5.5, 0.03);
 }
 
-/// What clients of other makers look for, at its period.
+/// The frames that third-party clients expect, each at its period.
 TEST_F(Mission, base_speaks_as_the_manual_says) {
   start_base();
   const auto first = witness->wait_for([](const CanFrame& frame) { return frame.id == 0x211; }, Stamp{}, 10s);
@@ -108,7 +107,7 @@ TEST_F(Mission, waits_for_an_interface_and_a_base_that_come_later) {
   ASSERT_TRUE(shell("ip link add dev vcan0 type vcan && ip link set vcan0 up"));
   EXPECT_TRUE(wait_for_words("silent", start_up));
   const auto commands = witness->heard(is_motion_command, Stamp{});
-  EXPECT_TRUE(commands.empty()) << "moves by itself: " << candump_line(commands.front());
+  EXPECT_TRUE(commands.empty()) << "motion commanded without a base: " << candump_line(commands.front());
   start_base();
   EXPECT_EQ(wait_for_the_end(30s), 0);
 }

@@ -33,8 +33,8 @@ struct Pipe {
   FileDescriptor writing;
 };
 
-/// `lodestar` is not loaded anew: a User-Mode Linux takes seconds for the 250 libraries under it. This
-/// program has the whole of it, and a child of it begins at once.
+/// `lodestar` runs in the forked child without exec: User-Mode Linux takes seconds to load its 250 libraries,
+/// which this program has loaded already.
 [[noreturn]] void become(std::vector<char*>& arguments) {
   if (std::string_view(arguments[0]) != LODESTAR_BINARY) {
     execvp(arguments[0], arguments.data());
@@ -43,7 +43,7 @@ struct Pipe {
   close_range(STDERR_FILENO + 1, ~0U, 0);  // as exec does
   const int exit_code = program(static_cast<int>(arguments.size()) - 1, arguments.data());
   std::fflush(nullptr);
-  _exit(exit_code);  // what is ours is not the child's to end
+  _exit(exit_code);  // without the parent's exit handlers
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ Process::Process(std::vector<std::string> words) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  std::fflush(nullptr);  // or both would print what is still to be printed
+  std::fflush(nullptr);  // or the child would print the buffered output again
   id_ = fork();
   if (id_ == 0) {
     dup2(in.reading.get(), STDIN_FILENO);
@@ -74,7 +74,7 @@ Process::~Process() {
   wait(5s);
 }
 
-/// Until nobody can print any more; children of the program may do so after its end.
+/// Reads until all writers have closed the pipe; children of the program may print after its end.
 void Process::listen(const std::stop_token& stop) {
   std::string begun;
   while (!stop.stop_requested()) {
@@ -96,7 +96,7 @@ void Process::listen(const std::stop_token& stop) {
 void Process::say(const std::string& line) {
   const std::string text = line + "\n";
   std::signal(SIGPIPE, SIG_IGN);
-  (void)!write(input_.get(), text.data(), text.size());  // it may have ended meanwhile
+  (void)!write(input_.get(), text.data(), text.size());  // the program may have ended
 }
 
 void Process::signal(int number) const {
@@ -121,7 +121,7 @@ std::optional<int> Process::wait(Duration longest) {
 std::string Process::end() {
   signal(SIGTERM);
   wait(5s);
-  std::this_thread::sleep_for(50ms);  // its last words are on their way
+  std::this_thread::sleep_for(50ms);  // for its last output to arrive
   return output();
 }
 

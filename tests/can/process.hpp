@@ -12,16 +12,16 @@
 
 namespace lodestar {
 
-/// What a program has printed.
+/// A line that a program has printed.
 struct Line {
   Stamp stamp;  ///< of its arrival
   std::string text;
 };
 
-/// A program that runs beside the test; killed at the end if it still does.
+/// A program that runs beside the test; killed by the destructor if still running.
 class Process {
  public:
-  /// Its input stays open until it ends.
+  /// The program's input stays open until it ends.
   explicit Process(std::vector<std::string> words);
   ~Process();
   Process(const Process&) = delete;
@@ -29,12 +29,12 @@ class Process {
 
   void say(const std::string& line);
   void signal(int number) const;
-  /// Its exit code, when it ends within that time; minus the signal that ended it.
+  /// Its exit code, or minus the signal that ended it; nothing when it does not end in time.
   std::optional<int> wait(Duration longest);
-  /// Ends it politely and returns all that it printed.
+  /// Ends it by SIGTERM and returns all its output.
   std::string end();
 
-  /// What it has printed so far, on either stream.
+  /// Its output so far, on both streams.
   [[nodiscard]] std::string output() const;
   /// When it first printed a line with these words after `since`; nothing when it has not.
   [[nodiscard]] std::optional<Stamp> said(const std::string& words, Stamp since = Stamp{}) const;
@@ -53,7 +53,7 @@ class Process {
   std::jthread thread_;
 };
 
-/// A line for the shell; true when it says that it is done.
+/// Runs a shell command; true when its exit code is 0.
 bool shell(const std::string& line);
 
 }  // namespace lodestar

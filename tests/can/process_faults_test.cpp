@@ -2,7 +2,7 @@
 
 #include "tests/can/lab.hpp"
 
-// The processes that drive die or hang; the base comes to rest.
+// The driving processes die or hang; the base comes to rest.
 namespace lodestar {
 namespace {
 
@@ -17,7 +17,7 @@ class ProcessFaults : public CanLab {
   }
 
   void expect_rest(Stamp since) {
-    EXPECT_TRUE(witness->wait_for(says_standing, since + 300ms, 3s)) << "never came to rest";
+    EXPECT_TRUE(witness->wait_for(says_standing, since + 300ms, 3s)) << "the base never came to rest";
   }
 
   pid_t guard_of_run() const {
@@ -54,7 +54,7 @@ TEST_F(ProcessFaults, a_hung_navigator_is_stopped_within_150_ms_and_stays_stoppe
   const Stamp woken = monotonic_now();
   run->signal(SIGCONT);
   EXPECT_TRUE(wait_for_words("the guard has stopped a navigator that hung", 2s));
-  EXPECT_FALSE(witness->wait_for(is_moving_command, zero->stamp, 1s)) << "moves without a resume";
+  EXPECT_FALSE(witness->wait_for(is_moving_command, zero->stamp, 1s)) << "motion commanded without a resume";
   EXPECT_GT(monotonic_now() - woken, 900ms);
 
   run->say("resume");
@@ -83,12 +83,12 @@ TEST_F(ProcessFaults, with_both_killed_the_base_comes_to_rest_by_itself) {
   run->signal(SIGKILL);
   const auto rest = witness->wait_for(says_standing, killed, 3s);
   ASSERT_TRUE(rest);
-  // 500 ms until the base gives up waiting, 300 ms to slow down from 0.6 m/s at 2 m/s2, its lag and a period.
+  // 500 ms for the base's command timeout, 300 ms to brake from 0.6 m/s at 2 m/s2, its lag and a period.
   expect_within(1200ms, killed, rest->stamp, "rest");
   measure("navigator and guard killed", killed);
 }
 
-/// It goes before others in the kernel's queue.
+/// The guard runs with real-time priority (SCHED_FIFO).
 TEST_F(ProcessFaults, the_guard_of_a_hung_navigator_is_not_starved_by_eight_busy_programs) {
   drive();
   std::vector<std::unique_ptr<Process>> hogs;

@@ -83,7 +83,7 @@ void SlcanAdapter::work() {
   }
 }
 
-/// "t1118" and the bytes: a frame to send. All else (speed, open, close) is taken as it comes.
+/// "t1118" and the data: a frame to send. Other commands (speed, open, close) are ignored.
 void SlcanAdapter::handle(const std::string& line) {
   if (is_off_ || line.size() < 5 || line.front() != 't') return;
   CanFrame frame{static_cast<std::uint32_t>(std::stoul(line.substr(1, 3), nullptr, 16)),

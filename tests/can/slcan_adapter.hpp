@@ -9,9 +9,9 @@
 
 namespace lodestar {
 
-/// A serial CAN adapter in software: the kernel's own slcan driver at one end of a pseudo terminal, this at
-/// the other, which passes frames on to and from the interface of the base. Its controller can get into
-/// trouble; what the kernel makes of that is real.
+/// A serial CAN adapter in software: the kernel's slcan driver at one end of a pseudo terminal, this class at
+/// the other, which forwards frames from and to the base's interface. Its controller's error states are
+/// simulated; the kernel's reaction is real.
 class SlcanAdapter {
  public:
   explicit SlcanAdapter(const std::string& base_end);
@@ -19,10 +19,10 @@ class SlcanAdapter {
   SlcanAdapter(const SlcanAdapter&) = delete;
   SlcanAdapter& operator=(const SlcanAdapter&) = delete;
 
-  /// Of the interface that the kernel has made.
+  /// Name of the interface that the kernel has created.
   [[nodiscard]] const std::string& interface() const { return interface_; }
 
-  /// The controller has left the bus: no frame passes until back_on_bus().
+  /// The controller goes bus-off: no frame passes until back_on_bus().
   void bus_off();
   void back_on_bus();
 

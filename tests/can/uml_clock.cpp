@@ -1,7 +1,7 @@
-// Preloaded into User-Mode Linux: its clock and its timer. Left alone, the clocks in it go on while its host
-// does other work, and whatever is promised in milliseconds in there is broken without anybody's fault. With
-// this its time goes on only while it runs (machine_clock.hpp). The kernel takes its time from clock_gettime,
-// its interrupts from one POSIX timer and SIGALRM, and waits for them by sigsuspend
+// Preloaded into User-Mode Linux: replaces its clock and timer. Without this, its clocks run on while the
+// host does other work, and deadlines of milliseconds in it are missed for no fault of its programs. With
+// this, its time passes only while it runs (machine_clock.hpp). The kernel reads the time by clock_gettime,
+// takes interrupts from one POSIX timer and SIGALRM, and waits for them by sigsuspend
 // (arch/um/os-Linux/time.c).
 #include <cerrno>
 #include <csignal>
@@ -14,7 +14,7 @@
 namespace lodestar {
 namespace {
 
-/// Asked for before main: User-Mode Linux calls from stacks too small for the dynamic linker.
+/// Looked up before main: User-Mode Linux calls from stacks too small for the dynamic linker.
 template <typename Function>
 Function* next(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
@@ -49,7 +49,7 @@ const Nanoseconds monotonic_to_real = host_clock(CLOCK_REALTIME) - host_now();
 MachineClock machine_clock(host_now());
 timer_t host_timer{};
 struct sigaction interrupt_handler{};
-volatile sig_atomic_t is_setting = 0;  ///< the interrupt came while the clock was being set
+volatile sig_atomic_t is_setting = 0;  ///< set while the clock is being updated
 
 class Setting {
  public:
@@ -64,7 +64,7 @@ void wake_in(std::optional<Nanoseconds> host_time) {
   next_timer_settime(host_timer, 0, &once, nullptr);
 }
 
-/// The host's timer has gone off, perhaps early: the host may have been elsewhere for a part of its time.
+/// The host's timer has expired, perhaps early: host time that the machine did not get does not count.
 void on_alarm(int signal, siginfo_t* info, void* context) {
   constexpr Nanoseconds soon = 20'000;
   const int errno_before = errno;
@@ -131,7 +131,7 @@ int sigaction(int signal, const struct sigaction* in, struct sigaction* before) 
   return next_sigaction(signal, &ours, before);
 }
 
-/// Idle: with SIGALRM blocked, until an interrupt.
+/// Idle, with SIGALRM blocked, until an interrupt.
 int sigsuspend(const sigset_t* mask) {
   using namespace lodestar;
   {

@@ -1,7 +1,7 @@
-// Preloaded into User-Mode Linux: its `ptrace`, on hosts whose CPU has AMX. Linux 6.1 gives back
-// floating-point registers in areas of 2696 bytes, which was as large as they came. A host takes a whole area
-// or none (EFAULT), and with AMX an area has 11008 bytes. There the call is made again with the whole area;
-// where it succeeds nothing is different.
+// Preloaded into User-Mode Linux: its `ptrace`, on hosts whose CPU has AMX. Linux 6.1 writes floating-point
+// registers as areas of 2696 bytes, the largest of its time. A host accepts only a whole area (else EFAULT),
+// and with AMX an area has 11008 bytes. There the call is repeated with the whole area; a call that succeeds
+// is left as it is.
 #include <array>
 #include <cerrno>
 #include <cstdarg>
@@ -18,12 +18,12 @@ namespace {
 
 using Ptrace = long (*)(__ptrace_request, ...);
 
-/// Asked for before main: User-Mode Linux calls from stacks too small for the dynamic linker.
+/// Looked up before main: User-Mode Linux calls from stacks too small for the dynamic linker.
 const Ptrace next_ptrace = reinterpret_cast<Ptrace>(dlsym(RTLD_NEXT, "ptrace"));
 
 constexpr std::size_t largest_area = 1U << 15;
 
-/// Not on the stack, for the same reason. User-Mode Linux makes these calls one at a time.
+/// Not on the stack, for the same reason; User-Mode Linux makes these calls one at a time.
 alignas(64) std::array<std::byte, largest_area> area;
 
 long set_whole_area(pid_t process, void* note, std::span<const std::byte> beginning) {

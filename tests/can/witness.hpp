@@ -11,7 +11,7 @@
 
 namespace lodestar {
 
-/// Hears everything on an interface, whoever says it, with the kernel's stamps.
+/// Receives every frame on an interface, from any sender, with the kernel's stamps.
 class Witness {
  public:
   explicit Witness(const std::string& interface);
@@ -21,17 +21,17 @@ class Witness {
 
   using Question = std::function<bool(const CanFrame&)>;
 
-  /// The first frame after `since` that answers the question; waits for it, but not for longer than that.
+  /// The first frame after `since` that matches; waits for it for at most `longest`.
   std::optional<StampedCanFrame> wait_for(const Question& question, Stamp since, Duration longest) const;
 
-  /// All frames within (since, until] that answer the question.
+  /// All matching frames within (since, until].
   [[nodiscard]] std::vector<StampedCanFrame> heard(const Question& question, Stamp since,
                                                    Stamp until = Stamp::max()) const;
 
-  /// The newest frame that answers the question, until then.
+  /// Stamp of the newest matching frame up to `until`.
   [[nodiscard]] std::optional<Stamp> last(const Question& question, Stamp until = Stamp::max()) const;
 
-  /// When the controller last said that something is wrong with the bus.
+  /// Stamp of the controller's last error frame.
   [[nodiscard]] std::optional<Stamp> last_error() const;
 
  private:
@@ -45,12 +45,12 @@ class Witness {
   std::jthread thread_;
 };
 
-// Questions.
+// Predicates.
 bool is_anything(const CanFrame& frame);
 bool is_motion_command(const CanFrame& frame);
 bool is_zero_command(const CanFrame& frame);
 bool is_moving_command(const CanFrame& frame);
-/// The base says that it drives faster than this.
+/// The base reports a higher speed than this.
 Witness::Question drives_faster_than(double forward_mps);
 bool says_standing(const CanFrame& frame);
 

@@ -7,7 +7,7 @@
 
 /// The XSAVE area of a process as PTRACE_GETREGSET and PTRACE_SETREGSET exchange it (NT_X86_XSTATE): 512
 /// bytes of x87 and SSE registers, then a header whose first word, XSTATE_BV, has a bit for each part of the
-/// area that holds something, then the other parts (Intel SDM volume 1, 13.4).
+/// area in use, then the other parts (Intel SDM volume 1, 13.4).
 namespace lodestar::xstate {
 
 constexpr std::size_t header_begin = 512;
@@ -24,9 +24,9 @@ inline void set_parts_in_use(std::span<std::byte> area, std::uint64_t parts) {
   std::memcpy(area.data() + header_begin, &parts, sizeof parts);
 }
 
-/// Lays the beginning of an area over a whole one. The whole then says that AMX is not in use: its registers
-/// are not part of that beginning, and a process that has not asked for AMX may not be given any. False, and
-/// nothing done, where the beginning does not hold the header, or more than the whole.
+/// Overwrites the beginning of a whole area. AMX is then marked as not in use: its registers are not part of
+/// that beginning, and a process that has not requested AMX must not get any. False, without any change,
+/// where the beginning does not include the header or is larger than the whole.
 inline bool lay_over(std::span<std::byte> whole, std::span<const std::byte> beginning) {
   if (beginning.size() < header_end || beginning.size() > whole.size()) return false;
   std::memcpy(whole.data(), beginning.data(), beginning.size());

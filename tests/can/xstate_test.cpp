@@ -66,7 +66,7 @@ TEST(Beginning, LargerThanTheWholeIsRefused) {
   }
 }
 
-/// A stopped process under our eyes. This program's `ptrace` is that of uml_xstate, whose next is amx_host's.
+/// A stopped, traced child process. This program's `ptrace` is uml_xstate's, which calls amx_host's.
 class Tracee : public testing::Test {
  protected:
   void SetUp() override {
@@ -90,7 +90,7 @@ class Tracee : public testing::Test {
     return area;
   }
 
-  static constexpr std::size_t xmm0 = 160;  ///< where it lies in an area (SDM volume 1, table 10-2)
+  static constexpr std::size_t xmm0 = 160;  ///< offset in an area (SDM volume 1, table 10-2)
   void* const note = reinterpret_cast<void*>(NT_X86_XSTATE);
   pid_t process = -1;
 };

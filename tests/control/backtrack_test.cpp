@@ -24,7 +24,7 @@ TEST(Backtrack, is_not_made_for_ever_nor_to_nowhere) {
   backtrack.saw_marker_at(Vec2::Zero());
   EXPECT_TRUE(backtrack.begin());
   backtrack.saw_marker_at(Vec2::Zero());
-  EXPECT_FALSE(backtrack.begin()) << "two were made";
+  EXPECT_FALSE(backtrack.begin()) << "at most two to a goal";
   backtrack.new_goal();
   EXPECT_TRUE(backtrack.begin());
 }
@@ -33,7 +33,7 @@ TEST(Backtrack, was_in_vain_when_no_marker_is_seen_where_it_led_to) {
   Backtrack backtrack;
   backtrack.saw_marker_at(Vec2::Zero());
   backtrack.begin();
-  EXPECT_FALSE(backtrack.found_no_marker()) << "it is still on its way";
+  EXPECT_FALSE(backtrack.found_no_marker()) << "it has not arrived there yet";
   backtrack.reached_place();
   EXPECT_TRUE(backtrack.found_no_marker());
   backtrack.saw_marker_at(Vec2::Zero());
@@ -50,7 +50,7 @@ TEST(Backtrack, remembers_where_it_saw_nothing_until_it_sees_something_there) {
   backtrack.saw_marker_at({0.0, 0.0});
   for (int centimetre = 0; centimetre <= 100; ++centimetre)
     backtrack.saw_no_marker_at({0.01 * centimetre, 0.0});
-  EXPECT_TRUE(backtrack.blind_places_m().empty()) << "it has not failed there";
+  EXPECT_TRUE(backtrack.blind_places_m().empty()) << "no backtrack from there yet";
   ASSERT_TRUE(backtrack.begin());
   EXPECT_NEAR(static_cast<double>(backtrack.blind_places_m().size()), 11.0, 1.0);
   backtrack.saw_marker_at({0.5, 0.0});

@@ -18,8 +18,8 @@ std::string_view words(PlanKind kind) {
   return names.at(static_cast<std::size_t>(kind));
 }
 
-/// The state's name; what plan it will ask for when it stands; and the review that it wants of a path which
-/// it goes on following.
+/// The state's name, the kind of plan that it will request at rest, and the review that it requests of the
+/// path that it keeps following.
 std::string words(const BehaviourState& state) {
   std::string text(to_string(state));
   const auto* braking = std::get_if<Braking>(&state);
@@ -41,7 +41,7 @@ std::string next_or_same(const Behaviour& before, const Behaviour& after) {
   return next == words(before.state) ? "-" : next;
 }
 
-/// A column of a table: what happens, and what becomes of a behaviour then.
+/// A column of a table: an event, and the behaviour that results.
 struct Column {
   std::string name;
   std::function<Behaviour(const Behaviour&)> happens;
@@ -60,7 +60,7 @@ std::string table(const std::vector<NamedBehaviour>& behaviours, const std::vect
   return text;
 }
 
-/// A paused robot stays so unless the wish is another one.
+/// A paused robot stays paused unless the column has another wish.
 std::vector<Column> deciding(const std::vector<NamedFacts>& happenings) {
   std::vector<Column> columns;
   for (const NamedFacts& happening : happenings)
@@ -85,7 +85,7 @@ Column answering(const std::string& name, const PlanAnswer& answer) {
   return {name, [answer](const Behaviour& before) { return answered(before, answer); }};
 }
 
-/// Driving, for as long as the column says.
+/// Columns that drive for a number of steps.
 std::vector<Column> motions() {
   const auto moving = [](const std::function<void(Facts&)>& change, int steps) {
     return [change, steps](const Behaviour& before) {
@@ -133,7 +133,7 @@ std::string documentation() {
 
 void expect_in_documentation(const std::string& wanted) {
   EXPECT_NE(documentation().find(wanted), std::string::npos)
-      << "docs/behaviours.md does not have this table, which is what the code does:\n"
+      << "docs/behaviours.md lacks this table of what the code does:\n"
       << wanted;
 }
 

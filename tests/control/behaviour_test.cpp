@@ -18,7 +18,7 @@ bool is(const Behaviour& behaviour) {
   return std::holds_alternative<State>(behaviour.state);
 }
 
-/// What was commanded last, by what one more step changes at most.
+/// The last commanded velocity.
 BodyVelocity velocity_of(const Behaviour& behaviour) {
   const Trip* const trip = trip_of(behaviour.state);
   if (trip == nullptr) return {};
@@ -26,7 +26,7 @@ BodyVelocity velocity_of(const Behaviour& behaviour) {
   if (const auto* retreating = std::get_if<Retreating>(&behaviour.state)) drive = retreating->way;
   const auto* paused = std::get_if<Paused>(&behaviour.state);
   if (paused != nullptr && paused->way_back) drive = *paused->way_back;
-  return drive.slow_down(Duration::zero());  // no time: no change
+  return drive.slow_down(Duration::zero());  // zero elapsed time: no change
 }
 
 Moved step(const Behaviour& before, const Facts& facts) {
@@ -79,7 +79,7 @@ TEST(Behaviour, comes_to_rest_whatever_it_was_about_when_it_is_stopped) {
   }
 }
 
-/// Facts as they come, one after the other, with a planner that finds what is asked for after some steps.
+/// Random facts in sequence, and a planner that answers requests after some steps.
 class Story {
  public:
   Story(const Behaviour& begin, std::uint64_t seed) : random_(seed), behaviour_(begin) {}
@@ -170,7 +170,7 @@ TEST(Behaviour, in_any_order_of_events_speeds_up_only_where_it_may_and_never_abr
       }
     }
   }
-  EXPECT_GT(backtracks, 100) << "or nothing was tried";
+  EXPECT_GT(backtracks, 100) << "too few to test anything";
 }
 
 TEST(Behaviour, once_cancelled_never_drives_again_whatever_comes) {

@@ -9,19 +9,19 @@ namespace lodestar {
 
 inline constexpr Duration step_time = std::chrono::milliseconds(20);
 
-/// A state as the tables of docs/behaviours.md list it, of a robot that has seen markers behind it.
+/// A state as in the tables of docs/behaviours.md; the robot has seen markers behind it.
 struct NamedBehaviour {
   std::string name;
   Behaviour behaviour;
 };
 
-/// What a step finds, or what the operator wishes.
+/// Findings of a step, or a wish of the operator.
 struct NamedFacts {
   std::string name;
   Facts facts;
 };
 
-/// On a straight way of four metres along x, the robot half a metre from its beginning.
+/// On a straight path of 4 m along x, 0.5 m from its beginning.
 inline PoseEstimate on_the_way() {
   PoseEstimate estimate;
   estimate.map_from_base = {{0.5, 0.0}, 0.0};
@@ -52,7 +52,7 @@ inline RotateThenDrive turning_drive() {
   return drive;
 }
 
-/// Back to the beginning, and rolling: the robot faces that way.
+/// Moving back to the beginning of the path, which the robot faces.
 inline RotateThenDrive rolling_way_back() {
   PoseEstimate backwards = on_the_way();
   backwards.map_from_base.yaw_rad = radians(180.0);
@@ -74,7 +74,7 @@ inline Backtrack places_when_retreating() {
   return places;
 }
 
-/// A robot on each of the ways that it can be about something.
+/// A robot in each state of the behaviour.
 inline std::vector<NamedBehaviour> all_behaviours() {
   using Reason = Braking::Reason;
   const Trip rolling{rolling_drive(), std::nullopt, false};
@@ -128,7 +128,7 @@ inline std::vector<NamedBehaviour> all_behaviours() {
   return behaviours;
 }
 
-/// One thing at a time.
+/// One finding at a time.
 inline std::vector<NamedFacts> all_findings() {
   const auto with = [](const auto& change) {
     Facts facts = calm();

@@ -47,10 +47,10 @@ TEST(Corner, touches_both_legs_and_stays_in_its_corridor) {
 TEST(Corner, is_none_where_the_robot_must_stop) {
   const Vec2 before(0.0, 0.0);
   const Vec2 waypoint(1.0, 0.0);
-  EXPECT_FALSE(corner_at(before, waypoint, {1.5, 0.1}, {})) << "not asked for";
+  EXPECT_FALSE(corner_at(before, waypoint, {1.5, 0.1}, {})) << "corner blending is off";
   EXPECT_FALSE(corner_at(before, waypoint, {1.0, 1.0}, blending(0.05))) << "too sharp";
   EXPECT_FALSE(corner_at(before, waypoint, waypoint, blending(0.05)));
-  EXPECT_FALSE(corner_at(before, waypoint, {2.0, 0.0}, blending(0.05))) << "no corner at all";
+  EXPECT_FALSE(corner_at(before, waypoint, {2.0, 0.0}, blending(0.05))) << "no change of direction";
 }
 
 struct Drive {

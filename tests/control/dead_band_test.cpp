@@ -7,7 +7,7 @@
 namespace lodestar {
 namespace {
 
-// Motors that stand still below 1 cm/s, as a turn of 0.05 rad/s asks of them.
+// Wheels stand still below 1 cm/s, which is their speed in a turn of 0.05 rad/s.
 constexpr double dead_band_mps = 0.01;
 
 TEST(DeadBand, turns_and_legs_end_all_the_same) {

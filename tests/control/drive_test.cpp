@@ -17,7 +17,7 @@ struct Drive {
   double time_s = 0.0;
   Pose2 end;
   std::vector<double> beside_m;
-  int starts = 0;  ///< from a command to stand to one to move
+  int starts = 0;  ///< changes from a zero command to a moving one
   double most_acceleration_mps2 = 0.0;
   double most_turn_acceleration_radps2 = 0.0;
 };
@@ -77,7 +77,7 @@ TEST(RotateThenDrive, arrives_on_random_paths_without_leaving_them) {
     EXPECT_LT(std::abs(wrap_angle(result.end.yaw_rad - heading)), radians(1.2)) << "seed " << seed;
     EXPECT_LE(result.most_acceleration_mps2, 0.5 + 1e-9);
     EXPECT_LE(result.most_turn_acceleration_radps2, 2.0 + 1e-9);
-    // A turn and a leg for every waypoint but the first, and the last turn; each may be mended once.
+    // A turn and a leg for every waypoint but the first, and the last turn; each may be corrected once.
     const auto moves = static_cast<double>(2 * path.waypoints_m.size() - 1);
     EXPECT_LE(result.starts, 2.0 * moves) << "seed " << seed;
     const double ideal_s = ideal_travel_time_s(path, start_heading, heading, {});
@@ -88,7 +88,7 @@ TEST(RotateThenDrive, arrives_on_random_paths_without_leaving_them) {
   EXPECT_LT(beside[beside.size() * 95 / 100], 0.01);
 }
 
-// The controller is told one response time; the base may be slower or quicker.
+// The controller assumes one response time; the base may be slower or quicker.
 TEST(RotateThenDrive, neither_misses_nor_hunts_when_the_latency_is_another) {
   for (const std::size_t latency_periods : {0U, 1U, 3U, 4U}) {
     Random random(4);
@@ -107,7 +107,7 @@ TEST(RotateThenDrive, neither_misses_nor_hunts_when_the_latency_is_another) {
   }
 }
 
-// The pose jumps sideways just before the goal, as after a first good fix for long.
+// The pose jumps sideways just before the goal, as at the first good fix after a long time.
 TEST(RotateThenDrive, comes_back_to_a_goal_it_was_led_past) {
   const Path path{{Vec2::Zero(), Vec2(1.0, 0.0)}};
   RotateThenDrive controller(path, std::nullopt);
@@ -123,7 +123,7 @@ TEST(RotateThenDrive, comes_back_to_a_goal_it_was_led_past) {
 
 TEST(RotateThenDrive, goes_on_from_just_beside_a_waypoint) {
   RotateThenDrive controller({{{0.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}}}, std::nullopt);
-  Plant plant{.truth = {{0.978, -0.012}, radians(28.0)}};  // 25 mm before it, and 29 degrees off the leg
+  Plant plant{.truth = {{0.978, -0.012}, radians(28.0)}};  // 25 mm before it, 29 degrees off the leg
   for (int step = 0; step < 1500 && !controller.arrived(); ++step)
     plant.run(controller.update(plant.sensed(), from_seconds(period_s)));
   EXPECT_TRUE(controller.arrived());
@@ -189,7 +189,7 @@ TEST(DifferentialDrive, wheels_and_body_say_the_same) {
   const BodyVelocity back = body_velocity(wheel_speeds(velocity, 0.4), 0.4);
   EXPECT_NEAR(back.forward_mps, 0.3, 1e-12);
   EXPECT_NEAR(back.turn_radps, -0.7, 1e-12);
-  EXPECT_LT(wheel_speeds({0.0, 1.0}, 0.4).left_mps, 0.0) << "a left turn takes the left wheel back";
+  EXPECT_LT(wheel_speeds({0.0, 1.0}, 0.4).left_mps, 0.0) << "the left wheel runs backwards in a left turn";
 }
 
 TEST(DifferentialDrive, limit_keeps_the_curve) {
@@ -223,7 +223,7 @@ TEST(SafetyStop, names_what_is_missing) {
   PoseEstimate impossible = good;
   impossible.covariance(2, 2) = -0.1;
   EXPECT_EQ(reason_to_stop(now, impossible, {}), StopReason::pose_uncertain);
-  PoseEstimate slanted = good;  // along the diagonal 10.7 cm, along each axis less than 8
+  PoseEstimate slanted = good;  // sigma 10.7 cm on the diagonal, below 8 on each axis
   slanted.covariance.topLeftCorner<2, 2>() << 0.0058, 0.0057, 0.0057, 0.0058;
   EXPECT_EQ(reason_to_stop(now, slanted, {}), StopReason::pose_uncertain);
   PoseEstimate broken = good;

@@ -24,19 +24,19 @@ TEST(ForwardClearance, ends_where_the_disc_would_touch) {
   EXPECT_NEAR(way.ahead_m({{0.0, 0.5}, 0.0}, 3.0), 1.25, 0.011);
   EXPECT_NEAR(way.ahead_m({{0.0, 0.5}, radians(180.0)}, 3.0), 0.75, 0.011) << "the edge of the map";
   EXPECT_EQ(way.ahead_m({{0.0, 0.5}, 0.0}, 0.7), 0.7) << "no farther than asked for";
-  EXPECT_LT(way.ahead_m({{1.35, 0.5}, 0.0}, 1.0), 0.011) << "overlapping already";
-  EXPECT_NEAR(way.ahead_m({{1.35, 0.5}, radians(180.0)}, 1.0), 1.0, 1e-9) << "but there is a way out";
+  EXPECT_LT(way.ahead_m({{1.35, 0.5}, 0.0}, 1.0), 0.011) << "the footprint overlaps already";
+  EXPECT_NEAR(way.ahead_m({{1.35, 0.5}, radians(180.0)}, 1.0), 1.0, 1e-9) << "driving out is free";
 }
 
 TEST(ForwardClearance, ends_earlier_where_room_must_be_spared) {
   const ForwardClearance way(hall(), 0.25, 0.0);
   EXPECT_NEAR(way.ahead_m({{0.0, 0.5}, 0.0}, 3.0, {.here_m = 0.1}), 1.15, 0.011);
   EXPECT_NEAR(way.ahead_m({{0.0, 0.5}, 0.0}, 3.0, {.here_m = 0.1, .per_m = 0.1}), 1.15 / 1.1, 0.011)
-      << "more and more";
+      << "a margin that grows per metre";
   EXPECT_NEAR(way.ahead_m({{1.2, 0.5}, radians(180.0)}, 1.0, {.here_m = 0.1}), 1.0, 1e-9)
-      << "out of the narrow place";
+      << "driving away from the pillar";
   EXPECT_NEAR(way.room_m({1.2, 0.5}), 0.05, 1e-9);
-  EXPECT_NEAR(way.room_m({0.5, 0.5}), 0.75, 0.08) << "far away, at least so much";
+  EXPECT_NEAR(way.room_m({0.5, 0.5}), 0.75, 0.08) << "far away: a lower bound";
   EXPECT_LT(way.room_m({1.3, 0.5}), 0.0);
 }
 

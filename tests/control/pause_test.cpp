@@ -28,7 +28,7 @@ TEST(Pause, comes_to_rest_gently_and_goes_on_to_the_same_goal) {
   const BodyVelocity before = run(controller, plant, 150);
   ASSERT_GT(before.forward_mps, 0.4);
   const BodyVelocity next = slow_down(controller, plant, 1);
-  EXPECT_GE(next.forward_mps, before.forward_mps - 0.5 * period_s - 1e-9) << "no jerk";
+  EXPECT_GE(next.forward_mps, before.forward_mps - 0.5 * period_s - 1e-9) << "within the deceleration limit";
   slow_down(controller, plant, 100);
   const Pose2 paused = plant.truth;
   slow_down(controller, plant, 100);
@@ -56,7 +56,8 @@ TEST(Pause, another_path_begins_at_the_speed_of_the_one_before) {
   RotateThenDrive other({{plant.truth.position_m, Vec2(1.0, 2.0)}}, std::nullopt);
   other.take_over_from(controller);
   EXPECT_FALSE(other.at_rest());
-  EXPECT_NEAR(run(other, plant, 1).forward_mps, before.forward_mps - 0.5 * period_s, 1e-9) << "no jerk";
+  EXPECT_NEAR(run(other, plant, 1).forward_mps, before.forward_mps - 0.5 * period_s, 1e-9)
+      << "at the deceleration limit";
   run(other, plant, 3000);
   EXPECT_TRUE(other.arrived());
   EXPECT_LT((plant.truth.position_m - Vec2(1.0, 2.0)).norm(), 0.015);
@@ -70,7 +71,8 @@ TEST(Pause, looking_around_turns_on_the_spot_and_the_drive_goes_on_from_there) {
   for (int step = 0; step < 400; ++step) {
     const BodyVelocity command = controller.turn_around(0.4, from_seconds(period_s));
     if (last.forward_mps > 0.0) {
-      EXPECT_LE(std::abs(command.turn_radps), std::abs(last.turn_radps) + 1e-12) << "rolling";
+      EXPECT_LE(std::abs(command.turn_radps), std::abs(last.turn_radps) + 1e-12)
+          << "no faster turn while rolling";
     }
     plant.run(last = command);
   }

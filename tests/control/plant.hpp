@@ -11,14 +11,13 @@ namespace lodestar {
 
 inline constexpr double period_s = 0.02;
 
-/// A base with 80 ms of motor lag, 40 ms of latency if not told otherwise, one wheel larger than the other,
-/// and a noisy pose.
+/// A base with 80 ms of motor lag, 40 ms of latency by default, unequal wheel diameters, and a noisy pose.
 struct Plant {
   Pose2 truth;
   WheelSpeeds wheels;
   std::deque<BodyVelocity> pending = std::deque<BodyVelocity>(2);
   Random random{1};
-  double dead_band_mps = 0.0;  ///< a wheel told to go slower than this stands still
+  double dead_band_mps = 0.0;  ///< a wheel commanded below this stands still
 
   PoseEstimate sensed() {
     PoseEstimate estimate;

@@ -37,7 +37,7 @@ TEST(SpeedLimit, goes_at_full_speed_while_sure_and_slower_without_a_jump_up_to_t
 
 TEST(SpeedLimit, is_low_in_a_gap_so_that_a_slipping_wheel_cannot_lead_into_its_side) {
   const auto speed_mps = [](double gap_m, const CautionOptions& caution = {}) {
-    OccupancyMap map = empty_floor(120, 80, 0.05);  // two walls end at x = 3, the gap between them at y = 2
+    OccupancyMap map = empty_floor(120, 80, 0.05);  // walls at x = 3 with a gap at y = 2
     const int open = static_cast<int>(std::lround(gap_m / map.resolution_m));
     for (int row = 0; row < map.rows; ++row)
       if (row < 40 - open / 2 || row >= 40 - open / 2 + open)

@@ -10,7 +10,7 @@
 #include "maps/marker_registry.hpp"
 #include "maps/random.hpp"
 
-// Cameras, ceilings and measures that the tests of the simulated camera share.
+// Cameras, ceilings and image measurements that the tests of the simulated camera share.
 namespace lodestar::testing {
 
 /// 90 degrees wide, for a ceiling 1.5 m above it.
@@ -44,7 +44,7 @@ inline MarkerRegistry many_markers(double height_m, double spacing_m, std::uint6
   return registry;
 }
 
-/// Nothing but dots on an even ceiling, without noise.
+/// Only dots on an even ceiling, without noise.
 inline SimulatedCameraOptions plain_light() {
   SimulatedCameraOptions options;
   options.dot_gray_sigma = 0.0;
@@ -64,7 +64,7 @@ inline Eigen::Isometry3d camera_at(double x_m, double y_m, double z_m, const Rol
   return map_from_camera;
 }
 
-/// Centroid of the light above the background within `half_px` of a place, and its spread.
+/// Centroid of the light above the background within `half_px` of a point, and its covariance.
 struct Spot {
   Vec2 center_px = Vec2::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();

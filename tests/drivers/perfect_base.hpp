@@ -4,7 +4,7 @@
 
 namespace lodestar {
 
-/// A base without any of its faults but quantization.
+/// A base whose only error is quantization.
 inline SimulatedBaseOptions perfect_base() {
   SimulatedBaseOptions options;
   options.true_track_width_m = options.track_width_m;

@@ -11,7 +11,7 @@
 
 namespace lodestar {
 
-/// What the test puts in front of a camera driver, and what the driver did with it.
+/// What the simulated device offers a camera driver, and what the driver did with it.
 struct VideoScript {
   std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   std::vector<std::uint32_t> formats{V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_GREY};
@@ -27,7 +27,7 @@ struct VideoScript {
     std::uint32_t flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
     timeval stamp{};
   };
-  std::deque<Capture> captures;  ///< fill a buffer each, as long as the driver has queued one
+  std::deque<Capture> captures;  ///< each fills a buffer once the driver has queued one
 
   std::uint32_t chosen_format = 0;
   bool streaming = false;

@@ -4,7 +4,7 @@
 #include "app/site/arguments.hpp"
 #include "maps/input_error.hpp"
 
-// A place on the command line is refused with an InputError, or is finite.
+// A goal on the command line is refused with an InputError, or is finite.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lodestar;
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -10,8 +10,8 @@ namespace {
 
 constexpr BodyVelocity commanded{0.2, 0.1};
 
-/// Brings whatever it is given, and accepts all that may be sent: the one command that is ever given, and
-/// what a handshake and a stop consist of. What arrives must not lead to anything else.
+/// Delivers any frames, and accepts only those that may be sent: the one command given, and the frames of a
+/// handshake and a stop. Received frames must not cause any others.
 class FedBus : public CanBus {
  public:
   explicit FedBus(const BaseProtocol& protocol) {
@@ -45,8 +45,8 @@ using Identifiers = std::array<std::uint32_t, 8>;
 constexpr Identifiers of_agilex{0x111, 0x211, 0x221, 0x311, 0x421, 0x441, 0x000, 0x7FF};
 constexpr Identifiers of_odrive{0x001, 0x021, 0x009, 0x029, 0x00D, 0x02D, 0x007, 0x7FF};
 
-/// Identifier among those of the protocol (or beside them), length, 8 bytes of data, milliseconds to the
-/// next.
+/// Input of one frame: index of its ID (the protocol's or another), length, 8 bytes of data, milliseconds to
+/// the next.
 CanFrame frame_from(const std::uint8_t* bytes, const Identifiers& ids) {
   CanFrame frame{ids[bytes[0] % ids.size()], static_cast<std::uint8_t>(bytes[1] % 9), {}};
   std::copy(bytes + 2, bytes + 10, frame.data.begin());
@@ -75,7 +75,7 @@ void drive(const std::uint8_t* data, std::size_t size, std::unique_ptr<BaseProto
 }  // namespace
 }  // namespace lodestar
 
-// Whatever comes over the bus, the driver neither breaks nor is in a fault without saying which.
+// Whatever arrives on the bus, the driver does not crash, and names every fault that it is in.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   lodestar::drive(data, size, lodestar::make_agilex_protocol(), lodestar::of_agilex);
   lodestar::drive(data, size, lodestar::make_odrive_protocol({}), lodestar::of_odrive);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A site to be spoilt, a new one when needed.
+/// A fresh copy of the lab's site, which requests may change.
 fs::path fresh_site() {
   const fs::path folder = scratch_file("none", nullptr, 0).parent_path() / "site";
   fs::remove_all(folder);
@@ -21,8 +21,8 @@ fs::path fresh_site() {
   return folder;
 }
 
-/// "METHOD TARGET", lines of "name: value", an empty line, the body. An If-Match of "now" means the present
-/// state.
+/// "METHOD TARGET", lines of "name: value", an empty line, the body. An If-Match of "now" means the current
+/// version.
 HttpRequest request_from(const std::string& text) {
   std::istringstream stream(text);
   HttpRequest request;
@@ -59,7 +59,7 @@ void expect_sound(const HttpResponse& response) {
   }
 }
 
-/// A console over a site of its own.
+/// A console with a site of its own.
 struct Desk {
   fs::path site = fresh_site();
   DocumentApi console{site, site / "runs"};
@@ -76,14 +76,14 @@ void ask(const std::string& text) {
     request.if_match = desk->console.answer({.method = "GET", .target = "/api/markers"}).etag;
   expect_sound(desk->console.answer(request));
   if (request.method != "PUT") return;
-  (void)load_registry(desk->site / "markers.yaml");  // whatever was saved can be read
+  (void)load_registry(desk->site / "markers.yaml");  // a saved registry can be loaded
   desk.reset();
 }
 
 }  // namespace
 }  // namespace lodestar
 
-// Whatever a client sends, the answer is sound, and what it saves can be read again.
+// Whatever a client sends, the response is valid, and what it saves can be read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   lodestar::ask(std::string(reinterpret_cast<const char*>(data), size));
   return 0;

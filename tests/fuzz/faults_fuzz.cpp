@@ -5,7 +5,7 @@
 
 #include "tests/fuzz/scratch_file.hpp"
 
-// A file of faults is refused with an InputError, or says what happens, when, in numbers.
+// A file of faults is refused with an InputError, or has finite numbers and valid times.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lodestar;
   try {

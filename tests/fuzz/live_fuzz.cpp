@@ -10,7 +10,7 @@
 namespace lodestar {
 namespace {
 
-/// One client without a socket. A session that throws has ended, and another client comes.
+/// One client without a socket. A session that throws has ended, and another client connects.
 class Client {
  public:
   Client(SocketProtocol protocol, Role role) : protocol_(std::move(protocol)), role_(role) { connect(); }
@@ -75,7 +75,7 @@ void talk(const std::string& text) {
     view.pump(now += std::chrono::milliseconds(50), &state);
     for (const auto& client : clients) client->drain();
     const std::vector<Order> orders = link.take_orders();
-    if (!orders.empty() && who > 1) __builtin_trap();  // an order from one who may not drive
+    if (!orders.empty() && who > 1) __builtin_trap();  // an order from a client that may not drive
     for (const Order& order : orders)
       if (!is_sound(order)) __builtin_trap();
   }
@@ -84,8 +84,8 @@ void talk(const std::string& text) {
 }  // namespace
 }  // namespace lodestar
 
-// The input is what five clients send, a line each: its first byte says who (modulo 5: two who may drive, one
-// who may edit, one who may look, one viewer of Foxglove's protocol).
+// The input is the messages of five clients, one per line; the first byte selects the client (modulo 5: two
+// that may drive, one that may edit, one that may look, one Foxglove viewer).
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   lodestar::talk(std::string(reinterpret_cast<const char*>(data), size));
   return 0;

@@ -5,8 +5,8 @@
 
 #include "tests/fuzz/scratch_file.hpp"
 
-// The input is a map of letters up to the first NUL, and queries after it. Both are refused with an
-// InputError, or every query begins and ends at cells that can be driven on.
+// The input is a map in letters up to the first NUL, and queries after it. Both are refused with an
+// InputError, or every query begins and ends at drivable cells.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lodestar;
   const std::uint8_t* const cut = std::find(data, data + size, std::uint8_t{0});

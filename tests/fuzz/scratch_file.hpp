@@ -8,7 +8,7 @@
 
 namespace lodestar {
 
-/// A file in memory where the system has it, for readers that take a path. One for each process and name.
+/// A file in memory where the system supports it, for readers that take a path. One per process and name.
 inline std::filesystem::path scratch_file(const std::string& name, const std::uint8_t* data,
                                           std::size_t size) {
   static const std::filesystem::path folder = [] {

@@ -14,7 +14,7 @@ void put(const std::string& name, std::string_view text) {
   scratch_file(name, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
-/// What a site may name, as small as can be.
+/// The files that a site may name, as small as possible.
 bool put_neighbours() {
   put("map.yaml",
       "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n"
@@ -34,7 +34,7 @@ bool put_neighbours() {
 }  // namespace lodestar
 
 // The input is site.yaml up to the first NUL, and robot.yaml after it. A site is refused with an InputError,
-// or has all that a drive takes.
+// or has everything that a drive needs.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lodestar;
   [[maybe_unused]] static const bool once = put_neighbours();

@@ -10,14 +10,13 @@
 #include "maps/camera_model.hpp"
 #include "maps/random.hpp"
 
-// Pictures of calibration boards, taken by a camera that is known.
+// Images of calibration boards, taken by a known camera.
 namespace lodestar::testing {
 
-/// What is printed: gray value at a point of the board through a lens that blurs by `blur_m`; outside of it
-/// nothing.
+/// The print: gray value at a point of the board, blurred by `blur_m`; nothing outside the board.
 using Print = std::function<std::optional<double>(const Vec2& point_m, double blur_m)>;
 
-/// +1 and -1 in turn from one whole number to the next, with blurred edges.
+/// A square wave: +1 and -1 in turn between whole numbers, with blurred edges.
 inline double blurred_squares(double at, double blur) {
   const double edge = std::round(at);
   const double sign = static_cast<int>(edge) % 2 == 0 ? 1.0 : -1.0;
@@ -36,8 +35,8 @@ inline Print chessboard(int columns, int rows, double square_m) {
   };
 }
 
-/// Takes pictures by following the ray of each pixel to the board, whose print is blurred by the pixel's area
-/// and the lens; then noise and 8 bits.
+/// Renders by following each pixel's ray to the board, whose print is blurred by the pixel's area and the
+/// lens; then adds noise and rounds to 8 bits.
 class BoardCamera {
  public:
   explicit BoardCamera(const CameraModel& camera) : camera_(camera) {
@@ -82,11 +81,11 @@ class BoardCamera {
 struct Holding {
   double most_tilt_rad = radians(35.0);
   double distance_m = 0.5;
-  double reach = 0.95;  ///< how far from the middle to the border of the image the board is carried
+  double reach = 0.95;  ///< share of the way from the image's centre to its border
 };
 
-/// Places of a board of this size so that it is wholly in view: the board is carried over the image, each
-/// time turned and tilted another way.
+/// Poses at which a board of this size is wholly in view: spread over the image, each turned and tilted
+/// differently.
 inline std::vector<Eigen::Isometry3d> board_places(const CameraModel& camera, const Vec2& first_m,
                                                    const Vec2& last_m, std::size_t count,
                                                    const Holding& holding, Random& random) {
@@ -120,7 +119,7 @@ inline std::vector<Eigen::Isometry3d> board_places(const CameraModel& camera, co
   return places;
 }
 
-/// The corners as a perfect detector would find them, with noise.
+/// The corners of a perfect detector, with noise added.
 inline BoardView ideal_view(const CameraModel& camera, int columns, int rows, double square_m,
                             const Eigen::Isometry3d& camera_from_board, double sigma_px, Random& random) {
   BoardView view;
@@ -136,8 +135,8 @@ inline BoardView ideal_view(const CameraModel& camera, int columns, int rows, do
   return view;
 }
 
-/// How far two cameras differ: the root mean square, in px, of where they see the same ray, over the inner
-/// part of the image that boards held wholly in view reach.
+/// Difference of two cameras: the RMS, in px, of where they see the same ray, over the inner part of the
+/// image that boards wholly in view reach.
 inline double difference_px(const CameraModel& truth, const CameraModel& camera) {
   double squared = 0.0;
   int rays = 0;

@@ -8,7 +8,7 @@
 
 #include "tests/localization/painted_frame.hpp"
 
-// Memory is counted, so this is a program of its own.
+// Counts allocations by replacing operator new, so this is a program of its own.
 namespace {
 std::atomic<int> times_taken = 0;
 }  // namespace
@@ -32,7 +32,7 @@ RegisteredMarker registered(const CameraModel& camera, int id, const MarkerView&
   return {.id = id, .position_m = camera_from_marker(camera, view).translation(), .yaw_rad = view.turn_rad};
 }
 
-/// Three markers, one of them without its O, and things that must be told from dots: a tube, glints on
+/// Three markers, one of them without its O, and features that must not be taken for dots: a tube, glints on
 /// markers, dots that touch.
 struct Scene {
   CameraModel camera = paper_camera();
@@ -76,8 +76,8 @@ TEST(Memory, is_taken_for_the_first_frames_only) {
     }
   };
   see_all();
-  ASSERT_GT(times_taken, 0) << "it is counted";
-  ASSERT_GE(fixes, 12) << "there is something to see";
+  ASSERT_GT(times_taken, 0) << "allocations are counted";
+  ASSERT_GE(fixes, 12) << "enough fixes to test anything";
   const int before = times_taken;
   see_all();
   EXPECT_EQ(times_taken, before);

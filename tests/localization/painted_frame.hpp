@@ -13,16 +13,16 @@
 #include "maps/paper_camera.hpp"
 #include "maps/random.hpp"
 
-// Frames whose truth is known, because it is chosen before they are drawn.
+// Synthetic frames: their truth is chosen before they are drawn.
 namespace lodestar {
 
-/// 90 degrees of view.
+/// Field of view of 90 degrees.
 inline CameraModel wide_camera() {
   return {.width_px = 640, .height_px = 480, .fx_px = 320.0, .fy_px = 320.0, .cx_px = 319.5, .cy_px = 239.5};
 }
 
-/// A marker seen from below: at turn 0 X is to the right of O in the image and Y above it. The tilt leans the
-/// marker about an axis in the image plane; `middle_px` is where the grid's middle appears.
+/// A marker seen from below: at turn 0, X is to the right of O in the image and Y above it. The tilt is about
+/// an axis in the image plane; `middle_px` is the image of the grid's centre.
 struct MarkerView {
   Vec2 middle_px = Vec2(320.0, 240.0);
   double depth_m = 1.5;
@@ -49,7 +49,7 @@ inline Vec2 dot_in_image(const CameraModel& camera, const MarkerView& view, Grid
   return camera.project(camera_from_marker(camera, view) * Vec3(place.x(), place.y(), 0.0)).value();
 }
 
-/// A small renderer: edges by 8 x 8 samples a pixel, then blur, noise and rounding.
+/// A small renderer: edges by 8 x 8 samples per pixel, then blur, noise and rounding.
 class PaintedFrame {
  public:
   explicit PaintedFrame(cv::Size size, double background_gray = 35.0)
@@ -83,7 +83,7 @@ class PaintedFrame {
     });
   }
 
-  /// Motion while the shutter is open: the mean over places along `motion_px`.
+  /// Motion blur: the mean over positions along `motion_px`.
   void move(const Vec2& motion_px) {
     constexpr int steps = 9;
     cv::Mat sum = cv::Mat::zeros(image_.size(), CV_32FC1);

@@ -6,7 +6,7 @@
 #include "localization/filter/pose_filter.hpp"
 #include "maps/random.hpp"
 
-// A robot whose wheels and fixes err as told, for the tests of the pose filter.
+// A robot with chosen errors of wheels and fixes, for the tests of the pose filter.
 namespace lodestar::testing {
 
 inline constexpr double track_m = 0.4;
@@ -15,7 +15,7 @@ inline Stamp at(double time_s) {
   return Stamp(from_seconds(time_s));
 }
 
-/// A robot whose wheels roll as told, and report something slightly different.
+/// A robot whose wheels roll as commanded, and report slightly different travel.
 struct World {
   Pose2 truth{{1.0, 2.0}, 0.3};
   WheelTravel reported;
@@ -23,16 +23,16 @@ struct World {
   double turn_scale = 1.0;     ///< track width as built over the true one
   double noise_m_per_sqrt_m = 0.0;
   double wheel_step_m = 0.0;
-  double bias_sigma_m = 0.0;  ///< of the error that fixes share, which changes along the way
+  double bias_sigma_m = 0.0;  ///< of the error that nearby fixes share
   double bias_sigma_rad = 0.0;
   Vec3 bias = Vec3::Zero();
-  bool fixes_tell_bias = false;  ///< how large it may be
-  double sway_s = 0.0;           ///< time over which the errors of fixes resemble each other
+  bool fixes_tell_bias = false;  ///< fixes state the shared covariance
+  double sway_s = 0.0;           ///< correlation time of the errors of fixes
   Vec3 sway = Vec3::Zero();
   Stamp last_fix;
   Random random{1};
 
-  /// What the wheels say: rounded.
+  /// The reported travel, rounded to `wheel_step_m`.
   [[nodiscard]] WheelTravel reading() const {
     if (wheel_step_m == 0.0) return reported;
     return {reported.stamp, wheel_step_m * std::round(reported.left_m / wheel_step_m),
@@ -59,7 +59,7 @@ struct World {
     const double direction = truth.yaw_rad + 0.5 * turn;
     truth.position_m += 0.5 * (left + right) * Vec2(std::cos(direction), std::sin(direction));
     truth.yaw_rad = wrap_angle(truth.yaw_rad + turn);
-    const double kept = std::exp(-0.5 * (std::abs(left_m) + std::abs(right_m)));  // reach of 1 m
+    const double kept = std::exp(-0.5 * (std::abs(left_m) + std::abs(right_m)));  // correlation length of 1 m
     if (bias_sigma_m > 0.0) bias = kept * bias + std::sqrt(1.0 - kept * kept) * fresh_bias();
   }
 
@@ -95,7 +95,7 @@ inline PoseFilterOptions without_floor() {
   return options;
 }
 
-/// Drives for a while at 50 Hz along a lazy S, with a fix every fifth step while `sees`.
+/// Drives at 50 Hz along a gentle S, with a fix every fifth step while `sees`.
 inline void drive(World& world, PoseFilter& filter, double from_s, double for_s, bool sees,
                   double sigma_m = 0.002, double sigma_rad = 0.002) {
   const int steps = static_cast<int>(std::lround(for_s * 50.0));
@@ -108,7 +108,7 @@ inline void drive(World& world, PoseFilter& filter, double from_s, double for_s,
   }
 }
 
-/// Normalized estimation error squared: chi-square with 3 degrees of freedom for an honest filter.
+/// Normalized estimation error squared: chi-square with 3 degrees of freedom for a consistent filter.
 inline double nees(const World& world, const PoseFilter& filter) {
   const PoseEstimate estimate = *filter.estimate();
   Vec3 error;

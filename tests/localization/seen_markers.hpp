@@ -7,7 +7,7 @@
 #include "localization/pose/pose_fix.hpp"
 #include "maps/random.hpp"
 
-// Three markers on a ceiling, and what a detector would report of them from a pose that is known.
+// Three markers on a ceiling, and a detector's output for them at a known pose.
 namespace lodestar {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -28,7 +28,7 @@ inline Eigen::Isometry3d view_from(const Vec3& position, double yaw_rad, double 
   return view;
 }
 
-/// What a detector would report of these markers, with noise on the dots' centres.
+/// A detector's output for these markers, with noise on the dots' centres.
 inline std::vector<DetectedMarker> seen(const Eigen::Isometry3d& view, const MarkerRegistry& registry,
                                         const CameraModel& camera, double noise_px, Random& random) {
   std::vector<DetectedMarker> markers;

@@ -142,7 +142,7 @@ TEST(CameraFile, is_read_back_as_it_was_written) {
   Random random(4);
   const TemporaryFolder folder;
   for (CameraModel camera : cameras) {
-    camera.fx_px *= random.uniform(0.9, 1.1);  // digits to the last bit
+    camera.fx_px *= random.uniform(0.9, 1.1);  // random in all digits
     camera.cy_px += random.uniform();
     const bool has_distortion = camera.distortion != Distortion::none;
     for (double& k : camera.coefficients) k *= has_distortion ? random.uniform(0.9, 1.1) : 0.0;

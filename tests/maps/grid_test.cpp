@@ -117,7 +117,7 @@ TEST(Path, knows_its_length_and_the_distance_to_it) {
 TEST(Octomap, public_tree_is_sliced) {
   const std::filesystem::path file =
       std::filesystem::path(LODESTAR_SOURCE_DIR) / "../shared/data/octomap/geb079.bt";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "maps of other projects are not at hand";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no maps of other projects";
   const Octomap octomap(file);
   const OctomapInfo info = octomap.info();
   EXPECT_GT(info.leaves_occupied, 1000U);

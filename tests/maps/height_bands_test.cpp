@@ -11,7 +11,7 @@
 namespace lodestar {
 namespace {
 
-/// Four metres by two, cells of 0.2 m; bands from 1 m on.
+/// 4 m x 2 m in cells of 0.2 m; height bands from 1 m up.
 OccupancyMap floor_map() {
   return empty_floor(20, 10, 0.2);
 }

@@ -160,7 +160,7 @@ TEST_F(MapFile, saves_without_losing_anything) {
 
 TEST(PublicMaps, are_read) {
   const fs::path data = fs::path(LODESTAR_SOURCE_DIR) / "../shared/data/rosmaps";
-  if (!fs::exists(data)) GTEST_SKIP() << "maps of other projects are not at hand";
+  if (!fs::exists(data)) GTEST_SKIP() << "no maps of other projects";
   int read = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(data)) {
     if (entry.path().extension() != ".yaml") continue;

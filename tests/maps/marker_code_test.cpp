@@ -8,7 +8,7 @@
 namespace lodestar {
 namespace {
 
-// A second reader of the grid, for comparison: pictures as text, turned by hand.
+// An independent reader of the grid for comparison: patterns as text, turned character by character.
 using Picture = std::vector<std::string>;
 
 Picture picture_of(int id) {
@@ -38,7 +38,7 @@ int differences(const Picture& a, const Picture& b) {
   return count;
 }
 
-/// Swapping rows and columns, and turning upside down, by turns, goes through all eight views and back.
+/// Swapping rows with columns and turning upside down, alternately, goes through all eight views and back.
 int least_over_other_views(int a, int b) {
   int least = 16;
   Picture view = picture_of(b);
@@ -83,7 +83,7 @@ TEST(MarkerCode, of_1_and_4_the_one_is_the_mirror_image_of_the_other) {
   EXPECT_EQ(id_distance(1, 4), 2);
   EXPECT_EQ(turned_distance(1, 4), 0);
   EXPECT_GT(turned_distance(1, 1), 0);
-  EXPECT_EQ(turned_distance(5, 5), 0) << "both: symmetrical, its own mirror image";
+  EXPECT_EQ(turned_distance(5, 5), 0) << "with both cells, its own mirror image";
 }
 
 TEST(MarkerCode, reaches_the_linear_codes_where_views_do_not_count) {

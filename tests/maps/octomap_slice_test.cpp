@@ -9,7 +9,7 @@
 namespace lodestar {
 namespace {
 
-/// A floor, a table over part of it, and air known to be free.
+/// A floor, a table over part of it, and known free air.
 void build_room(octomap::OcTree& tree) {
   for (int x = 0; x < 16; ++x) {
     for (int y = 0; y < 8; ++y) {

@@ -6,7 +6,7 @@
 
 #include "tests/maps/temporary_folder.hpp"
 
-// Files that are good but for one piece, and what is said of them.
+// Files that are valid but for one piece, and the error messages for them.
 namespace lodestar {
 
 /// A text with one piece of it replaced.
@@ -14,7 +14,7 @@ inline std::string with(std::string text, const std::string& piece, const std::s
   return text.replace(text.find(piece), piece.size(), by);
 }
 
-/// What `load` complains of in a file of this name and text.
+/// The error message of `load` for a file of this name and text.
 template <typename Load>
 std::string error_of(const std::string& name, const std::string& text, Load load) {
   const TemporaryFolder folder;

@@ -9,7 +9,7 @@
 
 namespace lodestar {
 
-/// A folder of its own for one test, removed at the end.
+/// A temporary folder for one test, removed at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

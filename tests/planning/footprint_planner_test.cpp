@@ -36,7 +36,7 @@ class FootprintPlan : public ::testing::TestWithParam<PlannerKind> {};
 
 TEST_P(FootprintPlan, leads_through_a_door_too_narrow_for_the_disc) {
   const bool is_sampling = sampling_method(GetParam()).has_value();
-  const OccupancyMap map = rooms_with_a_narrow_door(is_sampling ? 10 : 6);  // else they look for long
+  const OccupancyMap map = rooms_with_a_narrow_door(is_sampling ? 10 : 6);  // wider, or sampling takes long
   const Vec2 start(0.8, 0.8);
   const Vec2 goal(5.4, 0.6);
   GridPlannerOptions disc = for_cart(PlannerKind::astar);
@@ -93,7 +93,7 @@ TEST(FootprintPlanner, says_why_there_is_no_plan) {
       planner.plan(in_the_room, in_the_door, {.start_rad = {}, .goal_rad = 0.0})));
 }
 
-/// Dead end: a corridor as wide as the door, in which the cart can go in but not turn.
+/// A dead end: a corridor as wide as the door, which the cart can enter but not turn in.
 TEST(FootprintPlanner, knows_that_it_cannot_turn_in_a_dead_end) {
   OccupancyMap map = map_from(std::vector<std::string>(40, std::string(80, '#')), 0.05);
   for (int row = 17; row < 23; ++row) {

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double quarter = std::numbers::pi / 2.0;
 
-/// A cart, longer than wide.
+/// 60 cm long, 20 cm wide.
 Footprint cart() {
   return Footprint({{-0.3, -0.1}, {0.3, -0.1}, {0.3, 0.1}, {-0.3, 0.1}});
 }
 
-/// Is some point of the outline's inside, on a fine lattice, over a cell that is not drivable?
+/// True if any point of a fine lattice inside the outline is over a cell that is not drivable.
 bool touches_by_sampling(const OccupancyMap& map, const Pose2& pose) {
   constexpr int lattice = 30;
   for (int i = 0; i <= lattice; ++i) {
@@ -42,7 +42,7 @@ TEST(Footprint, agrees_with_sampling_its_inside) {
       EXPECT_FALSE(touches_by_sampling(map, pose));
       ++clear;
     } else {
-      // Not clear: a cart a little larger must be seen to touch as well.
+      // Not clear: shifted by up to 2 cm, the cart must touch by sampling too.
       bool near = false;
       for (const double dx : {-0.02, 0.0, 0.02}) {
         for (const double dy : {-0.02, 0.0, 0.02})
@@ -125,8 +125,8 @@ TEST(Footprint, need_not_be_convex) {
   const Pose2 pose{{0.75, 0.775}, 0.0};
   EXPECT_TRUE(horseshoe().is_clear(map, pose));
   EXPECT_TRUE(horseshoe().is_clear_driving(map, pose, {0.85, 0.775}));
-  EXPECT_FALSE(horseshoe().is_clear_driving(map, pose, {1.25, 0.775})) << "its back runs into it";
-  EXPECT_FALSE(horseshoe().is_clear_turning(map, pose, quarter)) << "an arm sweeps over it";
+  EXPECT_FALSE(horseshoe().is_clear_driving(map, pose, {1.25, 0.775})) << "its rear bar hits the obstacle";
+  EXPECT_FALSE(horseshoe().is_clear_turning(map, pose, quarter)) << "an arm sweeps over the obstacle";
 }
 
 /// A turn in many small steps.

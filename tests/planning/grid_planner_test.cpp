@@ -127,7 +127,7 @@ TEST(GridPlanner, says_why_there_is_no_plan) {
   EXPECT_EQ(failure_of(planner.plan({4.5, 1.5}, good)), PlanFailure::start_occupied);
   EXPECT_EQ(failure_of(planner.plan(good, {4.5, 1.5})), PlanFailure::goal_occupied);
   EXPECT_EQ(failure_of(planner.plan(good, {3.9, 1.5})), PlanFailure::goal_occupied)
-      << "its body would overlap the wall";
+      << "the footprint would overlap the wall";
   EXPECT_EQ(failure_of(planner.plan(good, {7.5, 1.5})), PlanFailure::goal_occupied) << "unknown is not free";
   EXPECT_EQ(failure_of(planner.plan(good, {6.0, 1.5})), PlanFailure::no_path);
 }
@@ -193,7 +193,7 @@ TEST(GridPlanner, answers_the_same_every_time) {
   const PlanResult second = again.plan({0.3, 0.3}, {3.7, 2.7});
   ASSERT_TRUE(std::holds_alternative<Plan>(first));
   ASSERT_TRUE(std::holds_alternative<Plan>(second));
-  EXPECT_GT(std::get<Plan>(first).path.waypoints_m.size(), 2U) << "not only straight on";
+  EXPECT_GT(std::get<Plan>(first).path.waypoints_m.size(), 2U) << "a path with turns";
   EXPECT_EQ(std::get<Plan>(first).path.waypoints_m, std::get<Plan>(second).path.waypoints_m);
 }
 

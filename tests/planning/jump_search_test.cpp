@@ -9,7 +9,7 @@
 namespace lodestar {
 namespace {
 
-/// Random maps of several densities, wider than the 64 cells of a word, each with its clear space.
+/// Random maps of several densities, wider than the 64 cells of a word, each with its collision checker.
 template <typename Story>
 void on_random_maps(std::uint64_t seed, int trials, Story story) {
   Random random(seed);
@@ -116,11 +116,11 @@ TEST(JumpSearch, has_a_path_of_no_steps_to_where_it_stands) {
   EXPECT_EQ(path->steps.length_cells(), 0.0);
 }
 
-/// The benchmark set of Sturtevant (2012), where its files are at hand beside the sources.
+/// The benchmark set of Sturtevant (2012); skipped where its files are absent.
 TEST(JumpSearch, answers_every_query_of_the_benchmark_scenarios_optimally) {
   namespace fs = std::filesystem;
   const fs::path data = fs::path(LODESTAR_SOURCE_DIR) / "../shared/data/movingai";
-  if (!fs::exists(data)) GTEST_SKIP() << "MovingAI maps are not at hand";
+  if (!fs::exists(data)) GTEST_SKIP() << "no MovingAI maps";
   for (const std::string name : {"Berlin_0_256", "den520d", "arena2", "maze512-32-0"}) {
     const OccupancyMap map = load_movingai_map(data / (name + ".map"));
     const CollisionChecker space(map, 0.0);

@@ -10,7 +10,7 @@ namespace {
 constexpr double radius_m = 0.25;
 const GridPlannerOptions options{.kind = PlannerKind::fastest, .radius_m = radius_m, .clearance_weight = 0.0};
 
-/// A room of 4 x 2 m, cut in two by a wall with a door of so many centimetres in its middle.
+/// A room of 4 x 2 m, divided by a wall with a door of `door_cm` in its middle.
 OccupancyMap rooms(int door_cm) {
   std::vector<std::string> rows(200, std::string(400, '.'));
   const std::size_t low = 100 - static_cast<std::size_t>(door_cm) / 2;
@@ -75,7 +75,7 @@ TEST(MarginPlanner, gives_up_the_margin_only_where_start_and_goal_lie_near_to_wa
   EXPECT_LT((points[points.size() - 2] - beside_wall).norm(), 0.04);
 }
 
-/// A robot may stop a centimetre off its goal: on the wrong side, that would be a contact.
+/// The controller may stop 1 cm off the goal, which at a wall would be a contact.
 TEST(MarginPlanner, stops_a_centimetre_short_of_a_goal_that_touches_a_wall) {
   const OccupancyMap map = rooms(60);
   const Vec2 touching(0.6, 2.0 - radius_m);

@@ -7,7 +7,7 @@
 namespace lodestar {
 namespace {
 
-/// A hall of 4 x 2 m with a wall in the middle that leaves a way below and, if open, one above.
+/// A hall of 4 x 2 m; the wall in its middle leaves a passage above and one below, each if open.
 OccupancyMap hall(bool open_above, bool open_below = true) {
   std::vector<std::string> rows(40, std::string(80, '.'));
   for (std::size_t row = 0; row < 40; ++row) {
@@ -50,7 +50,7 @@ TEST(Route, drops_what_was_passed) {
 TEST(Route, does_not_waver_between_two_ways_that_are_nearly_as_good) {
   const Route below = route_in(hall(false));
   ASSERT_FALSE(passes_above(below.path));
-  // The way above opens. It is a little shorter from here, but not by enough to turn around for.
+  // The passage above opens. It is a little shorter from here, but by too little to turn around.
   const OccupancyMap open = hall(true);
   const MarginPlanner planner(open, options);
   ASSERT_TRUE(passes_above(route_in(open).path));

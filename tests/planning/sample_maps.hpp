@@ -8,7 +8,7 @@
 #include "maps/random.hpp"
 #include "planning/collision_checker.hpp"
 
-// Small maps and slow, plain answers to compare with.
+// Small maps, and brute-force results to compare with.
 namespace lodestar {
 
 /// Rows of text, the top one first: '#' is an obstacle, '?' unknown.
@@ -38,7 +38,7 @@ inline OccupancyMap random_map(Random& random, int columns, int rows, double sha
   return map;
 }
 
-/// Does a disc overlap a square that is not drivable, or the outside? By trying every cell.
+/// True if a disc overlaps a cell that is not drivable, or the outside of the map. Tries every cell.
 inline bool touches(const OccupancyMap& map, const Vec2& center_m, double radius_m) {
   const Vec2 p = inverse(map.map_from_grid) * center_m;
   const double width = map.columns * map.resolution_m;
@@ -57,7 +57,7 @@ inline bool touches(const OccupancyMap& map, const Vec2& center_m, double radius
   return false;
 }
 
-/// The length of the shortest 8-connected path in cells; 1e300 without one.
+/// Length in cells of the shortest 8-connected path; 1e300 without one.
 inline double dijkstra(const OccupancyMap& map, const CollisionChecker& space, Cell start, Cell goal) {
   std::vector<double> best(map.cells.size(), 1e300);
   using Entry = std::pair<double, std::size_t>;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float blind = std::numeric_limits<float>::infinity();
 
-/// A fix of 1 mm in cells marked '.', nothing to see in the others; the top row first.
+/// Fix sigma of 1 mm in cells marked '.', no fix in the others; the top row first.
 UncertaintyConstraint constraint(const std::vector<std::string>& rows, double limit_m, double drift = 1.0) {
   UncertaintyConstraint result{.fix_sigma_m = {}, .drift_m_per_m = drift, .limit_m = limit_m};
   for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
@@ -54,8 +54,8 @@ TEST_P(SurePlanner, goes_around_where_it_would_see_nothing_for_too_long) {
     for (const Vec2& point : plan.path.waypoints_m) most = std::max(most, point.y());
     return most;
   };
-  EXPECT_LT(highest(7.0), 1.0) << "six metres without a fix are allowed: straight on";
-  EXPECT_GT(highest(5.0), 4.0) << "five are not: by way of the top row";
+  EXPECT_LT(highest(7.0), 1.0) << "the 6 m without a fix are within the limit: straight";
+  EXPECT_GT(highest(5.0), 4.0) << "they exceed the limit: along the top row";
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SurePlanner,
@@ -74,7 +74,8 @@ TEST(SurePlanner, says_when_no_way_is_sure_enough) {
   EXPECT_TRUE(std::holds_alternative<Plan>(plan(4.0)));
 }
 
-/// The cheapest way may be too unsure although its beginning is cheaper than that of any sure one.
+/// The cheapest path may violate the constraint although its beginning is cheaper than that of any valid
+/// path.
 TEST(UncertaintyConstrainedPlanner, takes_the_dearer_way_to_a_place_when_only_that_can_go_on) {
   const std::vector<std::string> rows{".  ....  .",  //
                                       ".        .",  //
@@ -90,7 +91,7 @@ TEST(UncertaintyConstrainedPlanner, takes_the_dearer_way_to_a_place_when_only_th
   EXPECT_TRUE(by_the_top);
 }
 
-/// The cost of the cheapest way, by going on from every pair of cost and deviation until nothing changes.
+/// Cost of the cheapest path, by extending every pair of cost and sigma until nothing changes.
 double cheapest_by_trying_all(const OccupancyMap& map, const CollisionChecker& space,
                               const UncertaintyConstrainedPlanner& sure, Cell start, Cell goal) {
   struct Way {

@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Corner posts a robot goes around: many vertices on the full circle about every corner of every obstacle.
+/// Turn points around obstacle corners: 36 vertices on the full circle about every corner of every obstacle.
 std::vector<Vec2> dense_turn_points(const OccupancyMap& map, const CollisionChecker& space) {
   constexpr int vertices = 36;
   const double reach = space.radius_cells() / std::cos(pi / vertices) + 1e-6;
@@ -32,8 +32,7 @@ std::vector<Vec2> dense_turn_points(const OccupancyMap& map, const CollisionChec
   return points;
 }
 
-/// Dijkstra on the whole visibility graph: within 0.3 % of the true optimum, whose arcs have infinitely many
-/// vertices.
+/// Dijkstra on the whole visibility graph: within 0.3 % of the true optimum, which follows exact arcs.
 double shortest_by_visibility_graph(const CollisionChecker& space, std::vector<Vec2> points,
                                     const Vec2& start, const Vec2& goal) {
   points.push_back(start);
@@ -127,7 +126,7 @@ TEST(Fastest, is_never_slower_than_the_other_planners) {
     gain += *shortest / *fastest;
   }
   ASSERT_GT(compared, 20);
-  EXPECT_GT(gain / compared, 1.03) << "turns are what the shortest path wastes";
+  EXPECT_GT(gain / compared, 1.03) << "mean time gained over the shortest path";
 }
 
 TEST(Fastest, goes_around_a_square_corner_with_one_turn) {
@@ -143,7 +142,7 @@ TEST(Fastest, goes_around_a_square_corner_with_one_turn) {
 }
 
 TEST(Fastest, turns_the_shorter_way_to_the_heading_wanted_at_the_goal) {
-  // Past a post by the left or by the right: as long, but the final heading decides.
+  // Left or right of a post, the path is equally long: the goal heading decides.
   std::vector<std::string> rows(41, std::string(80, '.'));
   rows[20][40] = '#';
   const OccupancyMap map = map_from(rows, 0.05);
@@ -153,7 +152,7 @@ TEST(Fastest, turns_the_shorter_way_to_the_heading_wanted_at_the_goal) {
         path_of(planner.plan({1.0, 1.025}, {3.0, 1.025}, {.start_rad = {}, .goal_rad = goal_heading}));
     return path.waypoints_m.at(1).y() > 1.025;
   };
-  EXPECT_TRUE(passes_above(-1.0)) << "comes down to the goal, already turned that way";
+  EXPECT_TRUE(passes_above(-1.0)) << "the last leg leads down, near the goal heading";
   EXPECT_FALSE(passes_above(1.0));
 }
 

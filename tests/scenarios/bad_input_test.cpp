@@ -7,8 +7,8 @@
 
 #include "tests/scenarios/command_line.hpp"
 
-// Whatever is wrong with a file or an option: exit code 2, the place, what was found and what was wanted; and
-// nothing is written.
+// Any error in a file or an option gives exit code 2 and a message with the place, what was found and what
+// was wanted; nothing is written.
 namespace lodestar {
 namespace {
 
@@ -207,7 +207,7 @@ TEST(CommandLine, prints_help_and_version_with_exit_code_0) {
   EXPECT_EQ(run_lodestar("--version", scratch.path()).exit_code, 0);
 }
 
-/// Words from a small dictionary, in any order: each line ends with an option that no command has.
+/// Random words from a small dictionary; each line ends with an option that no command has.
 TEST(CommandLine, is_refused_in_words_whatever_it_is) {
   const ScratchFolder scratch;
   const std::vector<std::string> words{

@@ -15,8 +15,7 @@ TEST(BenchLocalize, stays_near_the_bound_on_a_plain_ceiling) {
   EXPECT_EQ(point.upright.poses, 60);
   EXPECT_LE(point.upright.lateral_m, 0.00005);
   EXPECT_LE(degrees(point.upright.yaw_rad), 0.02);
-  EXPECT_GE(point.upright.lateral_m, 0.7 * point.upright_bound.lateral_m)
-      << "nobody is better than the bound";
+  EXPECT_GE(point.upright.lateral_m, 0.7 * point.upright_bound.lateral_m) << "no method beats the bound";
   EXPECT_LE(point.upright.lateral_m, 2.0 * point.upright_bound.lateral_m);
 }
 

@@ -56,8 +56,8 @@ TEST(BenchPaper, prints_the_papers_method_beside_ours) {
   EXPECT_THAT(ran.out, ContainsRegex("ours 0\\.[0-9]+ cm .*the paper's method here [0-9]+\\.[0-9]+ cm\n"));
 }
 
-// Free P3P on one marker against all its dots and the tilt. Heads turn less than places move: the tilt that
-// it cannot tell moves the camera, and hardly turns it.
+// Free P3P on one marker against all its dots with known tilt. Headings differ less than positions: the tilt,
+// which P3P cannot determine, moves the camera but hardly turns it.
 TEST(BenchPaper, shows_the_papers_method_worse_by_a_ratio_on_the_same_frames) {
   double paper_cm = 0.0;
   double ours_cm = 0.0;
@@ -67,7 +67,8 @@ TEST(BenchPaper, shows_the_papers_method_worse_by_a_ratio_on_the_same_frames) {
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     const PoseBenchResult ours = bench_poses({.seed = seed});
     const PoseBenchResult paper = bench_poses({.seed = seed, .method = MeasuredBy::paper});
-    if (paper.poses() < 24) continue;  // something bright beside the marker, which its detection cannot part
+    // A bright object beside the marker, which its detection cannot separate.
+    if (paper.poses() < 24) continue;
     ++ceilings;
     paper_cm += 100.0 * paper.mean_position_deviation_m();
     ours_cm += 100.0 * ours.mean_position_deviation_m();

@@ -13,7 +13,7 @@
 #include <opencv2/imgproc.hpp>
 #endif
 
-// `lodestar calibrate camera` on pictures that a known camera took of a board.
+// `lodestar calibrate camera` on images of a board, taken by a known camera.
 namespace lodestar {
 namespace {
 
@@ -121,7 +121,7 @@ TEST_F(CalibrateCameraCommand, refuses_what_it_cannot_use) {
 
 #ifdef LODESTAR_ARUCO
 TEST_F(CalibrateCameraCommand, reads_charuco_boards_that_are_partly_in_view) {
-  static constexpr int print_px = 60;  // a square on the sheet
+  static constexpr int print_px = 60;  // per square of the sheet
   static constexpr double side_m = 0.05;
   const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50);
   const auto board = cv::aruco::CharucoBoard::create(7, 6, static_cast<float>(side_m), 0.037F, dictionary);

@@ -11,7 +11,7 @@
 
 #include "tests/scenarios/command_line.hpp"
 
-// `lodestar calibrate mount` on the log of a simulated robot whose camera sits otherwise than its file says.
+// `lodestar calibrate mount` on the log of a simulated robot whose camera mount differs from its file.
 namespace lodestar {
 namespace {
 
@@ -21,7 +21,7 @@ using ::testing::Not;
 
 const fs::path lab = fs::path(LODESTAR_SOURCE_DIR) / "sites/lab";
 
-/// Drives the simulated base through the lab and keeps what a real robot would: images and wheel readings.
+/// Drives the simulated base through the lab and records what a real robot would: images and wheel readings.
 class Logger {
  public:
   Logger(const Eigen::Isometry3d& base_from_camera, const fs::path& folder)
@@ -104,7 +104,7 @@ TEST(CalibrateMountCommand, corrects_the_robot_file_from_turns_and_a_straight_dr
               1.006 / 0.994, 0.006);
 }
 
-/// A log that is one piece short of being read.
+/// A log without markers in view, to which tests add further errors.
 class BadLog : public ::testing::Test {
  protected:
   BadLog() {

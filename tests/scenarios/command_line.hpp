@@ -5,7 +5,7 @@
 
 namespace lodestar {
 
-/// What a command left behind.
+/// The exit code and output of a command.
 struct Ran {
   int exit_code = -1;
   std::string out;
@@ -15,7 +15,7 @@ struct Ran {
 /// Runs `lodestar` with these arguments (words as the shell splits them) in `folder`.
 Ran run_lodestar(const std::string& arguments, const std::filesystem::path& folder);
 
-/// A folder of its own for one test, removed at the end.
+/// A temporary folder for one test, removed at the end.
 class ScratchFolder {
  public:
   ScratchFolder();

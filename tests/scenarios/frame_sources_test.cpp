@@ -6,7 +6,7 @@
 
 #include "tests/scenarios/shots.hpp"
 
-// Where frames may come from, and the drawings of what was seen in them.
+// Sources of frames, and the drawings of what was detected in them.
 namespace lodestar {
 namespace {
 
@@ -121,7 +121,7 @@ TEST_F(FrameSources, colour_alpha_and_16_bits_give_the_same_pose) {
   cv::imwrite(path("deep.png"), deep);
   cv::imwrite(path("deep.pgm"), deep);
   const std::string wanted = column(rows_of(run(localize_ + "frames/0.5.png").out), 3).at(0);
-  // Each for itself: from frame to frame the camera's noise is learned, and poses change by a micrometre.
+  // One run each: within a run the camera's noise is learned, and poses change by a micrometre.
   for (const char* same : {"colour.png", "alpha.png", "deep.png", "deep.pgm"})
     EXPECT_EQ(column(rows_of(run(localize_ + same).out), 3).at(0), wanted) << same;
 }
@@ -154,7 +154,7 @@ TEST_F(FrameSources, drawings_are_named_after_their_frames_and_show_the_refused_
   for (const char* name : {"0.5", "1.5", "dark", "0.5-2"}) {
     const cv::Mat picture = cv::imread(path(std::string("seen/") + name + ".png"));
     EXPECT_EQ(picture.cols, 1280) << name;
-    EXPECT_GT(picture.rows, 960) << name << ": words below the enlarged frame";
+    EXPECT_GT(picture.rows, 960) << name << ": text below the enlarged frame";
   }
 }
 
@@ -181,7 +181,7 @@ TEST_F(FrameSources, the_tilt_of_the_mount_and_how_well_it_holds_count_for_every
   EXPECT_LT(upright, nearly);
   EXPECT_LT(nearly, free);
 
-  // 10 cm behind the robot's middle and 2 cm to its left, as high as it was when the pictures were taken.
+  // The camera is 10 cm behind the robot's centre, 2 cm to its left, and as high as it took the images.
   std::string robot = read_text(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab/robot.yaml");
   const std::size_t at = robot.find("camera_mount:");
   robot.replace(at, robot.find('\n', at) - at,

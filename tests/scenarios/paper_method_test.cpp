@@ -4,7 +4,7 @@
 
 #include "tests/scenarios/shots.hpp"
 
-// `--method paper`, as a user meets it.
+// `--method paper` on the command line.
 namespace lodestar {
 namespace {
 
@@ -24,12 +24,13 @@ TEST_F(PaperMethod, localizes_by_three_dots_of_one_marker_without_standard_devia
   ASSERT_EQ(rows.size(), 3U);
   ASSERT_EQ(rows[1].size(), 14U);
   EXPECT_EQ(rows[1][2], "447") << "nearest to the centre";
-  // Three dots seen from straight below tell the tilt to some fifteen degrees, and so the place to half a
-  // metre.
+  // Three dots seen from straight below determine the tilt to some fifteen degrees, and so the position to
+  // half a metre.
   EXPECT_NEAR(std::stod(rows[1][3]), 1.2, 0.5);
   EXPECT_NEAR(std::stod(rows[1][4]), 2.1, 0.5);
   EXPECT_NEAR(std::stod(rows[1][6]), 75.0, 2.0);
-  EXPECT_GT(std::abs(std::stod(rows[1][7])) + std::abs(std::stod(rows[1][8])), 0.05) << "the tilt is free";
+  EXPECT_GT(std::abs(std::stod(rows[1][7])) + std::abs(std::stod(rows[1][8])), 0.05)
+      << "the tilt is estimated";
   EXPECT_EQ(rows[1][9] + rows[1][10] + rows[1][11], "");
   EXPECT_EQ(rows[1][13], "3");
   const Ran json = localize("--format json frames/0.5.png");
@@ -40,7 +41,7 @@ TEST_F(PaperMethod, gives_the_robots_place_by_eq_17) {
   const std::string robot = std::string(LODESTAR_SOURCE_DIR) + "/sites/lab/robot.yaml";
   const auto rows = rows_of(localize("--mount " + robot + " frames/0.5.png").out);
   ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(std::stod(rows[1][5]), 0.0) << "x, y and heading alone";
+  EXPECT_EQ(std::stod(rows[1][5]), 0.0) << "only x, y and heading";
   EXPECT_EQ(std::stod(rows[1][7]), 0.0);
   EXPECT_EQ(std::stod(rows[1][8]), 0.0);
 }

@@ -11,7 +11,7 @@
 #include "tests/scenarios/command_line.hpp"
 #include "tests/scenarios/shots.hpp"
 
-// The commands that work on files, as a user meets them: images of a known world in, rows out.
+// The commands that work on files, as a user runs them: images of a known world in, rows out.
 namespace lodestar {
 namespace {
 
@@ -129,7 +129,7 @@ TEST(Markers, check_reports_the_smallest_distances_and_their_pairs_as_json) {
   EXPECT_EQ(report["issues"][0]["kind"], "similar-ids");
 }
 
-/// One rule behind both: the console judges a draft as the command line judges the file.
+/// The console checks a draft by the same rules as the command line checks the file.
 TEST(Markers, check_of_a_site_says_what_the_console_says) {
   const ScratchFolder scratch;
   const std::filesystem::path site = scratch.path() / "site";
@@ -153,7 +153,7 @@ TEST(Markers, check_of_a_site_says_what_the_console_says) {
   std::set<std::string> kinds;
   for (auto& issue : told) {
     kinds.insert(issue["kind"].get<std::string>());
-    issue.erase("line");  // which a draft in a browser does not have
+    issue.erase("line");  // a browser's draft has no line numbers
   }
   for (const char* kind : {"repeated-id", "overlapping", "outside-map", "blind-route", "gap"})
     EXPECT_TRUE(kinds.contains(kind)) << kind;

@@ -8,7 +8,7 @@
 
 #include "tests/scenarios/command_line.hpp"
 
-// Whole drives: from the image to the wheels and back, judged by the truth.
+// Whole drives: from images to the wheels and back, scored by ground truth.
 namespace lodestar {
 namespace {
 
@@ -43,7 +43,7 @@ TEST(Replay, drives_from_s_to_e_and_back) {
   }
 }
 
-/// Faults of the robot's disk from the first second on, for a second.
+/// A fault of the robot's disk from 1 s to 2 s.
 std::string disk_fault(const std::string& kind) {
   return "format: lodestar-faults\nversion: 1\nfaults:\n  - {fault: " + kind + ", at_s: 1, for_s: 1}\n";
 }
@@ -109,7 +109,7 @@ TEST(Replay, without_markers_looks_around_and_goes_nowhere) {
   const RunRecord record =
       simulate_drive(site, {.camera = site.default_camera, .seed = 1, .goals = site.goals});
   for (const GoalRecord& goal : record.goals) EXPECT_FALSE(goal.arrived);
-  // Wheels that are not alike and slip do not turn quite on the spot.
+  // Unequal, slipping wheels do not turn exactly on the spot.
   for (const TruePose& pose : record.truth)
     EXPECT_LT((pose.map_from_base.position_m - site.start.position_m).norm(), 0.02);
 }

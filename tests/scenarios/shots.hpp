@@ -25,7 +25,7 @@ inline std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
   return rows;
 }
 
-/// A folder with a registry, a camera and frames taken straight up at known places.
+/// A folder with a registry, a camera and frames taken straight up at known poses.
 class Shots : public ::testing::Test {
  protected:
   Shots() {
@@ -39,7 +39,7 @@ class Shots : public ::testing::Test {
     take("1.5", Pose2{{1.3, 1.9}, radians(-160.0)});
   }
 
-  /// What the camera sees, 2 m below the markers.
+  /// The camera's image, 2 m below the markers.
   cv::Mat shot(const Pose2& camera) {
     ImageFormer former(load_registry(scratch_.path() / "markers.yaml"),
                        load_camera(scratch_.path() / "camera.yaml"), SimulatedCameraOptions{}, 1);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double ceiling_m = 2.6;
 
-/// A marker of nine dots on the axes of the map.
+/// A marker of nine dots, aligned with the map's axes.
 MarkerRegistry nine_dots() {
   MarkerRegistry registry;
   registry.markers = {{0x6c6, {0.0, 0.0, ceiling_m}, 0.0, 0}};
@@ -42,8 +42,8 @@ TEST(CramerRao, of_nine_dots_seen_upright_half_a_metre_off_is_half_a_millimetre)
   ASSERT_EQ(dots.size(), 9U);
   const auto bound = cramer_rao_bound(upright_at(-0.44, -0.06), dots, paper_camera(), Tilt::known);
   ASSERT_TRUE(bound);
-  EXPECT_NEAR(std::sqrt(bound->covariance(0, 0)), 0.00046, 0.00004) << "as the height is in doubt";
-  EXPECT_NEAR(std::sqrt(bound->covariance(1, 1)), 0.00046, 0.00004) << "as the yaw is in doubt";
+  EXPECT_NEAR(std::sqrt(bound->covariance(0, 0)), 0.00046, 0.00004) << "limited by the height";
+  EXPECT_NEAR(std::sqrt(bound->covariance(1, 1)), 0.00046, 0.00004) << "limited by the yaw";
   EXPECT_NEAR(bound->height_m(), 0.0023, 0.00015);
   EXPECT_NEAR(degrees(bound->yaw_rad()), 0.05, 0.004);
 }
@@ -52,12 +52,12 @@ TEST(CramerRao, with_free_tilt_is_centimetres) {
   const auto dots = dots_with_noise(nine_dots(), 0.05);
   const auto bound = cramer_rao_bound(upright_at(-0.44, -0.06), dots, paper_camera(), Tilt::free);
   ASSERT_TRUE(bound);
-  EXPECT_GT(bound->lateral_m(), 0.02) << "tilt and place are nearly the same motion for so small a target";
+  EXPECT_GT(bound->lateral_m(), 0.02) << "tilt and position nearly coincide for so small a target";
   EXPECT_LT(bound->lateral_m(), 0.08);
 }
 
-/// Centred and upright the sums are short: sigma z / (f sqrt n) for x and y, sigma over the root of the sum
-/// of squared distances from the middle for yaw and for the logarithm of the height.
+/// For a centred, upright view the sums are short: sigma z / (f sqrt n) for x and y; for yaw and for the
+/// logarithm of the height, sigma over the root of the sum of squared distances from the centre.
 TEST(CramerRao, of_a_centred_marker_is_what_pencil_and_paper_give) {
   MarkerRegistry registry = nine_dots();
   CameraModel camera = paper_camera();
@@ -86,8 +86,8 @@ TEST(CramerRao, is_nothing_when_the_dots_leave_the_pose_open) {
   EXPECT_FALSE(cramer_rao_bound(above, dots_with_noise(nine_dots(), 0.05), paper_camera(), Tilt::known));
 }
 
-/// Light of contrast C in a disc of radius r, blurred by s, has squared slopes that sum up to
-/// C^2 pi r / (2 sqrt(pi) s) along either axis: the profile of a blurred edge squared, along the rim.
+/// Light of contrast C in a disc of radius r, blurred by s: its squared slopes sum up to C^2 pi r / (2
+/// sqrt(pi) s) along either axis, the squared profile of a blurred edge integrated along the rim.
 TEST(CramerRao, of_rendered_dots_is_what_their_rims_tell) {
   SimulatedCameraOptions options;
   options.read_noise_gray = 4.0;

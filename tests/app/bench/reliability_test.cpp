@@ -19,7 +19,7 @@ TEST(Reliability, sorts_readings_by_what_was_stated) {
   EXPECT_DOUBLE_EQ(bins[1].low, 0.9);
   EXPECT_NEAR(bins[1].mean_stated, (0.95 + 0.93 + 0.9) / 3.0, 1e-12);
   EXPECT_NEAR(bins[1].share_right, 2.0 / 3.0, 1e-12);
-  EXPECT_EQ(bins[2].count, 1) << "certainty belongs to the last bin";
+  EXPECT_EQ(bins[2].count, 1) << "a probability of 1 is in the last bin";
   EXPECT_DOUBLE_EQ(bins[2].high, 1.0);
 }
 

@@ -65,8 +65,8 @@ TEST(BenchTruth, calls_a_right_id_at_another_place_wrong) {
   EXPECT_FALSE(is_right({8, {100.0, 100.0}, {}}, truth));
 }
 
-/// A peer's corners, its pixel centres and its frames, as we take them to be: on a good frame, whatever the
-/// tag's and the camera's yaw, both poses must come out within what noise explains.
+/// Checks the conventions assumed for a peer's corners, pixel centres and frames: on a good frame, at any yaw
+/// of tag and camera, both poses must be true within noise.
 class Peer : public testing::TestWithParam<const char*> {};
 
 TEST_P(Peer, finds_the_camera_where_it_is) {

@@ -72,8 +72,8 @@ TEST(Campaign, misleads_no_robot_that_has_seen_nothing_yet) {
   EXPECT_GT(together, 0);
 }
 
-// 6692: a wheel slips right before a gap of 55 cm. 8476: one frame in twenty seconds teaches a robot with a
-// blurred camera its wheels.
+// 6692: a wheel slips just before a gap of 55 cm. 8476: a robot with a blurred camera learns its wheel scales
+// from one frame in twenty seconds.
 TEST(Campaign, touches_nothing_in_missions_that_once_did) {
   const TemporaryFolder folder;
   for (const auto& [mission, fault] : {std::pair{6692U, "wheel_slip"}, std::pair{8476U, "camera_blurred"}}) {
@@ -95,7 +95,7 @@ TEST(Campaign, goes_on_where_it_was_cut_off) {
   const auto resumed =
       run_campaign(robot, {.first = 4, .missions = 3, .resume = true}, folder / "cut", nothing);
   EXPECT_EQ(campaign_json(whole).dump(), campaign_json(resumed).dump());
-  EXPECT_EQ(lines_in(folder / "cut" / "missions.jsonl"), 4) << "one of them cut off, none twice";
+  EXPECT_EQ(lines_in(folder / "cut" / "missions.jsonl"), 4) << "one of them truncated, no mission twice";
 }
 
 TEST(Campaign, takes_no_missions_of_something_else) {

@@ -12,7 +12,7 @@
 #include "tests/app/sample_run.hpp"
 #include "tests/maps/temporary_folder.hpp"
 
-// One drive's run folder, from its first CAN frame to its report.
+// The run folder of one drive, from its first CAN frame to its report.
 namespace lodestar {
 namespace {
 
@@ -77,7 +77,7 @@ TEST_F(RecordedDrive, says_what_a_full_disk_did_not_take) {
   is_full = false;
   const RunFolderEnd end = run.finish(sample::run());
   EXPECT_EQ(end.loss, "can.log: 3 of 4 are missing: the disk is full");
-  EXPECT_TRUE(end.has_report) << "there is room again";
+  EXPECT_TRUE(end.has_report) << "the disk has space again";
 }
 
 TEST_F(RecordedDrive, tells_once_while_it_drives_that_the_folder_is_not_whole) {

@@ -9,8 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-// What the thread that drives may rely on: it is never held up, memory is bounded, and what is lost is
-// counted.
+// What the control thread relies on: it is never blocked, memory is bounded, and losses are counted.
 namespace lodestar {
 namespace {
 
@@ -18,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A disk that takes nothing until it is told to.
+/// A disk that blocks every write until it is opened.
 class Gate {
  public:
   void open() { promise_.set_value(); }
@@ -57,7 +56,7 @@ TEST(BackgroundWriter, takes_no_more_than_fits_and_holds_nobody_up_while_the_dis
   });
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(writer.put(i)) << i;
   EXPECT_FALSE(writer.accepts());
-  for (int i = 3; i < 1000; ++i) EXPECT_FALSE(writer.put(i)) << i;  // returns, though nothing is written
+  for (int i = 3; i < 1000; ++i) EXPECT_FALSE(writer.put(i)) << i;  // returns, although the disk blocks
   EXPECT_EQ(writer.counts().dropped, 997U);
   disk.open();
   const WriterCounts counts = writer.finish();
@@ -79,7 +78,7 @@ TEST(BackgroundWriter, counts_an_item_by_its_size_until_it_is_written) {
   EXPECT_FALSE(seen.expired());
   disk.open();
   writer.finish();
-  EXPECT_TRUE(seen.expired()) << "what is written takes no more memory";
+  EXPECT_TRUE(seen.expired()) << "written items are freed";
 }
 
 TEST(BackgroundWriter, waits_for_room_where_the_drive_can) {
@@ -140,7 +139,7 @@ TEST(BackgroundWriter, collects_before_it_writes_but_neither_when_full_nor_at_th
   for (const int number : up_to(6)) EXPECT_TRUE(writer.put(number));
   writer.finish();
   ASSERT_FALSE(flushed_at.empty());
-  EXPECT_GE(flushed_at.front(), 4U) << "one flush for what came together";
+  EXPECT_GE(flushed_at.front(), 4U) << "one flush for items that arrived together";
   EXPECT_EQ(flushed_at.back(), 6U);
 }
 

@@ -33,7 +33,7 @@ TEST(Interruption, inside_another_neither_forgets_the_signal_nor_ends_what_the_o
     const Interruption again;
     EXPECT_TRUE(Interruption::asked());
   }
-  std::raise(SIGINT);  // the other of both still has its first
+  std::raise(SIGINT);  // the first SIGINT, after a SIGTERM
   EXPECT_TRUE(Interruption::asked());
 }
 

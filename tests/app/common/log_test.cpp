@@ -21,7 +21,7 @@ namespace {
 using ::testing::EndsWith;
 using ::testing::MatchesRegex;
 
-/// A log on a file, and what stands there when the log has ended.
+/// A log to a file, and the file's content after the log has ended.
 class LogFile {
  public:
   explicit LogFile(LogOptions options = {}) : file_(std::fopen((folder_ / "log").c_str(), "w")) {
@@ -92,7 +92,7 @@ TEST(Log, holds_nobody_up_when_nobody_reads_and_says_how_much_is_missing) {
   constexpr int lines = 10'000;
   std::optional<Log> log;
   log.emplace(LogOptions{.to_journal = true, .out = out, .most_waiting = 10});
-  for (int i = 0; i < lines; ++i) log->say(Severity::info, std::string(999, 'x'));  // though the pipe is full
+  for (int i = 0; i < lines; ++i) log->say(Severity::info, std::string(999, 'x'));  // returns, pipe full
 
   std::string read;
   std::thread terminal([&] {

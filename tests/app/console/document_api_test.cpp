@@ -12,7 +12,7 @@
 
 #include "tests/maps/temporary_folder.hpp"
 
-// The console's documents, without a network.
+// The console's document API, without a network.
 namespace lodestar {
 namespace {
 
@@ -178,7 +178,7 @@ TEST_F(ConsoleTest, refuses_documents_that_are_no_registry_and_writes_nothing) {
   };
   EXPECT_EQ(status_with("id", 4096), 422);
   EXPECT_EQ(status_with("id", 1.5), 422);
-  EXPECT_EQ(status_with("id", 387), 422);  // again
+  EXPECT_EQ(status_with("id", 387), 422);  // a repeated ID
   EXPECT_EQ(status_with("x_m", "1"), 422);
   EXPECT_EQ(status_with("x_m", nullptr), 422);
   EXPECT_EQ(status_with("x_m", 1e300), 422);
@@ -224,7 +224,7 @@ TEST_F(ConsoleTest, shows_run_folders_and_nothing_beside_them) {
   }
   fs::create_directories(run / "pictures");
   std::ofstream(run / "pictures" / "0.500.jpg") << "a picture";
-  std::ofstream(run / "pictures" / "1.000.jpg") << std::string((4U << 20U) + 1, 'x');  // no camera's
+  std::ofstream(run / "pictures" / "1.000.jpg") << std::string((4U << 20U) + 1, 'x');  // too large
   EXPECT_EQ(json::parse(get("/api/runs/seed%207").body)["pictures"], json({"0.500.jpg"}));
   EXPECT_EQ(get("/api/runs/seed%207/pictures/0.500.jpg").body, "a picture");
   for (const char* picture : {"1.000.jpg", "../summary.json", "..%2fsummary.json"}) {
@@ -280,7 +280,7 @@ TEST_F(ConsoleTest, exports_imports_and_prints) {
   EXPECT_EQ(post("/api/markers/print", {{"ids", "all"}}).status, 422);
 }
 
-/// To print such a value into an answer recurses on its levels, and would end the process.
+/// Printing such a value into a response recurses once per level, and would overflow the stack.
 TEST_F(ConsoleTest, refuses_what_is_nested_deeper_than_a_stack) {
   const std::string nested = std::string(200'000, '[') + std::string(200'000, ']');
   for (const char* target : {"/api/markers/print", "/api/markers/export", "/api/markers/import",

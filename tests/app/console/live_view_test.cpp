@@ -7,7 +7,7 @@
 #include "app/console/routes.hpp"
 #include "maps/input_error.hpp"
 
-// Clients without sockets: what they send, what waits for them, and what the robot is told.
+// Clients without sockets: their messages, what is queued for them, and the orders to the robot.
 namespace lodestar {
 namespace {
 
@@ -23,7 +23,7 @@ Stamp at(double time_s) {
   return Stamp{} + from_seconds(time_s);
 }
 
-/// A robot that knows where it is.
+/// A localized robot that stands still.
 RobotState standing(double x_m, double y_m) {
   RobotState state;
   state.estimate = PoseEstimate{.map_from_base = {Vec2(x_m, y_m), 0.0},
@@ -41,7 +41,7 @@ class Client {
   void send(const json& message) const { session_->receive(message.dump(), false); }
   void send_text(const std::string& text) const { session_->receive(text, false); }
 
-  /// The newest message of a type among those that wait; null when there is none. All are taken.
+  /// The newest queued message of a type; null when there is none. Empties the queue.
   json newest(const std::string& type) {
     json found;
     while (const std::optional<SocketMessage> message = outbox_.take()) {
@@ -76,7 +76,7 @@ TEST(LiveView, says_hello_and_shows_the_newest_state_to_all) {
   EXPECT_EQ(first.newest("state")["pose"]["x_m"], 1.4);
   const json path = second.newest("path");
   EXPECT_EQ(path["points"], json::parse("[[1.2, 5.6], [2.0, 5.0]]"));
-  Client late(view);  // sees at once what the others have seen
+  Client late(view);  // gets the newest state at once
   EXPECT_EQ(late.newest("state")["pose"]["x_m"], 1.4);
 }
 
@@ -185,7 +185,7 @@ TEST(Lease, is_held_by_one_and_runs_out) {
   EXPECT_FALSE(lease.hold(2, at(6.0)));
   EXPECT_EQ(lease.holder(at(6.8)), 1);
   EXPECT_EQ(lease.holder(at(6.9)), std::nullopt);
-  EXPECT_FALSE(lease.hold(1, at(7.0)));  // too late: it must be taken anew
+  EXPECT_FALSE(lease.hold(1, at(7.0)));  // expired: the lease must be taken again
   EXPECT_TRUE(lease.take(2, at(7.0)));
   lease.release(1);
   EXPECT_EQ(lease.holder(at(7.1)), 2);

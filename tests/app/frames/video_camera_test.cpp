@@ -13,13 +13,13 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// Two seconds after the robot's time began, somebody plays a video of 20 frames a second.
+/// A video of 20 frames a second, opened two seconds after the robot's time began.
 class VideoCameraTest : public testing::Test {
  protected:
   void SetUp() override {
     const std::string file = (folder / "drive.avi").string();
     cv::VideoWriter writer(file, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20.0, {64, 48}, false);
-    ASSERT_TRUE(writer.isOpened()) << "motion JPEG is OpenCV's own, it is always there";
+    ASSERT_TRUE(writer.isOpened()) << "OpenCV always has its own MJPEG writer";
     for (int i = 0; i < 5; ++i) writer.write(cv::Mat(48, 64, CV_8UC1, cv::Scalar(40 * i)));
   }
 
@@ -27,7 +27,7 @@ class VideoCameraTest : public testing::Test {
     int count = 0;
     for (; const auto frame = camera.poll(); ++count) {
       EXPECT_LE(frame->stamp, now);
-      EXPECT_GT(frame->stamp, now - milliseconds(51)) << "as old as when it arrived from the camera";
+      EXPECT_GT(frame->stamp, now - milliseconds(51)) << "at most one frame period old";
       EXPECT_EQ(frame->gray.type(), CV_8UC1);
     }
     return count;
@@ -41,7 +41,7 @@ TEST_F(VideoCameraTest, plays_in_real_time_from_the_first_poll_on) {
   VideoCamera camera(folder / "drive.avi", [this] { return now; });
   now += seconds(3);  // the robot was not ready yet
   EXPECT_EQ(frames_now(camera), 1);
-  EXPECT_EQ(frames_now(camera), 0) << "the next one was not taken yet";
+  EXPECT_EQ(frames_now(camera), 0) << "the next frame is not due yet";
   now += milliseconds(49);
   EXPECT_EQ(frames_now(camera), 0);
   now += milliseconds(2);

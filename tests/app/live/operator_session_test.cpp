@@ -8,7 +8,7 @@
 #include "app/simulate/simulated_drive.hpp"
 #include "drivers/system/clock.hpp"
 
-// People at the console and a simulated robot: what they ask for, and what it does.
+// Operators at the console and a simulated robot: what they request, and what it does.
 namespace lodestar {
 namespace {
 
@@ -21,7 +21,7 @@ Site lab() {
 
 constexpr Duration long_time = std::chrono::hours(1);
 
-/// Everything that was shown, and the drives that were kept.
+/// All published states, and the recorded drives.
 struct Story {
   std::vector<RobotState> states;
   std::vector<RunRecord> kept;
@@ -33,8 +33,8 @@ struct Story {
   }
 };
 
-/// `tell` is called before each step with what has been seen so far, and gives orders; the story ends when it
-/// says so, or after a long time.
+/// `tell` is called before each step with the story so far, and gives orders; the story ends when it returns
+/// false, or after 20 000 steps.
 Story attended(const Site& site, const std::vector<Goal>& goals,
                const std::function<bool(LiveLink&, const Story&)>& tell) {
   LiveLink link;
@@ -48,7 +48,7 @@ Story attended(const Site& site, const std::vector<Goal>& goals,
   };
   simulate_attended_drive(site, {.camera = site.default_camera, .goals = goals}, session, goes_on,
                           [&](RunRecord record) { story.kept.push_back(std::move(record)); });
-  EXPECT_LT(steps, 20'000) << "the story does not end";
+  EXPECT_LT(steps, 20'000) << "the drive does not end";
   return story;
 }
 
@@ -64,7 +64,7 @@ bool drives_fast(const Story& story) {
   return !story.states.empty() && story.states.back().measured.value_or(BodyVelocity{}).forward_mps > 0.4;
 }
 
-/// Nowhere in the commands from this state on is the robot braked harder than its limits allow.
+/// Expects that from this state on no command exceeds the robot's acceleration limit.
 void expect_gentle(const Story& story, const Site& site, std::size_t from) {
   for (std::size_t i = std::max<std::size_t>(from, 1); i < story.states.size(); ++i) {
     const double elapsed_s = seconds(story.states[i].now - story.states[i - 1].now);
@@ -93,7 +93,7 @@ TEST(OperatorSession, sends_the_robot_where_it_is_told_and_keeps_each_drive) {
   EXPECT_TRUE(story.said("somebody: go to (2.20, 5.00)"));
 }
 
-/// What the camera took is shown as it is and not copied or made into a picture: who wants one makes it.
+/// The camera's frame is handed over without a copy or encoding: a client that wants an image encodes it.
 /// States that nobody has fetched are replaced.
 TEST(OperatorSession, hands_over_the_newest_frame_as_it_is_and_keeps_no_state_for_the_slow) {
   const Site site = lab();
@@ -113,7 +113,7 @@ TEST(OperatorSession, hands_over_the_newest_frame_as_it_is_and_keeps_no_state_fo
   ASSERT_TRUE(newest && newest->frame);
   EXPECT_EQ(newest->frame->stamp, input.now);
   EXPECT_EQ(newest->frame->gray.data, taken.back().data);
-  EXPECT_FALSE(link.newest()) << "the two before it have not waited";
+  EXPECT_FALSE(link.newest()) << "older states are not queued";
 }
 
 TEST(OperatorSession, stops_within_the_limits_for_whoever_asks) {

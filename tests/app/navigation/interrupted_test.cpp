@@ -13,8 +13,8 @@ std::string name_of(const testing::TestParamInfo<Moment>& info) {
   return info.param == Moment::retreating ? "Retreating" : "LookingAround";
 }
 
-/// A drive through the lab under a plain ceiling, whose lens is covered on the way: so the robot goes back,
-/// and at last looks around. Then something happens.
+/// A drive through the lab under a plain ceiling. The lens is covered on the way, so the robot backtracks and
+/// at last spins; then an event interrupts it.
 class Interrupted : public testing::TestWithParam<Moment> {
  protected:
   void SetUp() override {
@@ -32,7 +32,7 @@ class Interrupted : public testing::TestWithParam<Moment> {
     return step.stop && step.command.turn_radps == SpinOptions{}.turn_radps;
   }
 
-  /// Until it is as asked for, or the time has passed.
+  /// Runs until the condition holds (true) or the time has passed (false).
   bool run(double duration_s, const std::function<bool()>& until = [] { return false; }) {
     const Stamp end = simulation.now() + from_seconds(duration_s);
     while (simulation.now() < end) {
@@ -136,7 +136,7 @@ TEST_P(Interrupted, by_a_halt_it_commands_zero_at_once_and_never_drives_on) {
 
 TEST_P(Interrupted, by_another_goal_it_comes_to_rest_and_drives_there_when_it_sees_again) {
   const Vec2 elsewhere_m = lab.site.start.position_m;
-  EXPECT_FALSE(navigation.go_to({elsewhere_m, std::nullopt})) << "it moves, so it cannot plan yet";
+  EXPECT_FALSE(navigation.go_to({elsewhere_m, std::nullopt})) << "no plan while it moves";
   run(3.0);
   is_covered = false;
   EXPECT_TRUE(arrives());

@@ -18,15 +18,15 @@ inline Site lab() {
   return load_site(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab");
 }
 
-/// The lab as it is, with the robot in it that knows the lab as surveyed.
+/// The lab as it really is, with a robot that knows it as surveyed.
 struct Lab {
   Site site = lab();
   KnownWorld known = known_world(site, "wide");
-  MarkerRegistry installed = site.registry;  ///< the real ceiling
+  MarkerRegistry installed = site.registry;  ///< the actual ceiling
   std::uint64_t seed = 1;
   Disturbances disturbances;
-  bool has_plain_ceiling = false;                                ///< nothing to be seen on it but markers
-  std::function<bool(Stamp)> sees = [](Stamp) { return true; };  ///< or the lens is covered
+  bool has_plain_ceiling = false;                                ///< only markers are visible on it
+  std::function<bool(Stamp)> sees = [](Stamp) { return true; };  ///< false: the lens is covered
 
   [[nodiscard]] Simulation simulation() const {
     SimulationOptions options;

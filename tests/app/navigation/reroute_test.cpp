@@ -12,7 +12,7 @@ namespace {
 
 constexpr Duration period = std::chrono::milliseconds(20);
 
-/// The lab, a drive through it to the first goal, and what becomes of the drive.
+/// A drive through the lab to the first goal, with events on the way.
 class Reroute : public testing::Test {
  protected:
   /// `happens` is asked before every step, with the time since the start.
@@ -31,7 +31,7 @@ class Reroute : public testing::Test {
     }
   }
 
-  /// A row of boxes across the lab, in the world and on the robot's map alike.
+  /// A row of boxes across the lab, in the simulated world and on the robot's map.
   void block(double x_m, double from_y_m, double to_y_m) {
     for (double y_m = from_y_m; y_m <= to_y_m; y_m += 0.5 * map.resolution_m) {
       map.cells[map.index(map.cell_at({x_m, y_m}))] = OccupancyMap::occupied;
@@ -59,7 +59,7 @@ class Reroute : public testing::Test {
                          .base_from_camera = site.robot.base_from_camera}};
   BaseDriver base{simulation.can()};
   Mission mission{known, navigation_options(site.robot), {goal}};
-  std::vector<Path> paths;  ///< one after the other
+  std::vector<Path> paths;  ///< in the order planned
   std::vector<RouteChange> changes;
   bool arrived = false;
 };
@@ -68,7 +68,7 @@ TEST_F(Reroute, plans_anew_when_pushed_off_its_path_and_arrives) {
   bool pushed = false;
   drive([&](double time_s) {
     if (!pushed && time_s > 9.0) {
-      simulation.push({{0.0, -0.27}, 0.2});  // farther, and it would believe itself carried away
+      simulation.push({{0.0, -0.27}, 0.2});  // a larger push would count as kidnapping
       pushed = true;
     }
   });
@@ -156,7 +156,7 @@ TEST_F(Reroute, looks_at_a_changed_map_only_after_a_pause) {
   navigation.cancel();
   run(200);
   navigation.map_changed(known.map);
-  EXPECT_EQ(run(50).forward_mps, 0.0) << "there is nothing to follow";
+  EXPECT_EQ(run(50).forward_mps, 0.0) << "there is no path to follow";
 }
 
 }  // namespace

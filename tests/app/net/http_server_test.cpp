@@ -11,7 +11,7 @@
 
 #include "maps/input_error.hpp"
 
-// A server on loopback, and hostile clients: raw bytes, so that nothing polite is put into the requests.
+// A server on loopback and hostile clients, which send raw bytes that no library corrects.
 namespace lodestar {
 namespace {
 
@@ -42,13 +42,13 @@ class Served {
   [[nodiscard]] unsigned short port() const { return server_.port(); }
   [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(port()); }
 
-  /// What came back for some bytes, and who had enough.
+  /// The response to some bytes, and whether the server closed the connection.
   struct Answer {
     std::string bytes;
     bool ended_by_server = false;
   };
 
-  /// All that comes back for these bytes until the server closes or nothing comes for a while.
+  /// The whole response to these bytes, until the server closes or nothing arrives for 2 s.
   [[nodiscard]] std::string send(const std::string& bytes) const {
     return send(bytes, std::chrono::seconds(2)).bytes;
   }
@@ -127,7 +127,7 @@ TEST(HttpServer, refuses_pages_of_other_origins) {
     EXPECT_THAT(served.ask("GET /api/site", host + "Origin: " + origin + "\r\n"), StartsWith("HTTP/1.1 403"))
         << origin;
   }
-  // What a form of another page can send unasked: no X-Lodestar, no JSON.
+  // What a form on another site can send without a preflight: no X-Lodestar, no JSON.
   EXPECT_THAT(served.ask("POST /api/markers/check", host + "Content-Type: application/json\r\n", "{}"),
               StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(
@@ -204,7 +204,7 @@ TEST(HttpServer, lets_nobody_hold_all_its_connections_for_long) {
   std::vector<std::thread> idlers;
   for (int i = 0; i < 4; ++i) {
     idlers.emplace_back([&] {
-      // Far more patient than the server: it is the server that ends this.
+      // Far longer than the server's timeout: the server must close.
       if (served.send(never_finished, std::chrono::seconds(20)).ended_by_server) ++turned_out;
     });
   }

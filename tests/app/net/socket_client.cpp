@@ -49,7 +49,7 @@ void SocketClient::send(const std::string& payload, int opcode) {
   const int length_bytes = size < 126 ? 0 : size < 65536 ? 2 : 8;
   push(0x80U | (length_bytes == 0 ? size : length_bytes == 2 ? 126U : 127U));
   for (int i = length_bytes - 1; i >= 0; --i) push(size >> (8U * static_cast<unsigned>(i)));
-  frame += std::string(4, '\0');  // a mask that changes nothing
+  frame += std::string(4, '\0');  // a mask of zeros
   send_bytes(frame + payload);
 }
 

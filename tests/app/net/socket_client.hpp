@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-// A WebSocket client of raw bytes, so that a test can also be rude.
+// A WebSocket client of raw bytes, so that a test can also violate the protocol.
 namespace lodestar {
 
 class SocketClient {
@@ -14,14 +14,14 @@ class SocketClient {
   SocketClient(const SocketClient&) = delete;
   SocketClient& operator=(const SocketClient&) = delete;
 
-  /// Asks for the upgrade with these further headers ("Origin: ...\r\n"); gives the answer's head.
+  /// Requests the upgrade with these further headers ("Origin: ...\r\n"); returns the response's head.
   std::string upgrade(const std::string& subprotocol, const std::string& headers = "");
 
   /// One masked frame; opcode 1 text, 2 binary.
   void send(const std::string& payload, int opcode = 1);
   void send_bytes(const std::string& bytes) const;
 
-  /// The next message, pings answered on the way; nothing when the server has closed or stays silent.
+  /// The next message, answering pings meanwhile; nothing when the server has closed or stays silent.
   std::optional<std::string> receive();
 
  private:

@@ -9,7 +9,7 @@
 
 #include "tests/app/net/socket_client.hpp"
 
-// Many values for clients of all kinds: those who read, those who never do, and those who should not be here.
+// Values published to clients of all kinds: ones that read, ones that never read, and unauthorized ones.
 namespace lodestar {
 namespace {
 
@@ -19,7 +19,7 @@ using ::testing::StartsWith;
 const std::string view_token = "view-view-view-view";
 const std::string drive_token = "drive-drive-drive-drive";
 
-/// Says its role, then sends back what it is told, and a value of slot 1 with every publish().
+/// Sends its role, then echoes what it receives, and sends a value of slot 1 with every publish().
 class Echo {
  public:
   [[nodiscard]] SocketProtocol protocol() {
@@ -63,7 +63,7 @@ class Echo {
   std::vector<Outbox*> outboxes_;
 };
 
-/// A server that publishes a value of this size at every turn.
+/// A server that publishes a value of this size in every cycle.
 class Served {
  public:
   explicit Served(HttpServerOptions options = {}, std::size_t value_bytes = 0)
@@ -87,7 +87,7 @@ class Served {
     return "Origin: http://127.0.0.1:" + std::to_string(port()) + "\r\n";
   }
 
-  /// Is it so before long?
+  /// Waits up to 10 s for the condition.
   template <typename Condition>
   [[nodiscard]] bool soon(Condition condition) const {
     for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -161,12 +161,12 @@ TEST(Socket, a_client_that_never_reads_holds_up_nobody_and_is_turned_out) {
   const Served served({.patience = std::chrono::seconds(1)}, 200'000);
   SocketClient sleeper(served.port());
   (void)sleeper.upgrade("echo.v1");
-  ASSERT_TRUE(served.soon([&] { return served.echo.dropped > 5; }));  // what it gets is thinned out
+  ASSERT_TRUE(served.soon([&] { return served.echo.dropped > 5; }));  // values for it are dropped
   SocketClient reader(served.port());
   (void)reader.upgrade("echo.v1");
   EXPECT_EQ(reader.receive(), "drive");
   for (int i = 0; i < 20; ++i) EXPECT_EQ(reader.receive().value_or("").size(), 200'000U);
-  // Of the two only the one that reads, and so answers pings, is left after a while.
+  // Only the client that reads, and so answers pings, stays connected.
   const bool one_left = served.soon([&] {
     (void)reader.receive();
     return served.echo.clients == 1;

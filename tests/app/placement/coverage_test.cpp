@@ -5,8 +5,8 @@
 
 #include "app/placement/site_floor.hpp"
 
-// A hall of 10 m x 2 m, where the truth can be worked out by hand: the middle of the robot keeps 0.2 m off
-// the walls, and a marker 2.6 m high is seen within 2 m of its middle, from 0.6 m up.
+// A hall of 10 m x 2 m with results that can be computed by hand: the robot's centre keeps 0.2 m off the
+// walls, and a marker at 2.6 m is seen within 2 m of its centre by a camera at 0.6 m.
 namespace lodestar {
 namespace {
 
@@ -28,7 +28,7 @@ CoveredFloor hall() {
   return floor;
 }
 
-/// A marker whose middle is here: its dot O is 6 cm west and north of it.
+/// A marker centred here: its dot O is 6 cm west and north of the centre.
 RegisteredMarker over(int id, double x_m, double y_m) {
   return {.id = id, .position_m = {x_m - 0.06, y_m + 0.06, 2.6}, .yaw_rad = 0.0, .line = 0};
 }
@@ -46,7 +46,7 @@ TEST(Coverage, a_hall_without_markers_is_one_gap_and_its_route_one_blind_stretch
   EXPECT_DOUBLE_EQ(floor.view.reach_m(2.6), 2.0);
   const auto gaps = find_gaps({}, floor);
   ASSERT_THAT(gaps, SizeIs(1));
-  // 0.2 m off what is beyond the map, counted from cell to cell: 96 by 16 cells.
+  // 0.2 m off the outside of the map, measured from cell to cell: 96 by 16 cells.
   EXPECT_THAT(gaps.front().words, HasSubstr("15.4 m² near"));
   EXPECT_LT((gaps.front().places_m.front() - Vec2(0.25, 0.25)).norm(), 1e-9);
   EXPECT_LT((gaps.front().places_m.back() - Vec2(9.75, 1.75)).norm(), 1e-9);
@@ -64,7 +64,7 @@ TEST(Coverage, markers_that_reach_each_other_leave_no_gap) {
 
   MarkerRegistry aligned = with({over(1, 0.6, 0.0), over(2, 4.0, 0.0), over(7, 7.4, 0.0)});
   aligned.map_from_registry = {{1.0, 1.0}, 0.0};
-  EXPECT_THAT(find_gaps(aligned, floor), IsEmpty()) << "by the registry's place on the map";
+  EXPECT_THAT(find_gaps(aligned, floor), IsEmpty()) << "the registry's alignment to the map counts";
 }
 
 TEST(Coverage, a_stretch_counts_when_the_wheels_would_have_to_carry_the_robot_for_more_than_a_metre) {
@@ -93,7 +93,7 @@ TEST(Coverage, walls_hide_markers_but_for_those_that_hang_over_them) {
   EXPECT_FALSE(blind_east(5.05));
 }
 
-/// The same wall, which an OctoMap knows to end 2 m above the floor.
+/// The same wall, which ends 2 m above the floor by the OctoMap.
 TEST(Coverage, where_heights_are_known_only_what_stands_in_the_line_of_sight_hides) {
   CoveredFloor floor = hall();
   HeightBands heights{.low_m = 0.0,

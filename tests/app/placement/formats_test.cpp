@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 class Format : public ::testing::TestWithParam<std::string> {};
 
-/// Markers all over, in all directions, in a registry that lies askew on the map.
+/// Markers spread out, in all directions, in a registry rotated on the map.
 MarkerRegistry askew_registry() {
   MarkerRegistry registry;
   registry.map_from_registry = {{3.0, -2.0}, radians(33.0)};

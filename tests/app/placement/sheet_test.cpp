@@ -6,7 +6,7 @@
 
 #include "maps/marker.hpp"
 
-// Measures the sheets as a person with a ruler would: in the written file, in millimetres on paper.
+// Measures the sheets as with a ruler: in the written file, in millimetres on paper.
 namespace lodestar {
 namespace {
 
@@ -17,7 +17,7 @@ struct Ring {
   double radius_mm = 0.0;
 };
 
-/// The circles of a PDF: each begins with a move and consists of four curves; its ends are its extent.
+/// The circles of a PDF: each begins with a move and has four curves, whose end points give its extent.
 std::vector<Ring> circles_in_pdf(const std::string& pdf) {
   std::vector<Ring> rings;
   std::vector<Vec2> ends;
@@ -47,7 +47,7 @@ struct Stroke {
   double width_mm = 0.0;
 };
 
-/// The straight lines of a PDF: `W w X Y m X Y l S` on a row each.
+/// The straight lines of a PDF: `W w X Y m X Y l S`, one per row.
 std::vector<Stroke> strokes_in_pdf(const std::string& pdf) {
   std::vector<Stroke> strokes;
   double scale = 0.0;
@@ -68,7 +68,7 @@ std::vector<Stroke> strokes_in_pdf(const std::string& pdf) {
   return strokes;
 }
 
-/// How many strokes are this line, in whichever direction.
+/// Number of strokes that are this line, in either direction.
 std::ptrdiff_t count_of(const std::vector<Stroke>& strokes, const Vec2& a, const Vec2& b) {
   constexpr double same_mm = 0.01;
   const auto at = [](const Vec2& p, const Vec2& q) { return (p - q).norm() < same_mm; };
@@ -77,7 +77,7 @@ std::ptrdiff_t count_of(const std::vector<Stroke>& strokes, const Vec2& a, const
   });
 }
 
-/// The number in quotation marks after a word, from a place of a text on.
+/// The number in quotation marks after a word, from a position in the text on.
 double number_after(const std::string& text, const std::string& word, std::size_t from) {
   return std::stod(text.substr(text.find(word + "=\"", from) + word.size() + 2));
 }
@@ -92,7 +92,7 @@ std::vector<Ring> circles_in_svg(const std::string& svg, double height_mm) {
   return rings;
 }
 
-/// Each dot lies where the marker has it, of its size, on one sheet.
+/// Each dot has the marker's position and size, on one sheet.
 void expect_marker(const std::vector<Ring>& rings, int id) {
   const std::vector<GridCell> dots = dots_of(id);
   ASSERT_EQ(rings.size(), dots.size());
@@ -136,7 +136,7 @@ TEST(MarkerSheet, has_a_ruler_of_100_mm_and_keeps_to_the_page) {
   }
 }
 
-/// The PDF of one sheet, its lines, and where dot O is on the paper: the sheet is centred.
+/// The PDF of one sheet, its lines, and the position of dot O on the paper; the sheet is centred.
 class SheetInPdf : public testing::TestWithParam<const char*> {
  protected:
   static constexpr int id = 447;

@@ -15,7 +15,7 @@ OccupancyMap hall() {
   return empty_floor(40, 20, 0.1);
 }
 
-/// 90 degrees wide: from 1.5 m below, 3 m x 2.25 m of the ceiling.
+/// Field of view of 90 degrees: 3 m x 2.25 m of the ceiling from 1.5 m below.
 CameraModel wide_camera() {
   return {.width_px = 640, .height_px = 480, .fx_px = 320.0, .fy_px = 320.0, .cx_px = 319.5, .cy_px = 239.5};
 }
@@ -59,7 +59,7 @@ TEST(Visibility, expects_what_the_pose_estimate_will_claim) {
   EXPECT_LT(exact_m, 0.001) << "some ten dots of 0.03 px at 1.5 m";
   EXPECT_NEAR(std::sqrt(tilted_m * tilted_m - exact_m * exact_m), 2.6 * radians(0.1), 3e-4)
       << "the robot's tilt, times the height of the ceiling above its floor";
-  EXPECT_GT(*view_at(sure, 1.05, 1.85).position_sigma_m, exact_m) << "farther off it is less sure";
+  EXPECT_GT(*view_at(sure, 1.05, 1.85).position_sigma_m, exact_m) << "sigma grows with distance";
 }
 
 TEST(Visibility, sums_up_shares_and_the_largest_gap) {

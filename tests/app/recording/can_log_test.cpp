@@ -68,7 +68,7 @@ TEST(CanLog, that_finds_no_room_says_so_once_and_holds_nobody_up) {
   EXPECT_THAT(said.front(), HasSubstr("/dev/full"));
 }
 
-/// A pipe that nobody reads is the slowest disk of all.
+/// A pipe that nobody reads acts as a disk that hangs.
 TEST(CanLog, of_a_disk_that_hangs_drops_what_does_not_fit_and_says_how_much) {
   const TemporaryFolder folder;
   const std::string file = (folder / "can.log").string();
@@ -76,9 +76,9 @@ TEST(CanLog, of_a_disk_that_hangs_drops_what_does_not_fit_and_says_how_much) {
   const FileDescriptor reader(::open(file.c_str(), O_RDONLY | O_NONBLOCK));
   std::optional<CanLog> log;
   log.emplace(file, CanLogOptions{.most_waiting = 10'000});
-  for (int i = 0; i < 200'000; ++i) log->take(numbered(i));  // returns, though the pipe is full
+  for (int i = 0; i < 200'000; ++i) log->take(numbered(i));  // returns, although the pipe is full
 
-  ASSERT_EQ(::fcntl(reader.get(), F_SETFL, 0), 0);  // from now on the disk takes what it is given
+  ASSERT_EQ(::fcntl(reader.get(), F_SETFL, 0), 0);  // from now on the disk accepts writes
   std::ptrdiff_t taken = 0;
   std::thread disk([&] {
     std::array<char, 4096> part{};
@@ -86,7 +86,7 @@ TEST(CanLog, of_a_disk_that_hangs_drops_what_does_not_fit_and_says_how_much) {
       taken += std::count(part.begin(), part.begin() + size, '\n');
   });
   const std::string loss = log->finish();
-  log.reset();  // and the pipe ends
+  log.reset();  // closes the pipe
   disk.join();
   EXPECT_LT(taken, 100'000) << "memory is bounded";
   EXPECT_EQ(loss,

@@ -3,7 +3,7 @@
 #include <future>
 #include <gtest/gtest.h>
 
-// The control loop hands frames over as they are; making pictures of them is another thread's work.
+// The control loop hands over frames without a copy; another thread encodes them.
 namespace lodestar {
 namespace {
 
@@ -41,7 +41,7 @@ TEST(PictureKeeper, gives_no_work_to_the_thread_that_drives_and_never_holds_it_u
   const std::vector<Frame> first{frame_at(0.0, 7)};
   {
     PictureKeeper keeper({.pictures_hz = 1.0, .most_waiting = 3, .jpeg_of = [&](const cv::Mat& gray) {
-                            go_on.wait();  // the slowest encoder of all
+                            go_on.wait();  // an encoder that blocks
                             if (made_of == nullptr) made_of = gray.data;
                             made_by = std::this_thread::get_id();
                             return shade_of(gray);
@@ -49,7 +49,7 @@ TEST(PictureKeeper, gives_no_work_to_the_thread_that_drives_and_never_holds_it_u
     EXPECT_TRUE(keeper.keep(record, first));
     for (int i = 1; i < 3; ++i) EXPECT_TRUE(keeper.keep(record, std::vector{frame_at(i, i)})) << i;
     for (int i = 3; i < 100; ++i) EXPECT_FALSE(keeper.keep(record, std::vector{frame_at(i, i)})) << i;
-    EXPECT_EQ(record.pictures.size(), 3U) << "what cannot wait is not promised either";
+    EXPECT_EQ(record.pictures.size(), 3U) << "dropped frames are not in the record";
     EXPECT_EQ(record.dropped_pictures, 97);
     told_to_go_on.set_value();
   }

@@ -23,8 +23,8 @@
 #include "tests/app/sample_run.hpp"
 #include "tests/maps/temporary_folder.hpp"
 
-// Killed at any moment while saving: the old or the new, whole. LODESTAR_KILLS says how often each (30; a run
-// folder, which takes longest to make, a fifth as often unless it is said).
+// A writer killed at any moment leaves the old or the new file, complete. LODESTAR_KILLS sets how often each
+// is killed (default 30; 6 for a run folder, which takes longest to write).
 namespace lodestar {
 namespace {
 
@@ -40,7 +40,7 @@ std::string content_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Files that a killed writer has left behind.
+/// Temporary files that a killed writer has left behind.
 int orphans(const fs::path& folder) {
   int count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -50,7 +50,7 @@ int orphans(const fs::path& folder) {
 
 class Killed : public ::testing::Test {
  protected:
-  /// A child saves one state after the other, 0, 1, 0, 1, until it is killed; then the parent looks.
+  /// A child saves the states 0, 1, 0, 1, ... until it is killed; then the parent calls `look`.
   void while_saving(const std::function<void(int)>& save, const std::function<void()>& look,
                     int times = kills(30)) {
     Random random(7);
@@ -91,7 +91,7 @@ TEST_F(Killed, while_saving_markers) {
                });
   EXPECT_GT(cut_short_, 0) << "no kill came while the file was written";
   save_registry(registry(0), file);
-  EXPECT_EQ(orphans(folder_ / ""), 0) << "the next to save sweeps up";
+  EXPECT_EQ(orphans(folder_ / ""), 0) << "the next save removes leftovers";
 }
 
 TEST_F(Killed, while_saving_a_map) {
@@ -109,7 +109,8 @@ TEST_F(Killed, while_saving_a_map) {
                [&] {
                  const OccupancyMap read = load_map(file).map;
                  const int state = read.columns == 200 ? 0 : 1;
-                 EXPECT_EQ(read.resolution_m, map(state).resolution_m) << "one map's YAML, another's image";
+                 EXPECT_EQ(read.resolution_m, map(state).resolution_m)
+                     << "YAML and image are of different maps";
                  EXPECT_EQ(read.cells, map(state).cells);
                });
 }
@@ -156,14 +157,14 @@ TEST_F(Killed, while_writing_a_run_folder) {
       kills(6));
 }
 
-/// What a full disk does to a writer: each file may grow to so many bytes, then writing fails.
+/// Simulates a full disk: each file may grow to this size, then writing fails.
 void fill_up(rlim_t bytes) {
   ::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{.rlim_cur = bytes, .rlim_max = bytes};
   ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-/// In a child, for limits cannot be raised again: what it says with its exit code.
+/// Runs in a child process, as limits cannot be raised again; returns its exit code.
 int in_child(const std::function<int()>& work) {
   const ::pid_t child = ::fork();
   if (child == 0) ::_exit(work());

@@ -13,7 +13,7 @@
 namespace lodestar {
 namespace {
 
-/// Where a point of the sample's floor is drawn: the figure shows the whole map, 1800 pixels wide.
+/// Colour at a point of the sample's floor; the figure shows the whole map, 1800 pixels wide.
 cv::Vec3b color_at(const cv::Mat& picture, const Vec2& point_m) {
   const Canvas canvas({0.0, 0.0}, {4.0, 2.0}, 1800.0, {});
   const Vec2 pixel = canvas.pixel(point_m);
@@ -65,7 +65,7 @@ TEST(Figure, way_there_and_way_back_differ) {
     for (std::size_t i = 5; i < record.truth.size(); ++i) record.truth[i].map_from_base.position_m.y() = 0.5;
     return draw_experiment(record, sample::floor(), {});
   };
-  // The left edge of the circle around (2.0, 0.5): 5 pixels of 450 in a metre.
+  // The left edge of the circle around (2.0, 0.5): 5 pixels, at 450 pixels per metre.
   const Vec2 edge(2.0 - 5.0 / 450.0, 0.5);
   EXPECT_NE(color_at(differing(1), edge), white);
   EXPECT_NE(color_at(differing(1), edge), color_at(differing(2), edge));

@@ -26,7 +26,7 @@ TEST(Nees, of_an_honest_filter_lies_within_its_bounds) {
   const NeesVerdict verdict = nees_verdict(runs_with(1.0)).value();
   EXPECT_NEAR(verdict.mean, 3.0, 0.1);
   EXPECT_NEAR(verdict.share_inside, 0.95, 0.05);
-  // Chi-squared with 150 degrees of freedom lies in 117.985..185.800 with 95 %.
+  // The 95 % interval of chi-square with 150 degrees of freedom is 117.985..185.800.
   EXPECT_NEAR(verdict.low, 117.985 / 50.0, 0.001);
   EXPECT_NEAR(verdict.high, 185.800 / 50.0, 0.001);
   EXPECT_EQ(verdict.seconds, 200);

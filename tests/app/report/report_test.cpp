@@ -29,7 +29,7 @@ TEST(Report, tells_site_goals_and_how_to_repeat_the_run) {
 }
 
 TEST(Report, carries_its_picture_and_loads_nothing) {
-  // The three ends that base64 can have (RFC 4648, section 10).
+  // The three paddings of base64 (RFC 4648, section 10).
   EXPECT_TRUE(has(report_html(sample::run(), "foo"), "base64,Zm9v\""));
   EXPECT_TRUE(has(report_html(sample::run(), "foob"), "base64,Zm9vYg==\""));
   const std::string html = report_html(sample::run(), "fooba");

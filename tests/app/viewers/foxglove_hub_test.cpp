@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-// The protocol over a real socket is judged by other people's client, in tests/web/foxglove_test.mjs.
+// The protocol over a real socket is checked with a third-party client, in tests/web/foxglove_test.mjs.
 namespace lodestar {
 namespace {
 
@@ -29,7 +29,7 @@ class FoxgloveHubTest : public testing::Test {
   void subscribe(int id, int channel) const {
     tell({{"op", "subscribe"}, {"subscriptions", {{{"id", id}, {"channelId", channel}}}}});
   }
-  /// The message inside the next data frame; nothing when none waits.
+  /// The message in the next data frame; nothing when none is queued.
   std::optional<std::string> next() {
     const std::optional<SocketMessage> frame = outbox.take();
     if (!frame) return std::nullopt;
@@ -69,7 +69,7 @@ TEST_F(FoxgloveHubTest, nobody_gets_what_he_did_not_ask_for) {
   hub.publish(said(0, "early"));
   EXPECT_FALSE(next());
   subscribe(7, 0);
-  EXPECT_EQ(next(), "early");  // as it is now
+  EXPECT_EQ(next(), "early");  // the current value
   tell({{"op", "unsubscribe"}, {"subscriptionIds", {7}}});
   hub.publish(said(0, "late"));
   EXPECT_FALSE(next());
@@ -91,8 +91,8 @@ TEST_F(FoxgloveHubTest, a_slow_viewer_gets_the_newest_value_and_every_event) {
 TEST_F(FoxgloveHubTest, wrong_wishes_are_answered_in_words) {
   join();
   subscribe(1, 0);
-  subscribe(1, 1);  // the number is taken
-  subscribe(2, 0);  // the channel is
+  subscribe(1, 1);  // subscription ID already in use
+  subscribe(2, 0);  // channel already subscribed
   subscribe(3, 99);
   tell({{"op", "advertise"}, {"channels", json::array()}});
   tell({{"op", "unsubscribe"}, {"subscriptionIds", {55}}});

@@ -11,7 +11,7 @@
 
 #include "tests/app/sample_run.hpp"
 
-// The bytes themselves are judged by other people's reader, in tests/web/mcap_test.mjs.
+// The bytes are checked with a third-party reader, in tests/web/mcap_test.mjs.
 namespace lodestar {
 namespace {
 

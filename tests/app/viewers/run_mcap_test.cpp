@@ -33,7 +33,7 @@ std::string all_of(int pipe) {
   return bytes;
 }
 
-/// A pipe that nobody reads is the slowest disk of all.
+/// A pipe that nobody reads acts as a disk that hangs.
 TEST(RunMcap, does_not_wait_for_a_slow_disk_and_says_that_the_file_has_a_gap) {
   const TemporaryFolder folder;
   const std::string file = (folder / "run.mcap").string();
@@ -44,19 +44,19 @@ TEST(RunMcap, does_not_wait_for_a_slow_disk_and_says_that_the_file_has_a_gap) {
   mcap.emplace(folder / "", small_world(), RobotBody{.radius_m = 0.25, .outline_m = {}},
                RunMcapOptions{.most_waiting_bytes = 100'000});
   const RunRecord drive = sample::run();
-  for (int i = 0; i < 20'000; ++i) mcap->add_truth(drive);  // returns, whether the pipe is full or not
+  for (int i = 0; i < 20'000; ++i) mcap->add_truth(drive);  // returns, even when the pipe is full
 
-  ASSERT_EQ(::fcntl(reader.get(), F_SETFL, 0), 0);  // from now on the disk takes what it is given
+  ASSERT_EQ(::fcntl(reader.get(), F_SETFL, 0), 0);  // from now on the disk accepts writes
   std::string taken;
   std::thread disk([&] { taken = all_of(reader.get()); });
   EXPECT_THAT(mcap->finish(),
               AllOf(StartsWith("run.mcap: "), HasSubstr(" of 20000 are missing: the disk did not keep up")));
-  mcap.reset();  // and the pipe ends
+  mcap.reset();  // closes the pipe
   disk.join();
-  EXPECT_TRUE(taken.ends_with("MCAP0\r\n")) << "what is there can be read";
+  EXPECT_TRUE(taken.ends_with("MCAP0\r\n")) << "the file ends properly";
 }
 
-/// A replay can wait, and must leave the same bytes each time.
+/// A replay can wait, and must write the same bytes each time.
 TEST(RunMcap, waits_where_it_may_and_loses_nothing) {
   const TemporaryFolder folder;
   const RunRecord drive = sample::run();

@@ -64,7 +64,7 @@ TEST(AgilexV2, takes_a_control_frame_of_any_length_but_none) {
   EXPECT_EQ(decode_control_mode({0x421, 8, {1}}), ControlMode::can);
   EXPECT_FALSE(is_clear_fault({0x441, 0, {}}));
   EXPECT_TRUE(is_clear_fault({0x441, 8, {}}));
-  EXPECT_FALSE(is_clear_fault({0x441, 1, {3}})) << "one motor only";
+  EXPECT_FALSE(is_clear_fault({0x441, 1, {3}})) << "clears one motor only";
 }
 
 TEST(AgilexV2, reads_a_state_that_the_protocol_does_not_name_as_unknown) {

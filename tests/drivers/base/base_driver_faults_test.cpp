@@ -4,7 +4,7 @@
 
 #include "tests/drivers/base/base_driver_fixture.hpp"
 
-// What the driver latches as a fault, what it bears with, and when it resumes.
+// Faults that the driver latches, deviations that it tolerates, and when it resumes.
 namespace lodestar {
 namespace {
 
@@ -16,14 +16,14 @@ using std::chrono::milliseconds;
 TEST_F(BaseDriverTest, latches_silence_within_100_ms_and_says_stop) {
   make_ready();
   base_silent = true;
-  EXPECT_EQ(periods(5).state, BaseState::ready) << "100 ms old is not too old yet";
+  EXPECT_EQ(periods(5).state, BaseState::ready) << "feedback 100 ms old is still accepted";
   const BaseFeedback feedback = period();
   ASSERT_EQ(bus.sent.size(), 1U);
   EXPECT_EQ(bus.sent[0], agilex::encode_motion_command({}));
   expect_latched(BaseFault::feedback_lost, feedback);
-  EXPECT_FALSE(driver.resume(now)) << "nobody is there to resume";
+  EXPECT_FALSE(driver.resume(now)) << "the base is still silent";
   base_silent = false;
-  EXPECT_EQ(periods(50).state, BaseState::fault) << "a fault stays until somebody resumes";
+  EXPECT_EQ(periods(50).state, BaseState::fault) << "a fault is latched until a resume";
 }
 
 TEST_F(BaseDriverTest, latches_when_one_kind_of_feedback_stays_away) {
@@ -35,7 +35,7 @@ TEST_F(BaseDriverTest, latches_when_one_kind_of_feedback_stays_away) {
     hear(agilex::encode_system_state(system));
     ++system.counter;
     hear(agilex::encode_motion_state(measured));
-    ASSERT_NE(feedback.state, BaseState::fault) << "at 300 ms it may still come";
+    ASSERT_NE(feedback.state, BaseState::fault) << "feedback 300 ms old is still accepted";
     feedback = driver.poll(now);
   }
   expect_latched(BaseFault::feedback_lost, feedback);
@@ -57,7 +57,7 @@ TEST_F(BaseDriverTest, leaves_a_base_that_somebody_took_over_alone) {
   expect_latched(BaseFault::left_can_mode, feedback);
   periods(50);
   EXPECT_TRUE(bus.sent.empty());
-  EXPECT_FALSE(driver.resume(now)) << "while the remote control has it";
+  EXPECT_FALSE(driver.resume(now)) << "the base is still in remote mode";
 
   system.mode = ControlMode::standby;
   EXPECT_EQ(periods(10).state, BaseState::fault);
@@ -82,7 +82,7 @@ TEST_F(BaseDriverTest, does_not_resume_before_the_cause_is_gone) {
   EXPECT_FALSE(driver.resume(now));
   EXPECT_EQ(period().state, BaseState::fault);
   system.vehicle = VehicleState::normal;
-  EXPECT_EQ(period().state, BaseState::fault) << "releasing the button moves nothing";
+  EXPECT_EQ(period().state, BaseState::fault) << "a released button does not clear the fault";
   EXPECT_TRUE(driver.resume(now));
   EXPECT_EQ(period().state, BaseState::ready);
 }
@@ -136,8 +136,8 @@ TEST_F(BaseDriverTest, latches_a_base_that_runs_away) {
   expect_latched(BaseFault::not_following, periods(2));
 }
 
-/// Turning slowly about a wheel that stands still, as an encoder that is stuck has it, is no more than a
-/// small error; but it does not pass.
+/// In a slow turn about one wheel, a stuck encoder of the other is a small error in speed, but one that
+/// lasts.
 TEST_F(BaseDriverTest, latches_a_wheel_that_stands_while_the_robot_creeps) {
   make_ready();
   measured = {0.0, 0.0};
@@ -148,7 +148,7 @@ TEST_F(BaseDriverTest, latches_a_wheel_that_stands_while_the_robot_creeps) {
     feedback = period();
   }
   EXPECT_EQ(feedback.fault, BaseFault::not_following);
-  // 0.12 s until even the slowest base turns at 0.35 rad/s, and 1 s of patience.
+  // 0.12 s until even the slowest base turns at 0.35 rad/s, and 1 s of tolerance.
   EXPECT_NEAR(periods_until_fault, 56, 2);
 }
 
@@ -170,7 +170,7 @@ TEST_F(BaseDriverTest, latches_a_base_that_ignores_its_commands) {
     feedback = period();
   }
   EXPECT_EQ(feedback.fault, BaseFault::not_following);
-  // 0.3 s until even the slowest base moves at 0.3 m/s, and 0.2 s of patience.
+  // 0.3 s until even the slowest base moves at 0.3 m/s, and 0.2 s of tolerance.
   EXPECT_NEAR(periods_until_fault, 25, 2);
 }
 
@@ -178,7 +178,7 @@ TEST_F(BaseDriverTest, blames_no_base_for_a_pause_of_its_own) {
   make_ready();
   driver.command({0.6, 0.0});
   period();
-  now += milliseconds(400);  // in which even the slowest base would have sped up
+  now += milliseconds(400);  // enough for even the slowest base to reach its speed
   base_speaks();
   EXPECT_EQ(driver.poll(now).state, BaseState::ready);
   driver.command({0.6, 0.0});
@@ -216,7 +216,7 @@ TEST_F(BaseDriverTest, asks_a_guard_that_holds_back_to_let_go_only_on_resume) {
   EXPECT_EQ(bus.resumes, 0);
   EXPECT_TRUE(driver.resume(now));
   EXPECT_EQ(bus.resumes, 1);
-  EXPECT_NE(period().state, BaseState::ready) << "the guard has not let go yet";
+  EXPECT_NE(period().state, BaseState::ready) << "the guard still controls the base";
   bus.state = BusState::up;
   EXPECT_EQ(period().state, BaseState::ready);
 }
@@ -225,7 +225,7 @@ TEST_F(BaseDriverTest, releases_a_base_that_somebody_else_has_taken) {
   make_ready();
   system.mode = ControlMode::remote;
   expect_latched(BaseFault::left_can_mode, period());
-  EXPECT_EQ(bus.releases, 1) << "so that no guard stops it in our name";
+  EXPECT_EQ(bus.releases, 1) << "else the guard would send it stop commands";
 }
 
 TEST_F(BaseDriverTest, gives_a_base_one_more_period_after_a_pause_of_its_own) {

@@ -6,10 +6,10 @@
 
 #include "drivers/base/base_driver.hpp"
 
-// A base driver between a bus and a base that are the test's.
+// A base driver on a scripted bus with a scripted base.
 namespace lodestar::testing {
 
-/// The far end of the bus in the hands of the test.
+/// A bus that the test feeds and reads.
 class ScriptedBus final : public CanBus {
  public:
   bool send(const CanFrame& frame) override {
@@ -36,7 +36,7 @@ class ScriptedBus final : public CanBus {
   std::deque<StampedCanFrame> arriving;
 };
 
-/// A driver, and a base that says every 20 ms what the test wants it to say.
+/// A driver, and a base that sends the test's values every 20 ms.
 class BaseDriverTest : public ::testing::Test {
  protected:
   void hear(const CanFrame& frame) { bus.arriving.push_back({now, frame}); }
@@ -73,7 +73,7 @@ class BaseDriverTest : public ::testing::Test {
     EXPECT_EQ(feedback.fault, fault) << to_string(feedback.fault.value_or(BaseFault::send_failed));
     bus.sent.clear();
     driver.command({0.5, 0.0});
-    EXPECT_TRUE(bus.sent.empty()) << "drives in spite of the fault";
+    EXPECT_TRUE(bus.sent.empty()) << "commands motion despite the fault";
   }
 
   ScriptedBus bus;

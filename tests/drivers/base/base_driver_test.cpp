@@ -78,7 +78,7 @@ TEST_F(BaseDriverTest, counts_missing_system_states) {
   EXPECT_EQ(period().state, BaseState::ready);
   EXPECT_EQ(driver.counts().counter_jumps, 1U);
   EXPECT_EQ(periods(300).state, BaseState::ready);
-  EXPECT_EQ(driver.counts().counter_jumps, 1U) << "wrapping around is no jump";
+  EXPECT_EQ(driver.counts().counter_jumps, 1U) << "a wraparound is not a jump";
 }
 
 TEST_F(BaseDriverTest, keeps_the_curve_of_a_command_that_is_too_fast) {
@@ -89,7 +89,7 @@ TEST_F(BaseDriverTest, keeps_the_curve_of_a_command_that_is_too_fast) {
   EXPECT_EQ(bus.sent.back(), agilex::encode_motion_command({0.25, -2.0}));
   EXPECT_EQ(driver.saturated_commands(), 2U);
   driver.command({1.0, -2.0});
-  EXPECT_EQ(driver.saturated_commands(), 2U) << "at the limit is not beyond it";
+  EXPECT_EQ(driver.saturated_commands(), 2U) << "a command at the limit is not saturated";
 }
 
 TEST_F(BaseDriverTest, sends_zero_for_a_velocity_that_is_not_finite) {
@@ -113,7 +113,7 @@ TEST_F(BaseDriverTest, counts_odd_frames_and_drives_on) {
   hear({agilex::odometer_id, 7, {}});
   hear({agilex::motion_state_id, 0, {}});
   hear({agilex::system_state_id, 6, {}});
-  hear({0x251, 8, {}});  // a motor's report is not odd, only not ours
+  hear({0x251, 8, {}});  // a motor's report is unused, but valid
   EXPECT_EQ(period().state, BaseState::ready);
   EXPECT_EQ(driver.counts().odd_frames, 3U);
 }
@@ -140,7 +140,7 @@ TEST_F(BaseDriverTest, survives_any_frames) {
     states.insert(feedback.state);
     readings += feedback.travel.size();
   }
-  EXPECT_EQ(states.size(), 4U) << "it has been everything that it can be";
+  EXPECT_EQ(states.size(), 4U) << "every state was reached";
   EXPECT_GT(readings, 1000U);
 }
 

@@ -14,7 +14,7 @@
 // A simulated base and a navigator's driver on one bus.
 namespace lodestar::testing {
 
-/// Loses frames at random, either way.
+/// Loses frames at random, in both directions.
 class LossyBus final : public CanBus {
  public:
   LossyBus(CanBus& bus, double loss) : bus_(bus), loss_(loss) {}
@@ -31,7 +31,7 @@ class LossyBus final : public CanBus {
   Random random_{9};
 };
 
-/// The base on one end of a bus, the navigator's driver on the other: they know each other by frames only.
+/// The base on one end of a bus, the navigator's driver on the other, connected by frames only.
 struct World {
   explicit World(const SimulatedBaseOptions& options = {}, std::uint64_t seed = 1,
                  std::optional<SimulatedMotion::Surroundings> surroundings = std::nullopt, double loss = 0.0)
@@ -42,7 +42,7 @@ struct World {
     bus.on_frame([this](const StampedCanFrame& frame) { log.write(frame); });
   }
 
-  /// Runs for some time; the navigator polls every 20 ms and commands what it is told, if anything.
+  /// Runs for `time`; the navigator polls every 20 ms and sends its command, if any.
   void run(Duration time, const std::function<std::optional<BodyVelocity>()>& navigator) {
     for (const Stamp end = now + time; now < end;) {
       now += std::chrono::milliseconds(1);

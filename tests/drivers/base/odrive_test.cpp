@@ -74,8 +74,8 @@ TEST(Odrive, stays_stopped_after_an_emergency_stop_until_its_errors_are_cleared_
   world.drive({0.3, 0.0}, milliseconds(300));
   world.base.press_emergency_stop(false);
   world.drive({0.3, 0.0}, milliseconds(300));
-  EXPECT_EQ(world.feedback.state, BaseState::fault) << "released is not resumed";
-  EXPECT_FALSE(world.driver.resume(world.now)) << "asks the axes to clear their errors";
+  EXPECT_EQ(world.feedback.state, BaseState::fault) << "a release does not resume";
+  EXPECT_FALSE(world.driver.resume(world.now)) << "the first resume makes the axes clear their errors";
   world.drive({}, milliseconds(300));
   EXPECT_TRUE(world.driver.resume(world.now));
   world.drive({0.3, 0.0}, seconds(1));
@@ -105,7 +105,7 @@ TEST(Odrive, with_a_watchdog_goes_idle_when_nobody_commands) {
             std::vector<std::string>{"watchdog expired"});
 }
 
-/// What a client hears when it asks.
+/// Messages that a client receives on request.
 TEST(Odrive, answers_requests_and_only_those) {
   World world;
   CanBus& client = world.bus.attach();
@@ -115,7 +115,7 @@ TEST(Odrive, answers_requests_and_only_those) {
     return count;
   };
   world.drive({}, milliseconds(400));
-  EXPECT_EQ(heard_of(odrive::tables::version.id), 0) << "is not cyclic";
+  EXPECT_EQ(heard_of(odrive::tables::version.id), 0) << "the version is not cyclic";
 
   ASSERT_TRUE(client.send({odrive::tables::version.id + odrive::node_step, 0, {}}));
   world.drive({}, milliseconds(20));
@@ -123,7 +123,7 @@ TEST(Odrive, answers_requests_and_only_those) {
 
   ASSERT_TRUE(client.send({odrive::tables::set_limits.id, 0, {}}));
   world.drive({}, milliseconds(20));
-  EXPECT_EQ(heard_of(odrive::tables::set_limits.id), 0) << "that is no question";
+  EXPECT_EQ(heard_of(odrive::tables::set_limits.id), 0) << "set_limits is no request";
 }
 
 TEST(Odrive, stands_in_another_control_mode_than_velocity) {

@@ -17,26 +17,26 @@ using std::chrono::seconds;
 
 constexpr std::size_t whole_picture = 32;
 
-/// Somebody plugs a camera in and out; the time is the test's. What is done on the side is waited for,
-/// however busy the machine is.
+/// Simulates plugging a camera in and out, on the test's own clock. Waits for work on other threads, however
+/// busy the machine is.
 class PluggableCameraTest : public testing::Test {
  protected:
   std::unique_ptr<V4l2Camera> open() {
     std::unique_lock lock(mutex);
     ++opened;
-    // Held until the thread ends: only then the camera can take what came of the attempt.
+    // Held until the thread ends: only then can the camera take the attempt's result.
     if (std::this_thread::get_id() != of_test) std::notify_all_at_thread_exit(ended, std::move(lock));
     return std::make_unique<V4l2Camera>(std::make_unique<VideoDeviceStandIn>(script), "/dev/video7",
                                         V4l2CameraOptions{});
   }
 
-  /// The attempt with this number is made, and over.
+  /// Waits until this attempt to open the camera has ended.
   bool attempt_is_over(int number) {
     std::unique_lock lock(mutex);
     return ended.wait_for(lock, std::chrono::minutes(1), [&] { return opened >= number; });
   }
 
-  /// No frame comes, and nobody tries to open anything, as far as a moment tells.
+  /// Expects no frame and, within 20 ms, no attempt to open the camera.
   void expect_patience(PluggableCamera& camera) {
     const int before = attempts();
     EXPECT_FALSE(camera.poll());

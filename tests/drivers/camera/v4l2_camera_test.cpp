@@ -17,7 +17,7 @@ V4l2Camera camera_on(VideoScript& script, const V4l2CameraOptions& options = {})
   return {std::make_unique<VideoDeviceStandIn>(script), "/dev/video7", options};
 }
 
-/// The pixel's number as its gray, line after line.
+/// Each pixel's gray is its index, line by line.
 std::vector<std::uint8_t> counted(std::size_t bytes) {
   std::vector<std::uint8_t> result(bytes);
   for (std::size_t i = 0; i < bytes; ++i) result[i] = static_cast<std::uint8_t>(i);
@@ -45,11 +45,11 @@ TEST(V4l2Camera, prefers_gray_and_hands_out_frames_in_order) {
   const std::optional<Frame> second = camera.poll();
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->gray.size(), cv::Size(8, 4));
-  EXPECT_EQ(first->gray.at<std::uint8_t>(2, 3), 19) << "still its own after the next one";
+  EXPECT_EQ(first->gray.at<std::uint8_t>(2, 3), 19) << "unchanged by the next frame";
   EXPECT_EQ(second->gray.at<std::uint8_t>(0, 0), 9);
   EXPECT_EQ(first->stamp, Stamp(std::chrono::milliseconds(7250)));
   EXPECT_FALSE(camera.poll());
-  EXPECT_FALSE(camera.lost()) << "nothing there is not gone";
+  EXPECT_FALSE(camera.lost()) << "no frame is not a lost camera";
 }
 
 TEST(V4l2Camera, goes_on_for_longer_than_it_has_buffers) {
@@ -69,9 +69,12 @@ TEST(V4l2Camera, stamps_the_middle_of_the_exposure) {
                      {counted(32), monotonic | V4L2_BUF_FLAG_TSTAMP_SRC_EOF, {.tv_sec = 1, .tv_usec = 0}},
                      {counted(32), V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN, {.tv_sec = 1, .tv_usec = 0}}};
   V4l2Camera camera = camera_on(script, {.readout = std::chrono::milliseconds(30)});
-  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1004))) << "from the start of the exposure";
-  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1000 - 30 - 4))) << "from the frame's end";
-  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(50'000 - 4))) << "no stamp: the arrival";
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1004)))
+      << "stamped at the start of the exposure";
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1000 - 30 - 4)))
+      << "stamped at the frame's end";
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(50'000 - 4)))
+      << "no stamp: from the arrival";
 }
 
 TEST(V4l2Camera, leaves_out_damaged_and_short_frames) {
@@ -98,7 +101,7 @@ TEST(V4l2Camera, says_when_it_is_gone) {
   EXPECT_FALSE(camera.poll());
   EXPECT_TRUE(camera.lost());
   script.unplugged = false;
-  EXPECT_FALSE(camera.poll()) << "gone is gone";
+  EXPECT_FALSE(camera.poll()) << "a lost camera stays lost";
 }
 
 TEST(V4l2Camera, stops_and_closes_at_the_end) {

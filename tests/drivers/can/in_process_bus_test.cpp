@@ -25,12 +25,12 @@ std::vector<std::uint32_t> ids_heard(CanBus& bus) {
   return ids;
 }
 
-// Computed outside this program, with the polynomial divided at length.
+// Computed outside this program, by long division of the CRC polynomial.
 TEST(CanWire, counts_stuff_bits_exactly) {
   EXPECT_EQ(bits_on_wire({0x111, 8, {0x00, 0x96}}), 124);
   EXPECT_EQ(bits_on_wire({0x211, 8, {0, 1, 1, 4, 0, 0, 0, 0x7F}}), 123);
   EXPECT_EQ(bits_on_wire({0x000, 8, {}}), 127);
-  // Runs of four, each made five by the stuff bit before.
+  // Runs of four bits, each extended to five by the stuff bit before.
   EXPECT_EQ(bits_on_wire({0x078, 8, {0x3C, 0x3C, 0x3C, 0x3C, 0x3C, 0x3C, 0x3C, 0x3C}}), 131);
   EXPECT_EQ(bits_on_wire({0x555, 8, {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55}}), 112);
   EXPECT_EQ(bits_on_wire({0x421, 1, {1}}), 57);
@@ -67,7 +67,7 @@ TEST(InProcessBus, brings_a_frame_to_all_others_after_its_time_on_the_wire) {
     EXPECT_EQ(received->frame, sent);
     EXPECT_FALSE(end->poll());
   }
-  EXPECT_FALSE(sender.poll()) << "nobody hears himself";
+  EXPECT_FALSE(sender.poll()) << "a sender does not receive its own frames";
 }
 
 TEST(InProcessBus, lets_the_lowest_waiting_identifier_go_first) {
@@ -76,7 +76,7 @@ TEST(InProcessBus, lets_the_lowest_waiting_identifier_go_first) {
   CanBus& b = bus.attach();
   CanBus& listener = bus.attach();
   ASSERT_TRUE(a.send(frame(0x311)));
-  ASSERT_TRUE(a.send(frame(0x100)));  // behind the one before: each end sends in order
+  ASSERT_TRUE(a.send(frame(0x100)));  // queued behind 0x311: each end sends in order
   ASSERT_TRUE(b.send(frame(0x211)));
   ASSERT_TRUE(b.send(frame(0x7FF)));
   bus.advance(at_ms(10));
@@ -107,7 +107,8 @@ TEST(InProcessBus, tells_its_listener_each_frame_once_in_the_order_of_the_wire) 
   bus.advance(at_ms(1));
   ASSERT_EQ(log.size(), 2U);
   EXPECT_EQ(log[0].frame.id, 0x111U);
-  EXPECT_EQ(log[0].stamp, Stamp(microseconds(2) * bits_on_wire(frame(0x111)))) << "without the latency";
+  EXPECT_EQ(log[0].stamp, Stamp(microseconds(2) * bits_on_wire(frame(0x111))))
+      << "stamped before the latency";
   EXPECT_EQ(log[1].stamp - log[0].stamp, Duration(microseconds(2) * bits_on_wire(frame(0x222))));
 }
 
@@ -115,7 +116,7 @@ TEST(InProcessBus, refuses_what_does_not_fit) {
   InProcessBus bus({.transmit_queue = 2, .receive_queue = 3});
   CanBus& sender = bus.attach();
   CanBus& listener = bus.attach();
-  EXPECT_FALSE(sender.send({0x800, 0, {}})) << "no 11-bit identifier";
+  EXPECT_FALSE(sender.send({0x800, 0, {}})) << "not an 11-bit identifier";
   EXPECT_FALSE(sender.send({0x100, 9, {}}));
   EXPECT_TRUE(sender.send(frame(1)));
   EXPECT_TRUE(sender.send(frame(2)));

@@ -52,7 +52,7 @@ TEST(Ceiling, glues_dots_as_exactly_as_hands_do) {
   for (std::size_t i = 0; i < exact.size(); ++i) {
     for (std::size_t k = 0; k < exact[i].dots.size(); ++k) {
       const Vec3 off_m = glued[i].dots[k].center_m - exact[i].dots[k].center_m;
-      EXPECT_EQ(off_m.z(), 0.0) << "film is flat";
+      EXPECT_EQ(off_m.z(), 0.0) << "the dots stay in the marker's plane";
       EXPECT_EQ(glued[i].dots[k].gray, exact[i].dots[k].gray);
       sum_m2 += off_m.squaredNorm();
       ++dots;

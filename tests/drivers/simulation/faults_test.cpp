@@ -10,7 +10,7 @@
 #include "drivers/simulation/faulty_camera.hpp"
 #include "drivers/simulation/simulation.hpp"
 
-// The world that hurts, part by part.
+// Each fault that the simulation injects, by itself.
 #include "tests/maps/empty_floor.hpp"
 
 namespace lodestar {
@@ -28,7 +28,7 @@ Fault on_marker(FaultKind kind, int id) {
   return {.kind = kind, .marker = id, .shift_m = 0.5, .direction_rad = radians(90.0), .turn_rad = 0.1};
 }
 
-/// A picture that tells its number.
+/// Frames whose gray level is their number.
 class NumberedCamera final : public Camera {
  public:
   std::optional<Frame> poll() override {
@@ -73,7 +73,7 @@ TEST(DisturbedCeiling, hangs_markers_as_the_faults_have_them) {
   const MarkerRegistry doubled = disturbed(markers, {on_marker(FaultKind::marker_duplicated, 447)});
   EXPECT_EQ(std::ranges::count(doubled.markers, 447, &RegisteredMarker::id), 2);
   const MarkerRegistry wrong = disturbed(markers, {on_marker(FaultKind::marker_wrong_id, 447)});
-  EXPECT_EQ(wrong.markers.front().id, 1782) << "the neighbour's";
+  EXPECT_EQ(wrong.markers.front().id, 1782) << "the neighbour's ID";
   const MarkerRegistry swapped = disturbed(markers, {on_marker(FaultKind::markers_swapped, 447)});
   EXPECT_EQ(swapped.find(447)->position_m.x(), 2.0);
   EXPECT_EQ(swapped.find(1782)->position_m.x(), 1.0);
@@ -150,7 +150,7 @@ OccupancyMap free_floor() {
   return empty_floor(100, 60, 0.1);
 }
 
-/// Where a robot that is told to drive ahead for two seconds truly ends.
+/// Ground-truth distance after 3 s of a robot that is commanded to drive ahead.
 double driven_m(const std::vector<Fault>& faults) {
   CameraModel camera;
   camera.width_px = 64;

@@ -114,7 +114,7 @@ struct Confidence {
   [[nodiscard]] bool is_in_tables() const { return mean() >= 0.84 && mean() <= 0.95; }
 };
 
-/// Over the eroded dots of one marker; nothing when one of its dots lies outside the picture.
+/// Over the eroded dots of one marker; nothing when one of its dots is outside the frame.
 std::optional<Confidence> confidence_of(const MarkerRegistry& registry, const RegisteredMarker& marker,
                                         const Eigen::Isometry3d& map_from_camera, const CameraModel& camera,
                                         const cv::Mat& gray, const cv::Mat& eroded) {
@@ -138,7 +138,7 @@ TEST_P(EitherCamera, ordinary_light_gives_the_confidence_of_the_papers_tables) {
   const MarkerRegistry registry = many_markers(height, 0.5, 3);
   ImageFormer former(registry, camera, {}, 4);
   const cv::Mat cross = cv::getStructuringElement(cv::MORPH_CROSS, {3, 3});
-  // A marker far from the wide camera keeps only a handful of pixels, whose mean says little by itself.
+  // Far from the wide camera, a marker has only a handful of pixels, too few for a mean.
   constexpr int enough_pixels = 30;
   constexpr int frames = 60;
   Random random(5);
@@ -221,7 +221,7 @@ TEST(ImageFormer, motion_smears_a_dot_along_it_and_moves_it_half_way) {
   const Vec2 o(camera.cx_px, camera.cy_px);
   const Spot still = measure_spot(former.expose(opening, opening, 0), o, 9, options.background_gray);
   const Spot smeared = measure_spot(former.expose(opening, closing, 0), o, 9, options.background_gray);
-  // The camera moves right, the picture left, by 5.8 px; an even smear of length s has variance s^2 / 12.
+  // The camera moves right, the image left, by 5.8 px; a uniform blur of length s has variance s^2 / 12.
   const double smear_px = 0.02 * camera.fx_px / 2.6;
   EXPECT_NEAR(smeared.center_px.x(), still.center_px.x() - smear_px / 2, 0.02);
   EXPECT_NEAR(smeared.center_px.y(), still.center_px.y(), 0.02);
@@ -247,7 +247,7 @@ TEST(ImageFormer, a_dot_is_darker_in_a_corner_and_from_far) {
     const Vec2 pixel = *camera.project(registry.markers[i].position_m);
     return static_cast<int>(gray.at<std::uint8_t>(cv::Point(cvRound(pixel.x()), cvRound(pixel.y()))));
   };
-  // THEN both the corner and the distance take light from a dot
+  // THEN both the corner and the distance darken a dot
   EXPECT_NEAR(gray_of(0), 246, 1);
   EXPECT_LT(gray_of(1), gray_of(0) - 1);
   EXPECT_LT(gray_of(3), gray_of(0) - 1);

@@ -15,8 +15,8 @@ using testing::plain_light;
 
 constexpr double ceiling_m = 2.6;
 
-/// White but for a black quarter at the top left of the printed face; it hangs face down, and a camera that
-/// looks up with yaw 0 sees it upright.
+/// White except for a black quarter at the top left of the printed face; it hangs face down, and a camera
+/// that looks up with yaw 0 sees it upright.
 PrintedSquare quartered(double x_m, double y_m) {
   PrintedSquare square;
   square.map_from_square.linear() = Vec3(1.0, -1.0, -1.0).asDiagonal();
@@ -54,7 +54,7 @@ TEST(PrintedSquare, reads_as_printed_to_a_camera_below) {
 }
 
 TEST(PrintedSquare, has_its_light_where_the_camera_model_puts_it) {
-  // Area, brightness and middle of a plain patch, at places that fall anyhow between pixels.
+  // Area, brightness and centroid of a plain patch, at arbitrary subpixel positions.
   PrintedSquare patch = quartered(0.0, 0.0);
   patch.modules = 1;
   patch.gray = {200.0};
@@ -65,7 +65,7 @@ TEST(PrintedSquare, has_its_light_where_the_camera_model_puts_it) {
       const cv::Mat image = seen_by(former, pose);
       const Vec2 expected = *camera.project(pose.inverse() * patch.map_from_square.translation());
       const testing::Spot spot = testing::measure_spot(image, expected, 100, 35.0);
-      // A lens that bends lines moves the middle of an area a little.
+      // Lens distortion moves the centroid of an area a little.
       const double tolerance_px = camera.distortion == Distortion::none ? 0.01 : 0.06;
       EXPECT_NEAR((spot.center_px - expected).norm(), 0.0, tolerance_px) << yaw;
       if (camera.distortion != Distortion::none) continue;
@@ -95,7 +95,7 @@ TEST(PrintedSquare, is_blurred_as_the_dots_are) {
 TEST(PrintedSquare, may_be_cut_by_the_border_and_is_not_seen_from_behind) {
   ImageFormer former = former_with(quartered(1.1, 0.0));
   EXPECT_EQ(gray_at(seen_by(former, camera_at(0.0, 0.0, 0.0, {})), Vec2(632, 255)), 200)
-      << "x to 639 px, its middle just beyond";
+      << "visible, although its centre is just beyond x = 639 px";
   ImageFormer above = former_with(quartered(0.0, 0.0));
   const cv::Mat image = seen_by(above, camera_at(0.0, 0.0, 5.0, {std::numbers::pi, 0.0, 0.0}));
   EXPECT_EQ(gray_at(image, {320, 240}), 35);

@@ -56,7 +56,8 @@ TEST(DiscContact, unknown_and_outside_are_obstacles) {
   EXPECT_TRUE(disc_overlaps_obstacle(map, {1e300, 2.5}, radius_m));
   EXPECT_TRUE(disc_overlaps_obstacle(map, {std::nan(""), 2.5}, radius_m));
   EXPECT_TRUE(disc_overlaps_obstacle(map, {2.0, 2.5}, 100.0));
-  EXPECT_TRUE(disc_overlaps_obstacle(OccupancyMap{}, {0.0, 0.0}, radius_m)) << "no map, no floor";
+  EXPECT_TRUE(disc_overlaps_obstacle(OccupancyMap{}, {0.0, 0.0}, radius_m))
+      << "an empty map has no free cell";
 }
 
 TEST(DiscContact, agrees_with_points_sampled_in_the_disc_on_a_rotated_map) {
@@ -74,7 +75,7 @@ TEST(DiscContact, agrees_with_points_sampled_in_the_disc_on_a_rotated_map) {
     }
     const bool overlaps = disc_overlaps_obstacle(map, centre, radius_m);
     EXPECT_TRUE(overlaps || !sampled) << "a point of the disc lies in an obstacle, trial " << trial;
-    // What so many samples miss lies near the rim.
+    // Overlaps that so many samples miss are near the rim.
     EXPECT_TRUE(sampled || !disc_overlaps_obstacle(map, centre, 0.75 * radius_m)) << "trial " << trial;
   }
 }
@@ -86,7 +87,7 @@ TEST(Scorer, counts_the_poses_in_contact) {
   EXPECT_EQ(scorer.contacts(), 0);
   scorer.record({at(2), {{1.8, 1.75}, 0.0}});
   scorer.record({at(3), {{1.9, 1.75}, 0.0}});
-  scorer.record({at(4), {{1.5, 1.75}, 0.0}}, true);  // held back by an obstacle
+  scorer.record({at(4), {{1.5, 1.75}, 0.0}}, true);  // blocked by an obstacle
   EXPECT_EQ(scorer.contacts(), 3);
   EXPECT_EQ(scorer.track().size(), 5U);
 }

@@ -54,7 +54,7 @@ TEST(SensorNoise, is_gaussian) {
   int beyond_two_sigma = 0;
   int beyond_three_sigma = 0;
   for (const double value : values) {
-    // Half a level more: a rounded value of 8 stands for all from 7.5 on.
+    // 2 and 3 sigma plus half a gray level, as values are rounded: 9 stands for all from 8.5 on.
     if (std::abs(value - 128.0) > 8.5) ++beyond_two_sigma;
     if (std::abs(value - 128.0) > 12.5) ++beyond_three_sigma;
   }
@@ -63,7 +63,7 @@ TEST(SensorNoise, is_gaussian) {
   EXPECT_NEAR(beyond_three_sigma / count, std::erfc(12.5 / 4.0 / std::sqrt(2.0)), 0.0006);
 }
 
-/// Correlation of a picture's noise with that of another, shifted.
+/// Correlation of one frame's noise with that of another, shifted.
 double correlation(const cv::Mat1d& a, const cv::Mat1d& b, int right, int down) {
   const cv::Rect here(0, 0, a.cols - right, a.rows - down);
   cv::Mat1d x;

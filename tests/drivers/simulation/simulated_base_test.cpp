@@ -24,9 +24,9 @@ TEST(SimulatedBase, is_handed_over_by_the_handshake) {
   EXPECT_NE(world.log_text.str().find(" can0 421#01\n"), std::string::npos);
 }
 
-/// A base without a navigator; the test says every frame.
+/// A base without a navigator; the test sends every frame.
 struct BareBase {
-  /// Commands every 20 ms, if there is a velocity, and returns how far x has come.
+  /// Sends the velocity, if any, every 20 ms; returns the distance travelled along x.
   double run(Duration time, const std::optional<BodyVelocity>& velocity) {
     const double before_m = motion.true_map_from_base().position_m.x();
     for (const Stamp end = now + time; now < end;) {
@@ -54,7 +54,7 @@ TEST(SimulatedBase, takes_no_command_while_it_stands_by) {
   EXPECT_EQ(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.0);
   bare.ask_for(agilex::ControlMode::remote);
   EXPECT_EQ(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.0)
-      << "nobody is handed the base in the remote control's name";
+      << "asking for remote mode gives a client no control";
   bare.ask_for(agilex::ControlMode::can);
   EXPECT_GT(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.3);
 }
@@ -66,7 +66,7 @@ TEST(SimulatedBase, forgets_its_command_when_it_is_stopped) {
   bare.base.press_emergency_stop(true);
   bare.run(milliseconds(20), std::nullopt);
   bare.base.press_emergency_stop(false);
-  EXPECT_LT(bare.run(milliseconds(400), std::nullopt), 0.15) << "the command is young, but it is void";
+  EXPECT_LT(bare.run(milliseconds(400), std::nullopt), 0.15) << "the stop voids a command before its timeout";
 }
 
 TEST(SimulatedBase, keeps_the_curve_of_a_command_beyond_its_motors) {
@@ -87,7 +87,7 @@ TEST(SimulatedBase, drives_as_commanded_over_the_bus) {
   world.drive({0.5, 0.0}, seconds(4));
   EXPECT_NEAR(world.feedback.measured->forward_mps, 0.5, 0.03);
   world.drive({}, seconds(2));
-  // Lag shifts start and stop alike, so that it leaves the distance as commanded.
+  // Lag delays start and stop equally, so the distance is as commanded.
   EXPECT_NEAR(world.truth().position_m.x(), 2.0, 0.03);
   EXPECT_NEAR(world.truth().position_m.y(), 0.0, 1e-9);
   EXPECT_NEAR(world.travel.left_m, world.truth().position_m.x(), 0.002);
@@ -103,7 +103,7 @@ TEST(SimulatedBase, drives_on_when_a_third_of_all_frames_is_lost) {
   }
   EXPECT_EQ(world.feedback.state, BaseState::ready);
   EXPECT_GT(world.driver.counts().counter_jumps, 500U);
-  EXPECT_NEAR(world.travel.left_m, world.motion.left_encoder_m(), 0.1) << "no travel is lost with the frames";
+  EXPECT_NEAR(world.travel.left_m, world.motion.left_encoder_m(), 0.1) << "lost frames lose no travel";
 }
 
 TEST(SimulatedBase, drives_on_when_every_frame_comes_50_ms_late) {
@@ -134,14 +134,14 @@ TEST(SimulatedBase, comes_to_rest_when_the_commands_stop) {
   world.drive({0.6, 0.0}, seconds(3));
   world.wait(milliseconds(480));
   const double before_timeout_m = world.truth().position_m.x();
-  EXPECT_NEAR(world.feedback.measured->forward_mps, 0.6, 0.03) << "the base believes the last command 500 ms";
-  // 0.6 m/s at 2 m/s^2 is 300 ms, and the lag of the speed loop at the end.
+  EXPECT_NEAR(world.feedback.measured->forward_mps, 0.6, 0.03) << "the base keeps the last command 500 ms";
+  // Braking from 0.6 m/s at 2 m/s^2 takes 300 ms, then the lag of the speed loop.
   world.wait(milliseconds(20 + 300 + 6 * 80));
   const double at_rest_m = world.truth().position_m.x();
   world.wait(seconds(1));
   EXPECT_NEAR(world.truth().position_m.x(), at_rest_m, 1e-3);
   EXPECT_NEAR(at_rest_m - before_timeout_m, 0.02 * 0.6 + 0.6 * 0.6 / (2 * 2.0), 0.04);
-  EXPECT_EQ(world.feedback.state, BaseState::ready) << "which is no fault of the base";
+  EXPECT_EQ(world.feedback.state, BaseState::ready) << "the base reports no fault";
 }
 
 TEST(SimulatedBase, unequal_wheels_bend_what_the_odometer_believes_straight) {
@@ -152,7 +152,7 @@ TEST(SimulatedBase, unequal_wheels_bend_what_the_odometer_believes_straight) {
   world.wait(milliseconds(200));
   world.drive({0.5, 0.0}, seconds(4));
   world.drive({}, seconds(1));
-  EXPECT_NEAR(world.travel.left_m, world.travel.right_m, 1e-9) << "straight on, says the odometer";
+  EXPECT_NEAR(world.travel.left_m, world.travel.right_m, 1e-9) << "the odometer shows a straight line";
   const double rolled_m = world.travel.left_m;
   EXPECT_NEAR(world.truth().yaw_rad, -0.012 * rolled_m / options.true_track_width_m, 1e-3);
   EXPECT_LT(world.truth().position_m.y(), -0.04);
@@ -216,7 +216,7 @@ TEST(SimulatedBase, remote_control_takes_it_without_a_fight) {
   EXPECT_EQ(since.find(" 421#"), std::string::npos);
   ASSERT_TRUE(world.bus.attach().send(agilex::encode_control_mode(agilex::ControlMode::can)));
   world.wait(milliseconds(100));
-  EXPECT_EQ(world.feedback.system->mode, agilex::ControlMode::remote) << "it has the highest right";
+  EXPECT_EQ(world.feedback.system->mode, agilex::ControlMode::remote) << "remote control has priority";
 
   world.base.take_over_by_remote(false);
   world.drive({0.5, 0.0}, milliseconds(100));
@@ -253,7 +253,7 @@ TEST(SimulatedBase, stops_against_an_obstacle_and_may_turn_away) {
   EXPECT_TRUE(world.motion.is_blocked());
   EXPECT_NEAR(world.truth().position_m.x(), 0.8, 0.001);
   EXPECT_LE(world.truth().position_m.x(), 0.8 + 1e-9);
-  EXPECT_GT(world.travel.left_m, 1.5) << "the wheels spin on";
+  EXPECT_GT(world.travel.left_m, 1.5) << "the wheels keep spinning";
   world.drive({0.0, 1.0}, milliseconds(3200));
   world.drive({0.5, 0.0}, seconds(1));
   EXPECT_FALSE(world.motion.is_blocked());

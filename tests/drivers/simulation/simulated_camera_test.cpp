@@ -29,7 +29,7 @@ SimulatedCameraOptions steady_options() {
   return options;
 }
 
-/// A small picture is enough where only stamps matter.
+/// A small image is enough where only stamps matter.
 CameraModel tiny_camera() {
   return {32, 24, 30.0, 30.0, 15.5, 11.5, Distortion::none, {}};
 }
@@ -39,7 +39,7 @@ SimulatedCamera tiny(const SimulatedCameraOptions& options, std::uint64_t seed =
 }
 
 TEST(SimulatedCamera, stamps_mid_exposure_and_delivers_after_the_latency) {
-  // GIVEN a frame every 50 ms, open for 4 ms, that arrives 45 ms after mid-exposure, and steps of 3 ms
+  // GIVEN a frame every 50 ms, exposed for 4 ms, that arrives 45 ms after mid-exposure, and steps of 3 ms
   SimulatedCamera camera = tiny(steady_options());
   std::vector<Stamp> stamps;
   for (Duration now{0}; now <= milliseconds(300); now += milliseconds(3)) {

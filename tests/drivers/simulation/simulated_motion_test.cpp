@@ -57,7 +57,7 @@ TEST(SimulatedBase, slips_with_the_square_root_of_the_way_whatever_the_step) {
       const double turned_m = motion.true_map_from_base().yaw_rad * options.true_track_width_m;
       squares += turned_m * turned_m / (motion.left_encoder_m() + motion.right_encoder_m());
     }
-    // Both wheels slip by 2 mm each in a metre; 200 runs tell the deviation to 5 %.
+    // The slip of each wheel has a sigma of 2 mm after a metre; 200 runs estimate it to 5 %.
     EXPECT_NEAR(std::sqrt(squares / runs), 0.002, 4 * 0.0001) << "at a step of " << step_ms << " ms";
   }
 }

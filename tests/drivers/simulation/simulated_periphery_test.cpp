@@ -13,7 +13,7 @@ namespace {
 using std::chrono::milliseconds;
 namespace tables = agilex::tables;
 
-/// What a client hears of lights, motors and battery.
+/// Frames of lights, motors and battery that a client receives.
 class SimulatedPeripheryTest : public testing::Test {
  protected:
   void pass_on_frames() {
@@ -58,7 +58,7 @@ TEST_F(SimulatedPeripheryTest, says_everything_at_its_period) {
 }
 
 TEST_F(SimulatedPeripheryTest, tells_how_fast_each_motor_turns) {
-  periphery.send_feedback({0.5, 1.0}, 0.4);  // 0.3 and 0.7 m/s, half a metre a turn
+  periphery.send_feedback({0.5, 1.0}, 0.4);  // 0.3 and 0.7 m/s, 0.5 m per turn of the wheel
   pass_on_frames();
   EXPECT_DOUBLE_EQ((*decode(tables::motor1_fast, newest[0x251]))[0], 36.0);
   EXPECT_DOUBLE_EQ((*decode(tables::motor2_fast, newest[0x252]))[0], 84.0);
@@ -80,11 +80,11 @@ TEST_F(SimulatedPeripheryTest, shows_the_lights_as_they_were_commanded) {
 
 TEST_F(SimulatedPeripheryTest, answers_the_question_for_its_version_with_eighty_letters) {
   answer_all();
-  EXPECT_EQ(text, "") << "nobody has asked";
+  EXPECT_EQ(text, "") << "no request yet";
   handle({tables::version_text.id, 8, {1}});
   handle({tables::version_text.id, 1, {2}});
   answer_all();
-  EXPECT_EQ(text, "") << "that was no question";
+  EXPECT_EQ(text, "") << "that was not a request";
 
   handle({tables::version_text.id, 1, {1}});
   answer_all();

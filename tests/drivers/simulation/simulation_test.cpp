@@ -40,7 +40,7 @@ MarkerRegistry one_marker() {
   return {{}, {{447, {2.0, 3.0, 2.0}, 0.0, 0}}};
 }
 
-/// Drives straight on for some time with the navigator's own driver, and returns the bus's log.
+/// Drives straight for `time` with the navigator's own driver, and returns the bus log.
 std::string drive_straight(Simulation& simulation, Duration time) {
   std::ostringstream log;
   CandumpWriter writer(log);
@@ -72,7 +72,7 @@ TEST(Simulation, drives_by_frames_and_shows_the_judge_the_truth) {
   simulation.scorer().claim_path({{{2.0, 3.0}, {9.0, 3.0}}});
   drive_straight(simulation, std::chrono::seconds(4));
   const Scorer& scorer = simulation.scorer();
-  ASSERT_EQ(scorer.track().size(), 201U) << "50 a second and the start";
+  ASSERT_EQ(scorer.track().size(), 201U) << "50 per second, plus the start";
   EXPECT_EQ(scorer.track().front().map_from_base.position_m, Vec2(2.0, 3.0));
   EXPECT_NEAR(scorer.track().back().map_from_base.position_m.x(), 3.9, 0.1);
   EXPECT_EQ(scorer.track().back().stamp, simulation.now());
@@ -132,7 +132,7 @@ TEST(Simulation, repeats_itself_byte_for_byte) {
   SimulatedCameraOptions slow_camera;
   slow_camera.period = milliseconds(100);
   EXPECT_EQ(run(5, {}), run(5, {}));
-  EXPECT_EQ(run(5, {}), run(5, slow_camera)) << "the camera draws from a stream of its own";
+  EXPECT_EQ(run(5, {}), run(5, slow_camera)) << "the camera has its own random stream";
   EXPECT_NE(run(5, {}).second, run(6, {}).second);
 }
 

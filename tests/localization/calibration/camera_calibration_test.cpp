@@ -110,7 +110,7 @@ TEST(CalibrateCamera, says_how_uncertain_each_number_is) {
       k1 += std::pow((camera.coefficients[0] - truth.coefficients[0]) / sigmas.coefficients[0], 2) / sets;
       EXPECT_NEAR(result.fit->all_rms_px, 0.2 * std::numbers::sqrt2, 0.02);
     }
-    for (const double mean_square : {fx, cy, k1}) {  // chi squared with 12 degrees of freedom, 99.9 %
+    for (const double mean_square : {fx, cy, k1}) {  // chi-square with 12 degrees of freedom, 99.9 %
       EXPECT_GT(mean_square, 0.18);
       EXPECT_LT(mean_square, 2.75);
     }
@@ -133,7 +133,7 @@ TEST(CalibrateCamera, refuses_too_few_boards) {
 TEST(CalibrateCamera, refuses_boards_of_one_orientation) {
   EXPECT_THAT(calibrated(views_of(wide(), 20, {.most_tilt_rad = radians(4.0)}, 1)).flaws,
               Contains(CameraFlaw::one_orientation));
-  // The same picture again and again is no set either.
+  // Copies of one image are no set either.
   const std::vector<BoardView> copies(12, views_of(wide(), 1, {}, 1).front());
   EXPECT_THAT(calibrated(copies).flaws, Contains(CameraFlaw::one_orientation));
 }
@@ -158,7 +158,7 @@ TEST(CalibrateCamera, names_the_images_that_do_not_fit) {
 }
 
 TEST(CalibrateCamera, refuses_a_lens_that_the_boards_hardly_determine) {
-  // Eight small, distant boards: each image is consistent, but the focal length is open.
+  // Eight small, distant boards: each image is consistent, but the focal length is undetermined.
   const auto views = views_of(wide(), 8, {.most_tilt_rad = radians(14.0), .distance_m = 4.0}, 4, 0.3);
   EXPECT_THAT(calibrated(views).flaws, Contains(CameraFlaw::undetermined));
 }

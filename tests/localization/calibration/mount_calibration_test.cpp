@@ -13,7 +13,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// A robot as it really is, which turns and drives below a ceiling of markers.
+/// Ground truth of a robot that turns and drives below a ceiling of markers.
 struct Truth {
   RollPitchYaw angles{radians(0.9), radians(-1.3), radians(3.0)};
   Vec3 position_m{-0.13, 0.04, 1.08};
@@ -44,7 +44,7 @@ class Robot {
     base_from_camera_.translation() = truth.position_m;
   }
 
-  /// Wheels as reported; each step leaves a frame.
+  /// Rolls the wheels by the reported distances; each step leaves a frame.
   void roll(double left_m, double right_m, int steps) {
     for (int i = 0; i < steps; ++i) {
       const double slip_m = 0.002 * std::sqrt(std::abs(left_m) / steps);
@@ -160,8 +160,8 @@ TEST(CalibrateMount, says_how_uncertain_each_part_is) {
         (mount.angles.yaw_rad - truth.angles.yaw_rad) / mount.angle_sigmas.yaw_rad};
     for (std::size_t i = 0; i < errors.size(); ++i) mean_square[i] += errors[i] * errors[i] / drives;
   }
-  // Chi squared with 12 degrees of freedom, 99.9 %. From below the bound is loose: slip is taken as larger
-  // than it is.
+  // Chi-square with 12 degrees of freedom, 99.9 %. The lower bound is loose: the assumed slip is larger than
+  // the simulated one.
   EXPECT_THAT(mean_square, ::testing::Each(::testing::Lt(2.75)));
   EXPECT_THAT(mean_square, ::testing::Each(::testing::Gt(0.003)));
 }
@@ -192,7 +192,7 @@ TEST(CalibrateMount, keeps_the_yaw_when_the_robot_only_turned) {
 }
 
 TEST(CalibrateMount, keeps_the_tilt_when_one_far_marker_does_not_show_it) {
-  // One marker straight above: leaning and standing elsewhere look the same.
+  // One marker straight above: tilt and position cannot be told apart.
   Truth truth;
   truth.marker_spacing_m = 20.0;
   truth.ceiling_m = 4.0;

@@ -15,7 +15,7 @@ constexpr double lean_sigma_rad = 0.002;
 constexpr double texel_m = 0.002;
 constexpr int texels = 2600;  // along a side; the map's origin lies in the middle
 
-/// Stains of a few centimetres, deviation `gray`.
+/// Stains of a few centimetres, with a standard deviation of `gray`.
 cv::Mat1f stained(double gray, std::uint64_t seed) {
   Random random(seed);
   cv::Mat1f coarse(texels / 4, texels / 4);
@@ -41,7 +41,7 @@ struct Picture {
     base_from_camera.linear() = rotation_from({radians(0.3), radians(-0.2), radians(3.0)});
   }
 
-  /// Through each pixel's ray, so that any lens will do.
+  /// Rendered along each pixel's ray, so that any lens model works.
   [[nodiscard]] Frame at(const Pose2& map_from_base, double time_s) {
     const Eigen::Isometry3d map_from_camera = lifted(map_from_base) * base_from_camera;
     cv::Mat1f x(camera.height_px, camera.width_px);
@@ -70,7 +70,7 @@ const Pose2 before{{0.2, -0.1}, radians(25.0)};
 const Pose2 way{{0.21, -0.04}, radians(8.0)};
 const Pose2 guess = way * Pose2{{0.012, -0.008}, radians(-0.8)};
 
-/// From one picture to another of a robot that has come `way`, where `guess` is expected.
+/// The increment between two frames of a robot that moved by `way`, where `guess` is the prediction.
 std::optional<VisualOdometryIncrement> motion_between(const Frame& then, const Frame& now,
                                                       const Picture& picture) {
   CeilingMotion ceiling = picture.motion();
@@ -120,7 +120,7 @@ TEST(CeilingMotion, outvotes_what_the_camera_carries_along) {
     for (int i = 0; i < 6; ++i)
       cv::circle(frame.gray, {60 + 90 * i, 60 + 20 * i}, 9, cv::Scalar(90), cv::FILLED, cv::LINE_AA);
     for (int v = 0; v < frame.gray.rows; ++v)
-      frame.gray.row(v) *= 1.0 - 0.3 * std::pow(v / 240.0 - 1.0, 2.0);  // a vignette
+      frame.gray.row(v) *= 1.0 - 0.3 * std::pow(v / 240.0 - 1.0, 2.0);  // vignetting
   }
   expect_right(motion_between(then, now, picture), 0.002, radians(0.2));
 }
@@ -137,8 +137,8 @@ TEST(CeilingMotion, is_as_sure_as_it_may_be) {
     const Vec3 error = error_of(*motion);
     sum += error.dot(motion->covariance.ldlt().solve(error));
   }
-  EXPECT_LT(sum / pairs, 3.0) << "of 3: never surer than it may be";
-  EXPECT_GT(sum / pairs, 0.3) << "nor a third as sure";
+  EXPECT_LT(sum / pairs, 3.0) << "not overconfident: the mean is 3 at most";
+  EXPECT_GT(sum / pairs, 0.3) << "nor far too cautious";
 }
 
 TEST(CeilingMotion, is_unknown_under_a_plain_ceiling) {
@@ -150,7 +150,7 @@ TEST(CeilingMotion, is_unknown_under_a_plain_ceiling) {
   EXPECT_FALSE(ceiling.motion(guess));
 }
 
-// Of a vignette, hot pixels or dirt alone nothing follows, however alike two pictures of them are.
+// Vignetting, hot pixels or dirt alone give no motion, however alike two frames of them are.
 TEST(CeilingMotion, is_unknown_where_only_the_camera_shows_something) {
   Picture picture(0.0);
   Frame then = picture.at(before, 1.0);
@@ -170,12 +170,12 @@ TEST(CeilingMotion, is_unknown_where_only_the_camera_shows_something) {
     const cv::Point dirt(static_cast<int>(random.below(640)), static_cast<int>(random.below(480)));
     for (const Frame& frame : {then, now}) cv::circle(frame.gray, dirt, 4, cv::Scalar(70), cv::FILLED);
   }
-  EXPECT_FALSE(motion_between(then, now, picture)) << "too far from what is expected";
+  EXPECT_FALSE(motion_between(then, now, picture)) << "too far from the prediction";
   CeilingMotion ceiling = picture.motion();
   ceiling.set_frame(then);
   ASSERT_TRUE(ceiling.set_keyframe());
   ceiling.set_frame(now);
-  EXPECT_FALSE(ceiling.motion({{0.005, 0.0}, 0.0})) << "it could be either";
+  EXPECT_FALSE(ceiling.motion({{0.005, 0.0}, 0.0})) << "dirt and ceiling cannot be told apart";
 }
 
 TEST(CeilingMotion, is_unknown_where_pictures_show_different_things) {
@@ -197,12 +197,12 @@ TEST(CeilingMotion, says_when_the_kept_picture_leaves_the_view) {
   EXPECT_FALSE(ceiling.leaves_view({}));
   EXPECT_FALSE(ceiling.leaves_view({{0.1, 0.0}, 0.1}));
   EXPECT_TRUE(ceiling.leaves_view({{0.6, 0.0}, 0.0}));
-  EXPECT_FALSE(ceiling.motion({{0.9, 0.0}, 0.0})) << "too little to compare";
+  EXPECT_FALSE(ceiling.motion({{0.9, 0.0}, 0.0})) << "too little overlap";
 }
 
 TEST(CeilingMotion, needs_one_ceiling) {
   MarkerRegistry registry;
-  EXPECT_FALSE(ceiling_height_m(registry)) << "nobody says how high";
+  EXPECT_FALSE(ceiling_height_m(registry)) << "no marker gives the height";
   registry.markers = {{1, {0.0, 0.0, 2.60}, 0.0, 0}, {2, {1.0, 0.0, 2.62}, 0.0, 0}};
   EXPECT_NEAR(ceiling_height_m(registry).value(), 2.61, 1e-12);
   registry.markers.push_back({3, {2.0, 0.0, 3.0}, 0.0, 0});

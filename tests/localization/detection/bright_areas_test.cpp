@@ -56,7 +56,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
   return cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
-// Widths about the 64 pixels that are looked at together, sparse and dense frames.
+// Widths around the 64 pixels that are processed together; sparse and dense frames.
 class RandomFrames : public testing::TestWithParam<std::tuple<int, double>> {
  protected:
   Random random_{static_cast<std::uint64_t>(std::get<0>(GetParam()))};

@@ -6,7 +6,7 @@
 
 #include "tests/localization/painted_frame.hpp"
 
-// Small frames for the detector, and what it reads in them.
+// Small frames for the detector, and the IDs that it reads in them.
 namespace lodestar {
 
 inline std::vector<int> ids_in(const cv::Mat& frame) {

@@ -19,7 +19,7 @@ constexpr int side_px = 32;
 constexpr double background_gray = 35.0;
 constexpr double contrast_gray = 190.0;
 
-/// A disc and where it is.
+/// A disc and its position.
 struct OneDot {
   Vec2 center_px;
   double radius_px = 0.0;
@@ -32,13 +32,13 @@ OneDot some_dot(Random& random, double least_radius_px, double most_radius_px) {
           random.uniform(0.55, 0.8)};
 }
 
-/// How much of the dot's light falls on a pixel.
+/// Share of the dot's light that falls on a pixel.
 double share_at(const OneDot& dot, int u, int v) {
   const double outside_px = (Vec2(u, v) - dot.center_px).norm() - dot.radius_px;
   return 0.5 * std::erfc(outside_px / (std::sqrt(2.0) * dot.blur_sigma_px));
 }
 
-/// Its light by formula, so that nothing but whole gray values keeps its middle from being exact; and noise.
+/// Renders the dot analytically, so that only rounding to whole gray values and noise shift its centroid.
 cv::Mat picture_of(const OneDot& dot, double dark_noise_gray, double variance_per_gray, Random& random) {
   cv::Mat gray(side_px, side_px, CV_8UC1);
   for (int v = 0; v < side_px; ++v) {
@@ -52,7 +52,7 @@ cv::Mat picture_of(const OneDot& dot, double dark_noise_gray, double variance_pe
   return gray;
 }
 
-/// Root mean square, in each coordinate, over what the dots say of it.
+/// RMS error per coordinate over the sampling sigma that the dots state.
 double error_without_noise_over_sampling_sigma(double least_radius_px, double most_radius_px) {
   Random random(1);
   DotFinder finder;
@@ -69,8 +69,8 @@ double error_without_noise_over_sampling_sigma(double least_radius_px, double mo
   return std::sqrt(squares);
 }
 
-// What dots say of it (sampling_sigma_px2) is neither too little nor far too much, but where they are larger
-// than at 1.5 m: there it is somewhat too little.
+// The stated sampling_sigma_px2 is neither too small nor far too large, except for dots larger than at 1.5 m,
+// where it is somewhat too small.
 TEST(Dots, without_noise_a_middle_is_off_by_what_the_dot_says) {
   constexpr double radius_at_1500_mm_px = 5.0;
   for (const double radius_px : {1.9, 2.4, 3.0, 4.0, radius_at_1500_mm_px}) {
@@ -81,8 +81,8 @@ TEST(Dots, without_noise_a_middle_is_off_by_what_the_dot_says) {
   }
 }
 
-/// As where the frame's corner is 400 px from its middle, this dot is `from_middle_px`, and the ceiling's
-/// light falls by 30 per cent on the way; the dot's does not, for the sensor nears saturation there.
+/// Vignetting of the ceiling's light by 30 % from the frame's centre to its corner, 400 px away; this dot is
+/// `from_middle_px` from the centre. The dot's own light does not fall, as it is near saturation.
 cv::Mat where_light_falls_off(const OneDot& dot, double from_middle_px) {
   constexpr double fall_per_px2 = 0.3 / (400.0 * 400.0);
   const double slope_gray_per_px = -2.0 * fall_per_px2 * from_middle_px * background_gray;
@@ -97,7 +97,7 @@ cv::Mat where_light_falls_off(const OneDot& dot, double from_middle_px) {
   return gray;
 }
 
-// What the pose is told of it (scale_sigma).
+// The pose estimate allows for this bias by scale_sigma.
 TEST(Dots, are_pulled_to_the_middle_of_the_frame_by_light_that_falls_off_as_much_as_the_scale_says) {
   Random random(3);
   DotFinder finder;
@@ -115,7 +115,7 @@ TEST(Dots, are_pulled_to_the_middle_of_the_frame_by_light_that_falls_off_as_much
   EXPECT_GT(pull_px, 0.5 * PoseFixOptions{}.scale_sigma * from_middle_px);
 }
 
-/// A picture with a dark joint of the ceiling, two pixels wide, that passes 4 px right of the dot's middle.
+/// An image with a dark ceiling joint, two pixels wide, 4 px to the right of the dot's centre.
 cv::Mat with_joint(cv::Mat gray, const OneDot& dot) {
   for (int v = 0; v < side_px; ++v) {
     for (int u = 0; u < side_px; ++u) {
@@ -128,7 +128,7 @@ cv::Mat with_joint(cv::Mat gray, const OneDot& dot) {
   return gray;
 }
 
-// A joint pulls a dot's middle alike in every frame. The dot says that it is less sure, and by how much.
+// A joint shifts a dot's centre the same way in every frame; the dot's stated sigma must allow for that.
 TEST(Dots, say_what_a_joint_beside_them_may_do) {
   constexpr double dark_noise_gray = 1.5;
   Random random(5);
@@ -162,7 +162,7 @@ double learned_variance_per_gray(double dark_noise_gray, double variance_per_gra
   return noise.variance_per_gray();
 }
 
-// Dots too small to be flat tell it too, by those that lie midway between pixels.
+// Dots too small for a flat top also show the noise: those centred midway between pixels.
 TEST(LightNoise, is_learned_from_small_dots) {
   constexpr double assumed = 16.0 / 255.0;
   EXPECT_LT(learned_variance_per_gray(4.0, 0.0, 2), 0.3 * assumed);

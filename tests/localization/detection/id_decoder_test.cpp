@@ -11,7 +11,7 @@ constexpr int seen = 1766;
 constexpr int with_a_dot_more = seen | 0x010;
 constexpr int with_three_dots_more = seen | 0x109;
 
-/// Every cell is surely what this ID wants.
+/// Evidence that surely matches this ID in every cell.
 CellEvidence sure_of(int id) {
   CellEvidence cells;
   for (int row = 0; row < marker_grid_size; ++row) {
@@ -35,7 +35,7 @@ TEST(IdDecoder, reads_every_id_when_all_cells_are_sure) {
   }
 }
 
-// Something as gray as the ceiling may hide the dot that is not seen.
+// An object as gray as the ceiling may hide the dot that is not seen.
 TEST(IdDecoder, believes_a_little_less_in_an_id_that_a_hidden_dot_would_make_anothers) {
   const IdReading alone = IdDecoder(std::array{seen}).read(sure_of(seen), false);
   const IdReading beside = IdDecoder(std::array{seen, with_a_dot_more}).read(sure_of(seen), false);
@@ -51,11 +51,11 @@ TEST(IdDecoder, no_longer_believes_it_where_a_cover_shows) {
   CellEvidence one_undecided = sure_of(seen);
   one_undecided.at({3, 3}) = 0.0;
   EXPECT_LT(probability_of(decoder.read(one_undecided, false)), 0.99);
-  // A dot that is seen is not explained by a cover.
+  // An occluding object does not explain a dot that is seen.
   EXPECT_GT(probability_of(decoder.read(sure_of(with_a_dot_more), true)), 0.999);
 }
 
-// Were dots lost independently of each other, three would be lost once in a hundred million frames.
+// If dots were lost independently of each other, three would be lost once in a hundred million frames.
 TEST(IdDecoder, one_cover_hides_several_dots) {
   const IdReading reading = IdDecoder(std::array{seen, with_three_dots_more}).read(sure_of(seen), false);
   EXPECT_EQ(std::popcount(static_cast<unsigned>(seen ^ with_three_dots_more)), 3);

@@ -7,7 +7,7 @@
 
 #include "tests/localization/painted_frame.hpp"
 
-// Dots at exact places, as a camera would see them: no image is drawn.
+// Dots at exact positions, as a camera would see them; no image is drawn.
 namespace lodestar {
 namespace {
 
@@ -203,7 +203,7 @@ TEST(MarkerDecoder, of_too_few_dots_or_too_many_reads_nothing) {
   EXPECT_THAT(read_area(std::vector<Dot>(100, dot_seen(view, cell_of_o))), testing::IsEmpty());
 }
 
-// Middles 25 cm apart: the nearest dots of the two may be 2 pitches from each other.
+// Centres 25 cm apart: the nearest dots of the two may be 2 pitches from each other.
 TEST(MarkerDecoder, reads_two_markers_that_dilation_joined) {
   Random random(12);
   int read = 0;

@@ -6,14 +6,14 @@
 
 #include "tests/localization/detection/detector_frames.hpp"
 
-// What is no marker, or one that cannot be read for sure.
+// Patterns that are no marker, and markers that cannot be read reliably.
 namespace lodestar {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// The marker slides out of the frame; while any of its coded cells, even an empty one, may be cut, it is
+// The marker slides out of the frame. While any of its coded cells, even an empty one, may be cut, it is
 // refused.
 TEST(MarkerDetector, refuses_a_marker_that_the_border_cuts) {
   Random random(7);
@@ -55,8 +55,7 @@ TEST(MarkerDetector, refuses_a_marker_that_lacks_a_direction_dot) {
   }
 }
 
-// Something as gray as the ceiling hides dots: what is left is another ID's pattern, but nobody's who is
-// here.
+// An object as gray as the ceiling hides dots: the rest is the pattern of an ID that is not registered.
 TEST(MarkerDetector, refuses_ids_that_are_not_registered) {
   Random random(16);
   const CameraModel camera = cropped(paper_camera(), 120);
@@ -67,7 +66,7 @@ TEST(MarkerDetector, refuses_ids_that_are_not_registered) {
   EXPECT_THAT(detect_markers(gray, {.registered_ids = {447, 1782}}), IsEmpty());
 }
 
-/// A marker of which something as gray as the ceiling hides the dot of a cell, but for a sliver.
+/// A marker with a dot hidden, but for a sliver, by an object as gray as the ceiling.
 cv::Mat with_a_sliver(const CameraModel& camera, int id, GridCell hidden, Random& random) {
   const MarkerView view{.middle_px = {60.0, 60.0}, .depth_m = 2.6, .turn_rad = 0.3};
   const double radius_px = marker_dot_radius_m * camera.fx_px / view.depth_m;
@@ -77,7 +76,7 @@ cv::Mat with_a_sliver(const CameraModel& camera, int id, GridCell hidden, Random
   return frame.finished(random);
 }
 
-// What is left of a covered dot says that something hangs before the marker, which may hide all of another.
+// The sliver of a dot shows that an object occludes the marker, which may hide another dot completely.
 TEST(MarkerDetector, doubts_an_id_where_slivers_tell_of_a_cover) {
   Random random(17);
   const CameraModel camera = cropped(paper_camera(), 120);
@@ -93,8 +92,8 @@ TEST(MarkerDetector, doubts_an_id_where_slivers_tell_of_a_cover) {
   EXPECT_EQ(markers.front().id, without_a_dot);
 }
 
-// Of a marker tilted more than is read some dots may stand as another's all do, seen less tilted and turned,
-// were it not for the dots left over beside them.
+// Some dots of a marker tilted too steeply to be read may match another marker, seen less tilted and turned;
+// the remaining dots show that this is wrong.
 TEST(MarkerDetector, never_reads_a_marker_into_a_part_of_a_steeply_tilted_one) {
   Random random(18);
   const CameraModel camera = cropped(paper_camera(), 120);
@@ -112,11 +111,11 @@ TEST(MarkerDetector, never_reads_a_marker_into_a_part_of_a_steeply_tilted_one) {
     EXPECT_THAT(found, testing::AnyOf(IsEmpty(), ElementsAre(id))) << "frame " << i;
     read += found.empty() ? 0 : 1;
   }
-  EXPECT_GT(read, 10) << "the least tilted are read";
-  EXPECT_LT(read, 290) << "the others are not";
+  EXPECT_GT(read, 10) << "the least tilted markers are read";
+  EXPECT_LT(read, 290) << "the others are refused";
 }
 
-// A dirty dot that is taken for an empty cell would change the ID: it counts, or the marker is refused.
+// A dirty dot taken for an empty cell would change the ID: it must count as a dot, or the marker is refused.
 TEST(MarkerDetector, never_takes_a_dirty_dot_for_an_empty_cell) {
   Random random(9);
   const CameraModel camera = cropped(paper_camera(), 120);
@@ -131,7 +130,7 @@ TEST(MarkerDetector, never_takes_a_dirty_dot_for_an_empty_cell) {
     EXPECT_THAT(found, testing::AnyOf(IsEmpty(), ElementsAre(1782))) << gray;
     ++(found.empty() ? refused : read);
   }
-  EXPECT_GT(read, 5) << "it counts";
+  EXPECT_GT(read, 5) << "it counts as a dot";
   EXPECT_GT(refused, 0) << "or the marker is refused";
 }
 

@@ -29,7 +29,7 @@ struct Conditions {
   double dot_gray = 246.0;
   double tilt_deg = 0.0;
   double motion_px = 0.0;
-  double center_sigma_px = 0.02;  ///< wanted, for each coordinate
+  double center_sigma_px = 0.02;  ///< required, per coordinate
 };
 
 class UnderConditions : public testing::TestWithParam<Conditions> {};
@@ -93,7 +93,8 @@ INSTANTIATE_TEST_SUITE_P(
         Conditions{.name = "wide_moving", .camera = wide_camera(), .motion_px = 1.5}),
     [](const auto& parameter) { return parameter.param.name; });
 
-// Markers off the axis of a 90 degree view, the camera tilted by 15 degrees: foreshortened by more than that.
+// Markers off the axis of a 90 degree view with the camera tilted by 15 degrees: foreshortened by more than
+// that.
 TEST(MarkerDetector, reads_markers_about_a_tilted_wide_frame) {
   Random random(3);
   const CameraModel camera = wide_camera();
@@ -153,7 +154,8 @@ TEST(MarkerDetector, keeps_markers_30_cm_apart_apart) {
   }
 }
 
-// 90 degrees of view and a ceiling 2.6 m above: a radius of 1.23 px, dimmed by blur, five pixels to the next.
+// Field of view of 90 degrees, ceiling 2.6 m above: a dot radius of 1.23 px, dimmed by blur, at a pitch of 5
+// px.
 TEST(MarkerDetector, reads_dots_of_little_more_than_a_pixel_through_blur) {
   Random random(15);
   const CameraModel camera = cropped(wide_camera(), 80);

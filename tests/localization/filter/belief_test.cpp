@@ -5,7 +5,7 @@
 namespace lodestar {
 namespace {
 
-/// Somewhere, turning, with wheels that are not as built.
+/// Any pose, with wheels that are not as built.
 Belief some_belief() {
   Belief belief;
   belief.mean << 1.0, -2.0, 0.7, 1.01, 0.98, 1.02, 0.003, -0.002, 0.001, 0.9, -2.1, 0.6;
@@ -46,7 +46,7 @@ TEST(Belief, moves_its_covariance_as_finite_differences_say) {
     transition.col(k) =
         (moved(more, travel, options).mean - moved(less, travel, options).mean) / (2.0 * step);
   }
-  // The chord stands for the arc: some 1e-5 at a turn of half a degree.
+  // The chord approximates the arc: an error of some 1e-5 at a turn of half a degree.
   EXPECT_LT((after.covariance - transition * transition.transpose()).cwiseAbs().maxCoeff(), 2e-5);
 }
 
@@ -61,7 +61,7 @@ TEST(Belief, way_in_parts_is_the_way_as_a_whole) {
   EXPECT_LT((at_once.covariance - in_parts.covariance).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-// A jerk of one wheel between two fixes looks like wheels of unequal size.
+// A jolt of one wheel between two fixes looks like wheels of unequal size.
 TEST(Belief, takes_from_one_fix_only_a_share_of_what_it_says_about_the_wheels) {
   PoseFilterOptions options;
   const PlanarFix start{.covariance = 1e-6 * Eigen::Matrix3d::Identity()};
@@ -69,7 +69,7 @@ TEST(Belief, takes_from_one_fix_only_a_share_of_what_it_says_about_the_wheels) {
       moved(belief_from(start, {}, scales_as_built(options), options), {{}, 1.0, 1.0}, options);
   PlanarFix turned = start;
   turned.map_from_base = before.map_from_base();
-  // By wheels that are two per cent unequal, or by a jerk of two centimetres.
+  // As from wheels that differ by 2 %, or from a jolt of 2 cm.
   turned.map_from_base.yaw_rad += 0.05;
   const auto unequal = [](const Belief& belief) { return belief.mean[4] - belief.mean[3]; };
   const Belief after = corrected(before, turned, options);
@@ -79,7 +79,7 @@ TEST(Belief, takes_from_one_fix_only_a_share_of_what_it_says_about_the_wheels) {
   EXPECT_GT(unequal(at_once), 0.015);
   EXPECT_GT(after.covariance(3, 3) - after.covariance(3, 4),
             at_once.covariance(3, 3) - at_once.covariance(3, 4))
-      << "and it stays as unsure as that leaves it";
+      << "with a correspondingly larger variance";
   EXPECT_TRUE(after.map_from_base().position_m == at_once.map_from_base().position_m);
 }
 
@@ -94,13 +94,13 @@ TEST(Belief, by_one_fix_is_as_unsure_as_fix_and_survey_together) {
   EXPECT_EQ(belief.map_from_base().position_m, fix.map_from_base.position_m);
   EXPECT_NEAR(belief.covariance(0, 0), 25e-6, 1e-18);
   EXPECT_NEAR(belief.covariance(2, 2), 13e-6, 1e-18);
-  // The same view again shows the same error of the survey: only the fix's own noise tells it apart.
+  // A second fix from the same view has the same survey error: only the fix's own noise differs.
   PlanarFix again = fix;
   again.map_from_base.position_m.x() += 0.008;
   EXPECT_NEAR(squared_distance(belief, again, options), 0.008 * 0.008 / (2.0 * 16e-6), 1e-9);
 }
 
-/// Of a fix of 5 mm 3 mm come from how its markers hang.
+/// Of the fix's sigma of 5 mm, 3 mm are the shared error of its markers.
 PlanarFix fix_that_shares() {
   PlanarFix fix;
   fix.map_from_base = {{1.0, 2.0}, 3.0};
@@ -128,16 +128,16 @@ TEST(Belief, takes_another_marker_to_err_for_itself_but_the_same_one_only_once) 
   EXPECT_NEAR(belief.covariance(0, 0), 9e-6, 1e-7);
   fix.ids = {8};
   for (int i = 0; i < 1000; ++i) belief = corrected(belief, fix, options);
-  EXPECT_NEAR(belief.covariance(0, 0), 0.5 * 9e-6, 1e-7) << "the mean of two";
+  EXPECT_NEAR(belief.covariance(0, 0), 0.5 * 9e-6, 1e-7) << "the mean of two markers' errors";
   for (int i = 0; i < 1000; ++i) {
     fix.ids = i % 3 == 0 ? std::vector<int>{7, 8} : std::vector<int>{7 + i % 2};
     belief = corrected(belief, fix, options);
   }
-  EXPECT_NEAR(belief.covariance(0, 0), 0.5 * 9e-6, 1e-7) << "which come and go";
+  EXPECT_NEAR(belief.covariance(0, 0), 0.5 * 9e-6, 1e-7) << "also when the markers come and go";
   belief = moved(belief, {{}, 2.0, 2.0}, options);
   const double far = belief.covariance(0, 0);
   for (int i = 0; i < 1000; ++i) belief = corrected(belief, fix, options);
-  EXPECT_LT(belief.covariance(0, 0), 0.8 * far) << "from elsewhere they show other errors";
+  EXPECT_LT(belief.covariance(0, 0), 0.8 * far) << "2 m on, the same markers have other errors";
 }
 
 TEST(Belief, takes_fewer_markers_to_err_as_these_did_and_by_more) {
@@ -147,11 +147,11 @@ TEST(Belief, takes_fewer_markers_to_err_as_these_did_and_by_more) {
   Belief belief = belief_from(by_three, {}, scales_as_built(options), options);
   for (int i = 1; i < 1000; ++i) belief = corrected(belief, by_three, options);
   PlanarFix by_one = fix_that_shares();
-  by_one.covariance += 1e6 * Eigen::Matrix3d::Identity();  // of its own it tells nothing
+  by_one.covariance += 1e6 * Eigen::Matrix3d::Identity();  // carries no information
   const Belief after = corrected(belief, by_one, options);
   EXPECT_NEAR(after.covariance(0, 0), belief.covariance(0, 0), 1e-12);
   EXPECT_NEAR(after.covariance(6, 6), 9e-6, 1e-7);
-  EXPECT_NEAR(after.covariance(0, 6), -0.5 * 9e-6, 1e-7) << "the pose's error is half of it";
+  EXPECT_NEAR(after.covariance(0, 6), -0.5 * 9e-6, 1e-7) << "half of it is in the pose";
 }
 
 }  // namespace

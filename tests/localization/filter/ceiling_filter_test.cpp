@@ -2,13 +2,13 @@
 
 #include "tests/localization/rolling_world.hpp"
 
-// What the pose filter makes of the ceiling's own motion.
+// Visual odometry on the ceiling in the pose filter.
 namespace lodestar {
 namespace {
 
 using namespace testing;
 
-/// A camera that sways, and pictures of the ceiling which tell where it was, from each to the next.
+/// A camera that sways, and visual-odometry increments between its frames.
 struct Pictures {
   World& world;
   double sway_m = 0.0;
@@ -45,8 +45,8 @@ struct Pictures {
   }
 };
 
-/// As drive() without a fix, but with a picture every fifth step, of which every fifth is kept. How many were
-/// refused: one in a thousand may be, by chance.
+/// As drive() without fixes, but with a frame every fifth step, of which every fifth becomes the keyframe.
+/// Returns how many increments were refused: one in a thousand may be, by chance.
 int drive_by_pictures(World& world, PoseFilter& filter, Pictures& pictures, double from_s, double for_s) {
   int refused = 0;
   for (int i = 1; i <= std::lround(for_s * 10.0); ++i) {
@@ -99,7 +99,7 @@ TEST(CeilingFilter, is_as_sure_as_it_may_be) {
     sum += nees(world, filter);
   }
   EXPECT_NEAR(sum / runs, 3.0, 1.96 * std::sqrt(6.0 / runs));
-  EXPECT_LT(refused, runs / 5) << "of a hundred times as many";
+  EXPECT_LT(refused, runs / 5) << "of 100 increments per run";
 }
 
 TEST(CeilingFilter, late_pictures_end_like_prompt_ones) {
@@ -128,9 +128,9 @@ TEST(CeilingFilter, late_pictures_end_like_prompt_ones) {
 TEST(CeilingFilter, expects_what_the_wheels_say) {
   World world;
   PoseFilter filter(without_floor());
-  EXPECT_FALSE(filter.set_keyframe(at(0.0), 0.0)) << "nothing is believed yet";
+  EXPECT_FALSE(filter.set_keyframe(at(0.0), 0.0)) << "no estimate yet";
   drive(world, filter, 0.0, 1.0, true, 1e-5, 1e-5);
-  EXPECT_FALSE(filter.expected_motion(at(1.0))) << "nothing is kept";
+  EXPECT_FALSE(filter.expected_motion(at(1.0))) << "no keyframe yet";
   const Pose2 then = world.truth;
   ASSERT_TRUE(filter.set_keyframe(at(1.0), 0.0));
   drive(world, filter, 1.0, 0.4, false);
@@ -138,7 +138,7 @@ TEST(CeilingFilter, expects_what_the_wheels_say) {
   ASSERT_TRUE(expected);
   EXPECT_EQ(expected->from, at(1.0));
   EXPECT_LT((expected->then_from_now.position_m - (inverse(then) * world.truth).position_m).norm(), 1e-4);
-  EXPECT_FALSE(filter.expected_motion(at(1.5))) << "the wheels have not been heard";
+  EXPECT_FALSE(filter.expected_motion(at(1.5))) << "beyond the wheel readings";
 }
 
 TEST(CeilingFilter, knows_only_the_picture_that_it_keeps) {
@@ -152,7 +152,7 @@ TEST(CeilingFilter, knows_only_the_picture_that_it_keeps) {
   EXPECT_FALSE(pictures.show(filter, false));
 }
 
-// Either the wheels slip or the camera sees something that it carries along. Nobody knows.
+// Either the wheels slip or the camera sees an object that it carries along: the filter cannot tell which.
 TEST(CeilingFilter, refuses_what_contradicts_the_wheels_and_then_believes_neither_alone) {
   World world;
   PoseFilter filter(without_floor());
@@ -164,13 +164,13 @@ TEST(CeilingFilter, refuses_what_contradicts_the_wheels_and_then_believes_neithe
   EXPECT_TRUE(pictures.show(filter, false));
   EXPECT_FALSE(pictures.show(filter, false, slip));
   drive(world, filter, 2.1, 0.1, false);
-  EXPECT_TRUE(pictures.show(filter, false)) << "once is nothing";
+  EXPECT_TRUE(pictures.show(filter, false)) << "one contradiction has no effect";
   EXPECT_EQ(filter.estimate()->last_agreed, at(2.2));
   EXPECT_FALSE(pictures.show(filter, false, slip));
   EXPECT_FALSE(pictures.show(filter, false, slip));
   drive(world, filter, 2.2, 0.1, false);
   EXPECT_TRUE(pictures.show(filter, false));
-  EXPECT_EQ(filter.estimate()->last_agreed, at(2.2)) << "of no worth, until a marker is seen";
+  EXPECT_EQ(filter.estimate()->last_agreed, at(2.2)) << "ignored until a fix agrees";
   EXPECT_EQ(filter.add_fix(world.fix(0.002, 0.002)), FixOutcome::accepted);
   drive(world, filter, 2.3, 0.1, false);
   EXPECT_TRUE(pictures.show(filter, false));

@@ -3,7 +3,7 @@
 
 #include "tests/localization/rolling_world.hpp"
 
-// Which fixes the filter takes, as of when, and which it refuses.
+// Which fixes the filter accepts, at what time they apply, and which it refuses.
 namespace lodestar {
 namespace {
 
@@ -105,7 +105,7 @@ TEST(PoseFilter, moves_a_little_only_when_two_markers_say_so) {
     return fix;
   };
   for (int i = 0; i < 50; ++i) EXPECT_EQ(filter.add_fix(displaced_fix(7)), FixOutcome::refused_gate);
-  EXPECT_EQ(filter.estimate()->map_from_base.position_m, before.position_m) << "that marker may have moved";
+  EXPECT_EQ(filter.estimate()->map_from_base.position_m, before.position_m) << "that marker may be displaced";
   EXPECT_EQ(filter.add_fix(displaced_fix(8)), FixOutcome::relocated);
   EXPECT_NEAR(filter.estimate()->map_from_base.position_m.x(), before.position_m.x() + 0.3, 0.01);
 }
@@ -168,7 +168,7 @@ TEST(PoseFilter, takes_a_fix_a_little_ahead_of_the_wheels_but_not_far) {
   PoseFilter filter(without_floor());
   drive(world, filter, 0.0, 2.0, true);
   for (int i = 1; i <= 10; ++i) world.roll(0.010, 0.010, 2.0 + 0.02 * i);
-  EXPECT_EQ(filter.add_fix(world.fix(0.002, 0.002)), FixOutcome::refused_late) << "0.2 s";
+  EXPECT_EQ(filter.add_fix(world.fix(0.002, 0.002)), FixOutcome::refused_late) << "0.2 s ahead of the wheels";
   World ahead;
   PoseFilter waiting(without_floor());
   drive(ahead, waiting, 0.0, 2.0, true);

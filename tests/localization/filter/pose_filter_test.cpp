@@ -81,12 +81,12 @@ TEST(PoseFilter, tells_where_it_was_and_where_it_will_be_in_a_moment) {
   }
   const PoseEstimate now = *filter.estimate_at(filter.estimate()->stamp);
   EXPECT_LT((now.covariance - filter.estimate()->covariance).norm(), 1e-12);
-  EXPECT_GT(filter.estimate_at(at(2.12))->covariance.trace(), now.covariance.trace()) << "guessed ahead";
+  EXPECT_GT(filter.estimate_at(at(2.12))->covariance.trace(), now.covariance.trace()) << "extrapolated";
   EXPECT_FALSE(filter.estimate_at(at(5.0)));
 }
 
 TEST(PoseFilter, tracks_a_circle_exactly_without_noise) {
-  // Radius 1 m about the origin, ten times across the seam of the heading.
+  // Radius 1 m about the origin, across the wrap of the heading ten times.
   PoseFilter filter(without_floor());
   const auto on_circle = [](double angle, Stamp stamp) {
     return PlanarFix{
@@ -111,7 +111,7 @@ TEST(PoseFilter, learns_a_track_width_that_is_not_as_built) {
   World world;
   world.turn_scale = 0.99;
   PoseFilter filter(without_floor());
-  for (int i = 1; i <= 1000; ++i) {  // turns on the spot, to and fro
+  for (int i = 1; i <= 1000; ++i) {  // turns on the spot, back and forth
     const double way = i % 400 < 200 ? 0.005 : -0.005;
     world.roll(-way, way, 0.02 * i);
     filter.add_travel(world.reading());
@@ -186,7 +186,7 @@ TEST(PoseFilter, stamps_its_estimate_with_the_wheels_and_the_newest_fix) {
   EXPECT_EQ(filter.estimate()->stamp, world.reported.stamp) << "readings from the past are ignored";
 }
 
-/// Mean NEES of independent drives: six seconds under markers, then one without.
+/// Mean NEES of independent drives: six seconds with fixes, then one without.
 double mean_nees(int runs, double bias_sigma_m, double bias_sigma_rad, double wheel_step_m,
                  double sway_s = 0.0, bool fixes_tell_bias = false) {
   double sum = 0.0;
@@ -221,13 +221,13 @@ double mean_nees(int runs, double bias_sigma_m, double bias_sigma_rad, double wh
 }
 
 TEST(PoseFilter, is_as_sure_as_it_may_be) {
-  // The band is that of the 95 % limits of a mean of chi-square values with 3 degrees of freedom.
+  // The tolerance is the 95 % interval of a mean of chi-square values with 3 degrees of freedom.
   constexpr int runs = 300;
   const double band = 1.96 * std::sqrt(6.0 / runs);
   EXPECT_NEAR(mean_nees(runs, 0.0, 0.0, 0.0), 3.0, band);
   EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.0), 3.0, band) << "fixes share an error";
-  EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.0, 0.0, true), 3.0, band) << "and say by how much";
-  // At a steady pace the rounding of one reading resembles that of the next, which the filter takes for new.
+  EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.0, 0.0, true), 3.0, band) << "and state it";
+  // At constant speed, the rounding of successive readings is correlated; the filter takes it as independent.
   EXPECT_NEAR(mean_nees(runs, 0.003, 0.002, 0.001), 3.0, 2.0 * band) << "and readings are rounded";
   EXPECT_NEAR(mean_nees(runs, 0.0, 0.0, 0.0, 0.25), 3.0, 2.0 * band) << "the errors of fixes change slowly";
 }

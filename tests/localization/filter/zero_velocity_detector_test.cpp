@@ -18,13 +18,13 @@ TEST(ZeroVelocityDetector, holds_wheels_whose_encoders_flicker) {
     settled = detector.settled({at(i), 1.0 + step_m * (i % 2), 2.0});
     EXPECT_EQ(detector.standing(), i >= 15) << i;
     if (i < 15) continue;
-    EXPECT_EQ(settled.left_m, 1.001) << "where it was when it stood";
+    EXPECT_EQ(settled.left_m, 1.001) << "held since the wheel stopped";
     EXPECT_EQ(settled.stamp, at(i)) << "time goes on";
   }
 }
 
 TEST(ZeroVelocityDetector, lets_slow_travel_through) {
-  // A tenth of a millimetre every reading, 5 mm/s: shown in steps of a millimetre.
+  // 0.1 mm per reading, 5 mm/s, reported in steps of 1 mm.
   ZeroVelocityDetector detector(step_m);
   for (int i = 0; i < 1000; ++i) {
     const double reported_m = step_m * std::floor(0.1 * i);

@@ -25,7 +25,7 @@ Frame frame_at(Stamp stamp, std::uint64_t noise, int gray = 100) {
 
 TEST(CameraWatch, finds_nothing_wrong_with_fresh_pictures) {
   CameraWatch watch;
-  EXPECT_FALSE(watch.fault(noon)) << "not missed before its first frame";
+  EXPECT_FALSE(watch.fault(noon)) << "no fault before the first frame";
   for (int i = 0; i < 20; ++i) {
     const Stamp now = noon + milliseconds(50) * i;
     EXPECT_FALSE(watch.update(frame_at(now - milliseconds(45), static_cast<std::uint64_t>(i)), now));
@@ -45,7 +45,8 @@ TEST(CameraWatch, misses_a_slow_camera_after_three_of_its_periods) {
   EXPECT_EQ(watch.fault(now + milliseconds(601)), CameraFault::silent);
   now += seconds(30);
   watch.update(frame_at(now, 9), now);
-  EXPECT_EQ(watch.fault(now + milliseconds(601)), CameraFault::silent) << "a pause is no period";
+  EXPECT_EQ(watch.fault(now + milliseconds(601)), CameraFault::silent)
+      << "a pause does not count as a frame period";
 }
 
 TEST(CameraWatch, refuses_the_same_picture_again) {
@@ -68,7 +69,7 @@ TEST(CameraWatch, refuses_late_frames_and_those_of_another_clock) {
 
 TEST(CameraWatch, says_when_there_is_nothing_to_see) {
   CameraWatch watch;
-  EXPECT_FALSE(watch.update(frame_at(noon, 1, 0), noon)) << "it may be used, for what it is worth";
+  EXPECT_FALSE(watch.update(frame_at(noon, 1, 0), noon)) << "a dark frame is not refused";
   EXPECT_EQ(watch.fault(noon), CameraFault::dark);
   watch.update(frame_at(noon, 2, 255), noon);
   EXPECT_EQ(watch.fault(noon), CameraFault::bright);

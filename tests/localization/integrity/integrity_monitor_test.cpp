@@ -8,7 +8,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A robot that drives straight along x; the wheels say so, and fixes say what a test has them say.
+/// A robot that drives straight along x: the wheels report that, and fixes report what a test sets.
 class Drive {
  public:
   void fix(const Pose2& seen, FixOutcome outcome, std::vector<int> ids = {447}) {
@@ -19,7 +19,7 @@ class Drive {
         {.stamp = now_, .ids = ids, .map_from_base = seen, .expected = expected(), .outcome = outcome});
   }
   [[nodiscard]] Pose2 expected() const { return {{rolled_m_, 0.0}, 0.0}; }
-  /// Where the estimate will have the robot at the next fix.
+  /// The estimated pose at the next fix.
   [[nodiscard]] Pose2 ahead() const { return {{rolled_m_ + pace_m, 0.0}, 0.0}; }
   [[nodiscard]] Stamp now() const { return now_; }
 
@@ -43,7 +43,8 @@ TEST(IntegrityMonitor, lets_a_marker_that_hangs_elsewhere_contradict_as_long_as_
   for (int i = 0; i < 40; ++i) drive.fix(Pose2{{0.1, -0.1}, 0.05} * drive.ahead(), FixOutcome::refused_gate);
   EXPECT_FALSE(drive.monitor.alarm(drive.now()));
   EXPECT_FALSE(drive.monitor.take_odometry_failure());
-  EXPECT_NEAR(drive.monitor.rolled_since_agreement_m(), 39 * 0.03, 1e-9) << "the first reading is no travel";
+  EXPECT_NEAR(drive.monitor.rolled_since_agreement_m(), 39 * 0.03, 1e-9)
+      << "the first reading counts as no travel";
 }
 
 TEST(IntegrityMonitor, calls_an_estimate_contradicted_from_the_first_refused_fix_until_one_agrees) {
@@ -69,7 +70,7 @@ TEST(IntegrityMonitor, blames_the_wheels_when_what_one_marker_says_changes) {
   }
   EXPECT_LE(fixes, 6);
   EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::wheels_wrong);
-  EXPECT_FALSE(drive.monitor.alarm(drive.now() + milliseconds(1001))) << "it may try again";
+  EXPECT_FALSE(drive.monitor.alarm(drive.now() + milliseconds(1001))) << "the robot may try again";
 }
 
 TEST(IntegrityMonitor, gives_up_on_wheels_that_are_wrong_again_and_again) {
@@ -86,7 +87,7 @@ TEST(IntegrityMonitor, stops_at_gross_contradictions_and_for_good_when_they_prev
   Drive drive;
   const Pose2 elsewhere{{2.0, 1.0}, 0.5};
   drive.fix(elsewhere * drive.ahead(), FixOutcome::refused_gate);
-  EXPECT_FALSE(drive.monitor.alarm(drive.now())) << "one may be read wrong";
+  EXPECT_FALSE(drive.monitor.alarm(drive.now())) << "one fix may be a misread marker";
   drive.fix(elsewhere * drive.ahead(), FixOutcome::refused_gate);
   EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::contradicted);
   drive.fix(elsewhere * drive.ahead(), FixOutcome::relocated);

@@ -11,8 +11,8 @@
 namespace lodestar {
 namespace {
 
-/// A round trip of 12 m under eight markers, each seen alone or together with the next, with a filter that is
-/// told what the true robot sees. Fixes have noise of their own and every marker is surveyed a little wrong.
+/// A round trip of 12 m under eight markers, each seen alone or with the next, with a filter that gets the
+/// true robot's fixes. Fixes have noise of their own, and every marker has a survey error.
 struct RoundTrip {
   static constexpr int markers = 8;
   static constexpr double radius_m = 2.0;
@@ -44,9 +44,9 @@ struct RoundTrip {
     }
   }
 
-  /// The fix that rests on one marker: off by as much as the marker hangs elsewhere.
+  /// A fix by one marker, off by the marker's displacement.
   PlanarFix fix_by(std::size_t i) {
-    // The robot sees the marker from where it truly is and believes it to hang where it was surveyed.
+    // The robot sees the marker from its true pose, and computes with the surveyed one of the marker.
     const Pose2 map_from_installed{installed.at(i), turned.at(i)};
     const Pose2 map_from_surveyed{surveyed.at(i), 0.0};
     PlanarFix fix{.stamp = travel.stamp,

@@ -5,7 +5,7 @@
 #include "localization/pose/pose_fix.hpp"
 #include "maps/camera_model.hpp"
 
-// A camera that fixes are tested with besides the paper's, and how well its tilt is known.
+// A second camera, besides the paper's, for tests of fixes, and how well its tilt is known.
 namespace lodestar::testing {
 
 inline CameraModel wide_camera() {

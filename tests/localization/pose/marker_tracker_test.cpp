@@ -10,7 +10,7 @@ namespace {
 
 using testing::UnorderedElementsAre;
 
-/// A camera at the map's origin looks straight up at markers whose views are chosen.
+/// A camera at the map's origin looks straight up at markers in chosen views.
 class SeenFromTheOrigin : public testing::Test {
  protected:
   void install(int id, const MarkerView& view) {
@@ -25,7 +25,7 @@ class SeenFromTheOrigin : public testing::Test {
     install(3003, {.middle_px = {330.0, 390.0}, .turn_rad = -1.1});
   }
 
-  /// Known to a centimetre and half a degree, and wrong by about as much.
+  /// Sigma of 1 cm and half a degree, with an actual error of about as much.
   ExpectedView expected_about(const Vec2& off_m = Vec2(0.01, -0.005)) const {
     ExpectedView view;
     view.map_from_camera.translation().head<2>() = off_m;
@@ -63,7 +63,7 @@ TEST_F(SeenFromTheOrigin, a_part_of_the_frame_tells_what_the_whole_tells) {
         EXPECT_EQ(tracked[k].dots[d].center_px, all[k].dots[d].center_px);
     }
   }
-  EXPECT_EQ(parts, 18) << "every tenth frame is searched whole";
+  EXPECT_EQ(parts, 18) << "every tenth frame is searched in full";
 }
 
 TEST_F(SeenFromTheOrigin, without_an_expectation_all_is_searched) {
@@ -108,7 +108,7 @@ TEST_F(SeenFromTheOrigin, a_marker_that_is_gone_is_not_looked_for_everywhere_in_
     tracker.detect(frame_.finished(random_), expected_about());
     searched_all += tracker.searched_all() ? 1 : 0;
   }
-  EXPECT_LE(searched_all, 5) << "once because it is gone, then every tenth frame";
+  EXPECT_LE(searched_all, 5) << "once when the marker is lost, then every tenth frame";
 }
 
 TEST(ExpectedView, turns_the_camera_about_the_base) {
@@ -117,7 +117,7 @@ TEST(ExpectedView, turns_the_camera_about_the_base) {
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   base_from_camera.translation() = Vec3(0.2, 0.1, 0.5);
   PosePrior prior;
-  EXPECT_FALSE(expected_view(robot, base_from_camera, prior)) << "the tilt is free";
+  EXPECT_FALSE(expected_view(robot, base_from_camera, prior)) << "the tilt is unknown";
   prior.tilt_sigma_rad = 0.002;
   const std::optional<ExpectedView> view = expected_view(robot, base_from_camera, prior);
   ASSERT_TRUE(view);

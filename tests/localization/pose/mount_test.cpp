@@ -36,7 +36,7 @@ TEST(Mount, undoes_any_mount) {
 }
 
 TEST(Mount, carries_the_covariance_along_the_lever) {
-  // Tilt of the camera moves the base far below it; checked against finite motions of the camera.
+  // A tilt of the camera moves the base far below it; checked against finite differences.
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   base_from_camera.linear() = rotation_from({radians(2.0), radians(-3.0), radians(40.0)});
   base_from_camera.translation() << -0.1, 0.02, 1.1;

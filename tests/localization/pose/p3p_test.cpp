@@ -62,7 +62,7 @@ TEST(P3p, finds_the_truth_for_any_triangle) {
 }
 
 TEST(P3p, finds_the_truth_below_a_ceiling_marker) {
-  // A right-angled triangle of 12 cm seen nearly from below: two of the roots nearly fall together.
+  // A right-angled triangle of 12 cm seen nearly from below: two of the roots nearly coincide.
   Random random(2);
   int misses = 0;
   constexpr int trials = 5000;
@@ -101,7 +101,7 @@ TEST(P3p, agrees_with_opencvs_ap3p) {
         theirs.translation()[row] = translations[k].at<double>(row);
       }
       if (!shows_points_at(theirs, rays_to(view, marker)))
-        continue;  // not every root of theirs solves the problem
+        continue;  // some of their roots do not solve the problem
       ++compared;
       missing += nearest(ours, theirs) > 1e-2 ? 1 : 0;
     }

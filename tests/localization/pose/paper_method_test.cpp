@@ -8,14 +8,14 @@
 #include "tests/localization/painted_frame.hpp"
 #include "tests/localization/seen_markers.hpp"
 
-// The paper's method as it is: what it reaches, and that nothing of ours helps it.
+// The paper's method as published: what it achieves, and that it uses none of our improvements.
 namespace lodestar {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// Of the first marker of ceiling() from some way aside, tilted a little.
+/// A view of the first marker of ceiling() from 0.3 to 0.6 m aside, tilted a little.
 Eigen::Isometry3d view_aside(Random& random) {
   const double towards = random.uniform(-3.1, 3.1);
   const Vec3 aside = random.uniform(0.3, 0.6) * Vec3(std::cos(towards), std::sin(towards), 0.0);
@@ -87,8 +87,8 @@ class Spread {
   int count_ = 0;
 };
 
-// The bound of Cramér and Rao is 83 mm for it, and 0.46 mm for nine dots whose tilt is known: noise of 0.05
-// px at 2.6 m.
+// The Cramér-Rao bound is 83 mm for it, and 0.46 mm for nine dots with known tilt, at noise of 0.05 px and
+// 2.6 m.
 TEST(PaperPose, loses_by_far_to_all_dots_with_the_tilt_known) {
   Random random(4);
   const MarkerRegistry registry{.markers = {{447, Vec3(0.0, 0.0, 2.6), 0.3, 0}}};

@@ -10,13 +10,13 @@
 #include "tests/localization/pose/fix_cameras.hpp"
 #include "tests/localization/seen_markers.hpp"
 
-// Do the covariances of fixes tell the truth about their errors?
+// Are the covariances of fixes consistent with their errors?
 namespace lodestar {
 namespace {
 
 using namespace testing;
 
-/// One way of looking: the covariance must tell the truth about the errors.
+/// A configuration in which covariance and errors must be consistent.
 struct Mode {
   const char* name;
   std::optional<double> tilt_sigma_rad;
@@ -24,7 +24,7 @@ struct Mode {
   double noise_px;
 };
 
-/// Mean of the normalized squared errors over the degrees of freedom that the mode leaves.
+/// Mean normalized squared error per degree of freedom that the mode leaves.
 double mean_nees(const Mode& mode, int trials, const std::vector<int>& free_axes) {
   Random random(7);
   const CameraModel camera = paper_camera();
@@ -46,7 +46,7 @@ double mean_nees(const Mode& mode, int trials, const std::vector<int>& free_axes
 }
 
 TEST(FixPose, covariance_is_honest_in_every_mode) {
-  // The band is that of the 95 % limits of a mean of chi-square values; 2 % on top for Huber's loss.
+  // The tolerance is the 95 % interval of a mean of chi-square values, plus 2 % for Huber's loss.
   constexpr int trials = 10000;
   for (const Mode& mode : {Mode{"exact tilt", 0.0, 1, 0.1}, Mode{"tilt within 0.3 deg", radians(0.3), 1, 0.1},
                            Mode{"tilt within 0.3 deg, three markers", radians(0.3), 3, 0.1},
@@ -61,7 +61,7 @@ TEST(FixPose, covariance_is_honest_in_every_mode) {
   }
 }
 
-/// The registry's markers as hands have hung them: every dot somewhat off its place.
+/// The registry's markers as installed by hand: every dot somewhat displaced.
 std::vector<DetectedMarker> seen_glued(const Eigen::Isometry3d& view, const MarkerRegistry& registry,
                                        const CameraModel& camera, double off_m, Random& random) {
   std::vector<DetectedMarker> markers = seen(view, registry, camera, 0.0, random);
@@ -109,9 +109,9 @@ TEST(FixPose, shares_nothing_where_dots_are_where_they_should_be) {
 }
 
 TEST(FixPose, covariance_covers_the_mirrored_view_of_a_lonely_marker) {
-  // With the tilt free, 12 cm at 2.3 m look almost alike from two sides. The errors are not Gaussian then,
-  // but the truth must not be far outside of what the covariance says. Without the second view every third
-  // is.
+  // With unknown tilt, a 12 cm marker at 2.3 m looks almost alike from two mirrored views. The errors are
+  // then not Gaussian, but the truth must not be far outside the covariance. Without the mirrored view it is
+  // in every third trial.
   Random random(8);
   const CameraModel camera = paper_camera();
   MarkerRegistry registry = ceiling();
@@ -133,7 +133,7 @@ TEST(FixPose, covariance_covers_the_mirrored_view_of_a_lonely_marker) {
 /// Root mean square errors from one place with the tilt known, 9 dots at 2.6 m with noise of 0.05 px.
 struct KnownTiltErrors {
   Vec6 rms = Vec6::Zero();
-  Vec6 claimed = Vec6::Zero();  ///< deviations by the covariance, which is the Cramer-Rao bound here
+  Vec6 claimed = Vec6::Zero();  ///< sigma by the covariance, which is the Cramer-Rao bound here
 };
 
 KnownTiltErrors errors_with_known_tilt(const Vec3& position) {
@@ -156,7 +156,7 @@ KnownTiltErrors errors_with_known_tilt(const Vec3& position) {
 }
 
 TEST(FixPose, with_the_tilt_known_reaches_the_cramer_rao_bound) {
-  // From half a metre aside: 0.46 mm lateral, 2.3 mm in height, 0.05 degrees; in the marker's middle less.
+  // From half a metre aside: 0.46 mm lateral, 2.3 mm in height, 0.05 degrees; less below the marker's centre.
   const KnownTiltErrors aside = errors_with_known_tilt({-0.5, 0.0, 0.0});
   EXPECT_LT(aside.rms[0], 1.15 * 0.00046);
   EXPECT_LT(aside.rms[2], 1.15 * 0.0023);

@@ -132,7 +132,7 @@ TEST(FixPose, leaves_out_a_moved_marker_when_two_others_agree_and_refuses_when_o
   EXPECT_FALSE(fix_pose(Stamp{}, markers, surveyed, camera, options));
 }
 
-// Two markers, one 7 cm off: a robot that leans over would see them much like this.
+// Two markers, one displaced by 7 cm: a robot that leans over would see them much like this.
 TEST(FixPose, does_not_explain_a_moved_marker_by_a_tilt_that_cannot_be) {
   Random random(6);
   MarkerRegistry surveyed;
@@ -147,7 +147,7 @@ TEST(FixPose, does_not_explain_a_moved_marker_by_a_tilt_that_cannot_be) {
   options.prior.height_sigma_m = 0.003;
   EXPECT_FALSE(fix_pose(Stamp{}, markers, surveyed, camera, options));
   options.max_prior_chi2 = 1e9;
-  EXPECT_TRUE(fix_pose(Stamp{}, markers, surveyed, camera, options)) << "without that limit it does";
+  EXPECT_TRUE(fix_pose(Stamp{}, markers, surveyed, camera, options)) << "a fix without that limit";
 }
 
 TEST(FixPose, of_four_markers_leaves_out_two_moved_ones_or_refuses) {
@@ -155,7 +155,7 @@ TEST(FixPose, of_four_markers_leaves_out_two_moved_ones_or_refuses) {
   MarkerRegistry surveyed = ceiling();
   surveyed.markers.push_back({77, Vec3(0.8, 1.7, 2.6), 0.3, 0});
   MarkerRegistry hanging = surveyed;
-  hanging.markers[0].position_m.y() -= 0.05;  // even of the optimal marker
+  hanging.markers[0].position_m.y() -= 0.05;  // the optimal marker too
   hanging.markers[2].yaw_rad += radians(5.0);
   const CameraModel camera = wide_camera();
   const Eigen::Isometry3d view = view_from({1.1, 1.9, 1.1}, 0.4);
@@ -193,7 +193,7 @@ TEST(FixPose, refuses_dots_that_fit_no_pose) {
 }
 
 TEST(FixPose, needs_no_p3p_where_the_tilt_is_known) {
-  // Noise of 1 px spoils P3P on 12 cm by many degrees; the start from the prior's tilt does not mind.
+  // Noise of 1 px puts P3P on 12 cm off by many degrees; the start from the tilt prior is not affected.
   Random random(12);
   MarkerRegistry registry = ceiling();
   registry.markers.resize(1);

@@ -9,7 +9,7 @@
 #include "tests/localization/painted_frame.hpp"
 #include "tests/localization/seen_markers.hpp"
 
-// What a fixer learns from frame to frame: how much larger the variance of dots is than they say.
+// What a fixer learns over frames: by how much the dots' true variance exceeds the stated one.
 namespace lodestar {
 namespace {
 
@@ -17,7 +17,7 @@ constexpr double said_px = 0.02;
 
 class PoseFixerTest : public testing::Test {
  protected:
-  /// Of four: the tilt is exact.
+  /// Expected to be 4: the tilt is exact.
   double nees_of_fix(const Eigen::Isometry3d& view, double noise_px) {
     PoseFixOptions options;
     options.prior.tilt_sigma_rad = 0.0;
@@ -50,7 +50,7 @@ class PoseFixerTest : public testing::Test {
 };
 
 TEST_F(PoseFixerTest, learns_that_dots_are_farther_off_than_they_say) {
-  EXPECT_GT(mean_nees(3, 2.0 * said_px), 1.5 * 4.0) << "nobody has told it yet";
+  EXPECT_GT(mean_nees(3, 2.0 * said_px), 1.5 * 4.0) << "nothing learned yet";
   mean_nees(500, 2.0 * said_px);
   EXPECT_NEAR(mean_nees(1000, 2.0 * said_px), 4.0, 0.4);
 }

@@ -14,7 +14,7 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 const Vec3 center_from_camera(0.3, -0.2, 2.6);
 
-/// Of a camera that knows where the dots' centre is in its own frame much better than how it is tilted.
+/// Covariance of a camera that knows the dots' centre in its own frame much better than its tilt.
 Mat6 linear_covariance() {
   const Vec3 center_sigma_m(0.004, 0.003, 0.02);
   const Vec3 turn_sigma(0.03, 0.05, 0.01);
@@ -28,8 +28,8 @@ Mat6 linear_covariance() {
   return by_causes * variances.asDiagonal() * by_causes.transpose();
 }
 
-/// How far the camera really moves with these errors of the linear view: the dots stay, and what it is off
-/// from them is fixed to it and turns with it.
+/// True motion of the camera for these errors of the linear model: the dots stay, and the camera's offset
+/// from them turns with it.
 Vec3 moved(const Vec6& linear) {
   const Vec3 turn = linear.tail<3>();
   const Vec3 off = -linear.head<3>() - turn.cross(center_from_camera);
