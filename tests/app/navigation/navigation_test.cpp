@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
+#include "app/common/parallel.hpp"
 #include "app/navigation/mission.hpp"
 
 #include "tests/app/navigation/lab.hpp"
@@ -59,6 +60,62 @@ Drive drive(const Lab& lab, const Goal& goal) {
   return result;
 }
 
+/// The same with the seeds 1 to 60, on all cores.
+std::vector<Drive> drives(const Lab& lab, const Goal& goal) {
+  std::vector<Drive> results(60);
+  in_parallel(static_cast<int>(results.size()), [&](int i) {
+    Lab seeded = lab;
+    seeded.seed = static_cast<std::uint64_t>(i) + 1;
+    results[static_cast<std::size_t>(i)] = drive(seeded, goal);
+  });
+  return results;
+}
+
+template <typename IsSuch>
+int count(const std::vector<Drive>& drives, const IsSuch& is_such) {
+  return static_cast<int>(std::ranges::count_if(drives, is_such));
+}
+
+bool arrived_where_it_should(const Drive& drive) {
+  return drive.arrived && drive.goal_error_m < 0.02;
+}
+
+bool touched_something(const Drive& drive) {
+  return drive.contacts > 0;
+}
+
+/// Half of the markers are gone: none is left on the corridor, some are in the north.
+Lab without_markers_on_the_corridor() {
+  Lab lab;
+  lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03, .plain_ceiling = true};
+  std::vector<Vec2> places_m{lab.site.start.position_m};
+  for (const Goal& goal : lab.site.goals) places_m.push_back(goal.position_m);
+  lab.installed = with_markers_removed(lab.installed, 0.5, places_m, 72);
+  return lab;
+}
+
+/// Four metres without a marker, and a gate on the way.
+Lab with_a_gap() {
+  const std::set<int> left{447, 2357, 3501, 1135, 1849};
+  Lab lab;
+  lab.disturbances.plain_ceiling = true;
+  std::erase_if(lab.installed.markers,
+                [&](const RegisteredMarker& marker) { return !left.contains(marker.id); });
+  return lab;
+}
+
+/// Ten metres without a marker, under a ceiling that shows something.
+Lab with_markers_at_its_ends() {
+  Lab lab;
+  lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03};
+  const Vec2 goal_m = lab.site.goals.front().position_m;
+  std::erase_if(lab.installed.markers, [&](const RegisteredMarker& marker) {
+    const Vec2 place_m = marker.position_m.head<2>();
+    return (place_m - lab.site.start.position_m).norm() > 2.0 && (place_m - goal_m).norm() > 2.0;
+  });
+  return lab;
+}
+
 /// The marker nearest to the middle of the way.
 RegisteredMarker& marker_on_the_way(MarkerRegistry& registry) {
   return *std::ranges::min_element(registry.markers, {}, [](const RegisteredMarker& marker) {
@@ -90,12 +147,7 @@ TEST(Navigation, names_a_moved_marker_and_arrives_without_it) {
 }
 
 TEST(Navigation, takes_another_way_where_it_found_no_marker) {
-  Lab lab;
-  lab.seed = 72;  // no marker on the corridor, some in the north
-  lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03, .plain_ceiling = true};
-  std::vector<Vec2> places_m{lab.site.start.position_m};
-  for (const Goal& goal : lab.site.goals) places_m.push_back(goal.position_m);
-  lab.installed = with_markers_removed(lab.installed, 0.5, places_m, lab.seed);
+  const Lab lab = without_markers_on_the_corridor();
   const Drive result = drive(lab, lab.site.goals.front());
   EXPECT_TRUE(result.arrived) << result.failure;
   EXPECT_TRUE(result.took_another_way);
@@ -118,37 +170,21 @@ TEST(Navigation, when_blind_goes_back_and_drives_on_when_it_sees_again) {
 }
 
 TEST(Navigation, goes_back_to_learn_its_wheels_when_the_next_marker_is_too_far) {
-  const std::set<int> left{447, 2357, 3501, 1135, 1849};  // four metres without one, and a gate on the way
-  for (const std::uint64_t seed : {2U, 3U, 5U}) {
-    Lab lab;
-    lab.seed = seed;
-    lab.disturbances.plain_ceiling = true;
-    std::erase_if(lab.installed.markers,
-                  [&](const RegisteredMarker& marker) { return !left.contains(marker.id); });
-    const Drive result = drive(lab, lab.site.goals.front());
-    EXPECT_TRUE(result.arrived) << result.failure;
-    EXPECT_TRUE(result.went_back);
-    EXPECT_EQ(result.contacts, 0);
-    EXPECT_LT(result.goal_error_m, 0.02);
-  }
+  const Lab lab = with_a_gap();
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_TRUE(result.went_back);
+  EXPECT_EQ(result.contacts, 0);
+  EXPECT_LT(result.goal_error_m, 0.02);
 }
 
 TEST(Navigation, goes_by_the_ceiling_where_markers_are_far_between) {
-  for (const std::uint64_t seed : {2U, 3U, 4U}) {
-    Lab lab;
-    lab.seed = seed;
-    lab.disturbances = {.lost_frames = 0.3, .unequal_wheels = 0.03};
-    const Goal& goal = lab.site.goals.front();
-    std::erase_if(lab.installed.markers, [&](const RegisteredMarker& marker) {
-      const Vec2 place_m = marker.position_m.head<2>();
-      return (place_m - lab.site.start.position_m).norm() > 2.0 && (place_m - goal.position_m).norm() > 2.0;
-    });
-    const Drive result = drive(lab, goal);
-    EXPECT_TRUE(result.arrived) << result.failure;
-    EXPECT_FALSE(result.went_back) << "ten metres by the ceiling alone";
-    EXPECT_EQ(result.contacts, 0);
-    EXPECT_LT(result.goal_error_m, 0.02);
-  }
+  const Lab lab = with_markers_at_its_ends();
+  const Drive result = drive(lab, lab.site.goals.front());
+  EXPECT_TRUE(result.arrived) << result.failure;
+  EXPECT_FALSE(result.went_back) << "ten metres by the ceiling alone";
+  EXPECT_EQ(result.contacts, 0);
+  EXPECT_LT(result.goal_error_m, 0.02);
 }
 
 TEST(Navigation, turns_to_find_its_first_marker) {
@@ -200,6 +236,30 @@ TEST(Navigation, pauses_goes_on_and_can_be_cancelled) {
   EXPECT_FALSE(navigation.arrived());
   navigation.resume();
   EXPECT_EQ(run(50).forward_mps, 0.0) << "there is nothing to go on with";
+}
+
+// Whether a drive arrives is random, so one tells little. Bounds are three standard deviations of a binomial
+// off what these 60 drives gave: 43, 59 and 60 arrivals; 8, 1 and 0 drives that touched a wall on their way
+// back (decision 9 says why this is not zero).
+TEST(NavigationRates, of_another_way_where_it_found_no_marker) {
+  const Lab lab = without_markers_on_the_corridor();
+  const std::vector<Drive> all = drives(lab, lab.site.goals.front());
+  EXPECT_GE(count(all, arrived_where_it_should), 33);
+  EXPECT_LE(count(all, touched_something), 16);
+}
+
+TEST(NavigationRates, of_going_back_when_the_next_marker_is_too_far) {
+  const Lab lab = with_a_gap();
+  const std::vector<Drive> all = drives(lab, lab.site.goals.front());
+  EXPECT_GE(count(all, arrived_where_it_should), 56);
+  EXPECT_LE(count(all, touched_something), 4);
+}
+
+TEST(NavigationRates, of_ten_metres_by_the_ceiling_alone) {
+  const Lab lab = with_markers_at_its_ends();
+  const std::vector<Drive> all = drives(lab, lab.site.goals.front());
+  EXPECT_GE(count(all, arrived_where_it_should), 57);
+  EXPECT_EQ(count(all, touched_something), 0);
 }
 
 }  // namespace
