@@ -43,7 +43,7 @@ class Backtrack {
     return possible() ? std::optional(seen_at_m_.front()) : std::nullopt;
   }
 
-  /// Counts a retreat: where to. Nothing when none may be made.
+  /// Counts a backtrack: where to. Nothing when none may be made.
   std::optional<Vec2> begin();
 
   /// It is where the last one led to.
@@ -59,7 +59,7 @@ class Backtrack {
     return (position_in_map - towards_m_).norm() > options_.markers_view_m;
   }
 
-  /// The ground on which it has seen no marker before the retreats made so far, in steps.
+  /// The ground on which it has seen no marker before the backtracks made so far, in steps.
   [[nodiscard]] std::span<const Vec2> blind_places_m() const { return blind_places_m_; }
 
   /// To another goal.
@@ -70,7 +70,7 @@ class Backtrack {
   std::deque<Vec2> seen_at_m_;  ///< the last places, a step apart
   Vec2 towards_m_ = Vec2::Zero();
   std::vector<Vec2> unseen_at_m_;     ///< the places since the last marker, a step apart
-  std::vector<Vec2> blind_places_m_;  ///< those that ended in a retreat
+  std::vector<Vec2> blind_places_m_;  ///< those that ended in a backtrack
   int made_ = 0;
   bool has_seen_ = false;  ///< a marker, since the last one began
   bool found_no_marker_ = false;

@@ -65,7 +65,8 @@ auto trip_in(State& state) {
 /// The trip with the motion of whatever moves the robot now.
 Trip moving_trip(BehaviourState state) {
   Trip trip = std::move(*trip_in(state));
-  if (const auto* retreating = std::get_if<Retreating>(&state)) trip.drive.take_over_from(retreating->way);
+  if (const auto* backtracking = std::get_if<Backtracking>(&state))
+    trip.drive.take_over_from(backtracking->way);
   const auto* paused = std::get_if<Paused>(&state);
   if (paused != nullptr && paused->way_back) trip.drive.take_over_from(*paused->way_back);
   return trip;
@@ -93,7 +94,7 @@ BehaviourState go_on(Trip trip, const Circumstances& at) {
 BehaviourState stop_or_go_on(Trip trip, const Circumstances& at) {
   if (!at.stop) return go_on(std::move(trip), at);
   if (!at.marker_can_end_stop()) return Braking{std::move(trip), Reason::stop};
-  if (at.can_go_back()) return Braking{std::move(trip), Reason::unsure};
+  if (at.can_go_back()) return Braking{std::move(trip), Reason::uncertain};
   return Searching{std::move(trip), Spin(at.options.spin)};
 }
 
@@ -125,7 +126,7 @@ BehaviourState next(Blocked state, const Circumstances& at) {
 
 /// Once it stands: first it looks for a way with more room; where it may not go on, or has done so, it goes
 /// back. While it brakes it may pass the narrow place that it was too unsure for.
-BehaviourState stay_unsure(Braking state, const Circumstances& at) {
+BehaviourState stay_uncertain(Braking state, const Circumstances& at) {
   Trip& trip = state.trip;
   if (at.facts.sees_marker && !at.marker_can_end_stop()) return stop_or_go_on(std::move(trip), at);
   const bool stands = trip.drive.at_rest();
@@ -146,8 +147,8 @@ BehaviourState next(Braking state, const Circumstances& at) {
     case Reason::stop:
     case Reason::replan:
       return stop_or_go_on(std::move(state.trip), at);
-    case Reason::unsure:
-      return stay_unsure(std::move(state), at);
+    case Reason::uncertain:
+      return stay_uncertain(std::move(state), at);
     case Reason::marker_found:
       if (state.trip.drive.at_rest()) return stop_or_go_on(std::move(state.trip), at);
       return state;
@@ -160,7 +161,7 @@ BehaviourState next(Braking state, const Circumstances& at) {
 BehaviourState next(Searching state, const Circumstances& at) {
   if (has_goal(state.trip)) {
     if (at.marker_can_end_stop() && !at.can_go_back()) return state;
-    return stay_unsure({std::move(state.trip), Reason::unsure}, at);
+    return stay_uncertain({std::move(state.trip), Reason::uncertain}, at);
   }
   if (at.facts.may_look_around && at.marker_can_end_stop()) return state;
   return Braking{std::move(state.trip), Reason::end};
@@ -170,12 +171,12 @@ BehaviourState next(Searching state, const Circumstances& at) {
 BehaviourState next(Asking state, const Circumstances& at) {
   const bool asks_for_way_back = state.request.kind == PlanKind::way_back;
   if (!(asks_for_way_back ? at.facts.stop_on_backtrack : at.stop)) return state;
-  if (asks_for_way_back) return stay_unsure({std::move(state.trip), Reason::unsure}, at);
+  if (asks_for_way_back) return stay_uncertain({std::move(state.trip), Reason::uncertain}, at);
   return stop_or_go_on(std::move(state.trip), at);
 }
 
 /// A marker on the way that is not the one it goes back to saves the rest of the way.
-BehaviourState next(Retreating state, const Circumstances& at) {
+BehaviourState next(Backtracking state, const Circumstances& at) {
   const std::optional<PoseEstimate>& estimate = at.facts.estimate;
   if (at.facts.sees_marker && estimate && at.places.is_far_from_its_end(estimate->map_from_base.position_m))
     return Braking{moving_trip(std::move(state)), Reason::marker_found};
@@ -184,14 +185,14 @@ BehaviourState next(Retreating state, const Circumstances& at) {
 
 BehaviourState next(Paused state, const Circumstances& at) {
   if (at.facts.wish == Wish::pause) return state;
-  if (state.way_back) return next(Retreating{std::move(state.trip), std::move(*state.way_back)}, at);
+  if (state.way_back) return next(Backtracking{std::move(state.trip), std::move(*state.way_back)}, at);
   return stop_or_go_on(std::move(state.trip), at);
 }
 
 BehaviourState paused(BehaviourState state) {
   if (std::holds_alternative<Paused>(state)) return state;
-  if (auto* retreating = std::get_if<Retreating>(&state))
-    return Paused{std::move(retreating->trip), std::move(retreating->way)};
+  if (auto* backtracking = std::get_if<Backtracking>(&state))
+    return Paused{std::move(backtracking->trip), std::move(backtracking->way)};
   return Paused{std::move(*trip_in(state)), std::nullopt};
 }
 
@@ -231,7 +232,7 @@ BehaviourState with_way_back(Asking state, const PlanAnswer& answer, Backtrack& 
   places.begin();
   want(state.trip, {.kind = PlanKind::another_way});
   if (const auto* found = std::get_if<PathFound>(&answer))
-    return Retreating{std::move(state.trip), found->drive};
+    return Backtracking{std::move(state.trip), found->drive};
   return Braking{std::move(state.trip), Reason::replan};
 }
 

@@ -36,7 +36,7 @@ struct Facts {
   std::optional<StopReason> stop_on_backtrack;  ///< why not even back by the way that it has just come
   SpeedLimit limit;                             ///< valid while there is no `stop`
   RoomAhead room_ahead = RoomAhead::enough;     ///< likewise
-  SpeedLimit limit_on_backtrack;                ///< valid while there is no `stop_on_retreat`
+  SpeedLimit limit_on_backtrack;                ///< valid while there is no `stop_on_backtrack`
   Wish wish = Wish::go_on;
   bool may_look_around = false;  ///< while it follows nothing
   bool map_changed = false;      ///< since the last step

@@ -22,7 +22,7 @@ Outcome along_path(Trip trip, bool was_blocked, const Facts& facts, const Backtr
     if (!was_blocked) trip.wanted = PlanRequest{.kind = PlanKind::review, .leg_from_here = true};
     return {command, Blocked{std::move(trip), false}};
   }
-  if (can_go_back(facts, places)) return {command, Braking{std::move(trip), Reason::unsure}};
+  if (can_go_back(facts, places)) return {command, Braking{std::move(trip), Reason::uncertain}};
   return {command, Blocked{std::move(trip), true}};
 }
 
@@ -49,7 +49,7 @@ Outcome move(Searching state, const Facts& facts, const BehaviourOptions&, Backt
 }
 
 /// Along a way that the robot knows to be free. What stops it may pass while it brakes.
-Outcome move(Retreating state, const Facts& facts, const BehaviourOptions& options, Backtrack& places) {
+Outcome move(Backtracking state, const Facts& facts, const BehaviourOptions& options, Backtrack& places) {
   RotateThenDrive& way = state.way;
   const bool is_blocked = !facts.stop_on_backtrack && way.phase() == DrivePhase::driving &&
                           facts.limit_on_backtrack.forward_mps < options.drive.min_forward_mps;
@@ -82,18 +82,18 @@ Outcome move(Resting state, const Facts&, const BehaviourOptions&, Backtrack&) {
 bool goes_back(const BehaviourState& state) {
   const auto* braking = std::get_if<Braking>(&state);
   const auto* paused = std::get_if<Paused>(&state);
-  return std::holds_alternative<Retreating>(state) ||
+  return std::holds_alternative<Backtracking>(state) ||
          (braking != nullptr && braking->reason == Reason::marker_found) ||
          (paused != nullptr && paused->way_back);
 }
 
 /// Is what holds it up that it knows too little of its place, though it would be allowed to move?
-bool is_unsure(const BehaviourState& state) {
+bool is_uncertain(const BehaviourState& state) {
   if (const auto* blocked = std::get_if<Blocked>(&state)) return blocked->only_by_uncertainty;
   const auto* braking = std::get_if<Braking>(&state);
   if (braking == nullptr) return false;
   const std::optional<PlanRequest>& wanted = braking->trip.wanted;
-  return braking->reason == Reason::unsure ||
+  return braking->reason == Reason::uncertain ||
          (braking->reason == Reason::replan && wanted && wanted->kind == PlanKind::another_way);
 }
 
@@ -109,7 +109,7 @@ Moved moved(Behaviour before, const Facts& facts, const BehaviourOptions& option
 Shown shown(const Behaviour& decided, const Behaviour& moved, const Facts& facts) {
   if (goes_back(decided.state)) return {.stop = facts.stop_on_backtrack, .backtracks = true};
   if (const std::optional<StopReason> stop = reason_to_stay(facts, decided.places)) return {.stop = stop};
-  if (is_unsure(moved.state)) return {.stop = StopReason::pose_uncertain};
+  if (is_uncertain(moved.state)) return {.stop = StopReason::pose_uncertain};
   if (std::holds_alternative<Blocked>(moved.state)) return {.stop = StopReason::way_blocked};
   return {};
 }
@@ -125,8 +125,8 @@ bool can_go_back(const Facts& facts, const Backtrack& places) {
 
 std::string_view to_string(const BehaviourState& state) {
   if (const auto* braking = std::get_if<Braking>(&state)) {
-    constexpr std::array names{"Braking: stop", "Braking: unsure", "Braking: replan", "Braking: marker found",
-                               "Braking: end"};
+    constexpr std::array names{"Braking: stop", "Braking: uncertain", "Braking: replan",
+                               "Braking: marker found", "Braking: end"};
     return names.at(static_cast<std::size_t>(braking->reason));
   }
   if (const auto* asking = std::get_if<Asking>(&state)) {
@@ -134,8 +134,8 @@ std::string_view to_string(const BehaviourState& state) {
                                "Asking: way back"};
     return names.at(static_cast<std::size_t>(asking->request.kind));
   }
-  constexpr std::array names{"Standing",  "Arrived", "Following",  "Blocked", "",
-                             "Searching", "",        "Retreating", "Paused"};
+  constexpr std::array names{"Standing",  "Arrived", "Following",    "Blocked", "",
+                             "Searching", "",        "Backtracking", "Paused"};
   return names.at(state.index());
 }
 

@@ -57,7 +57,7 @@ struct Blocked {
 struct Braking {
   enum class Reason {
     stop,          ///< it must not move, and no marker would change that
-    unsure,        ///< of its place, too much to go on: at rest it looks for a surer way, or goes back
+    uncertain,     ///< of its place, too much to go on: at rest it looks for a surer way, or goes back
     replan,        ///< its path is to be replaced: at rest it asks for another
     marker_found,  ///< on its way back: from here it can go on
     end            ///< it follows nothing any more
@@ -80,7 +80,7 @@ struct Asking {
 };
 
 /// Goes back to where it saw a marker.
-struct Retreating {
+struct Backtracking {
   Trip trip;            ///< to be taken up again
   RotateThenDrive way;  ///< moves the robot
 };
@@ -88,13 +88,13 @@ struct Retreating {
 /// Comes to rest and stays there as the operator wishes.
 struct Paused {
   Trip trip;
-  std::optional<RotateThenDrive> way_back;  ///< it was retreating
+  std::optional<RotateThenDrive> way_back;  ///< it was backtracking
 };
 
 using BehaviourState =
-    std::variant<Standing, Arrived, Following, Blocked, Braking, Searching, Asking, Retreating, Paused>;
+    std::variant<Standing, Arrived, Following, Blocked, Braking, Searching, Asking, Backtracking, Paused>;
 
-/// As docs/behaviours.md calls it: "Following", "Braking: unsure", "Asking: way back".
+/// As docs/behaviours.md calls it: "Following", "Braking: uncertain", "Asking: way back".
 std::string_view to_string(const BehaviourState& state);
 
 }  // namespace lodestar

@@ -107,15 +107,15 @@ std::vector<Column> motions() {
     facts.estimate->map_from_base.yaw_rad = radians(180.0);
     facts.limit_on_backtrack.forward_mps = 0.0;
   };
-  const auto unsure = [](Facts& facts) { facts.stop_on_backtrack = StopReason::pose_uncertain; };
+  const auto uncertain = [](Facts& facts) { facts.stop_on_backtrack = StopReason::pose_uncertain; };
   constexpr int to_rest = 200;
   return {{"at rest", moving([](Facts&) {}, to_rest)},
           {"at its goal", moving(at_goal, to_rest)},
-          {"too little room in doubt", moving(doubtful, 1)},
+          {"too little clearance for its uncertainty", moving(doubtful, 1)},
           {"no room ahead", moving(no_room, 1)},
           {"back where it saw a marker", moving(at_place, to_rest)},
           {"no room on the way back", moving(no_room_back, to_rest)},
-          {"unsure even for a retreat", moving(unsure, to_rest)}};
+          {"too uncertain even to backtrack", moving(uncertain, to_rest)}};
 }
 
 std::vector<Column> operator_columns() {
@@ -163,7 +163,7 @@ TEST(BehaviourTable, of_what_comes_of_a_plan_is_that_of_the_documentation) {
 }
 
 TEST(BehaviourTable, of_what_comes_of_moving_is_that_of_the_documentation) {
-  expect_in_documentation(table(only({"Following", "Blocked", "Braking: end", "Retreating"}), motions()));
+  expect_in_documentation(table(only({"Following", "Blocked", "Braking: end", "Backtracking"}), motions()));
 }
 
 TEST(BehaviourTable, lists_every_state_and_every_reason_to_brake) {

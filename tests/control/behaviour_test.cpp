@@ -23,7 +23,7 @@ BodyVelocity velocity_of(const Behaviour& behaviour) {
   const Trip* const trip = trip_of(behaviour.state);
   if (trip == nullptr) return {};
   RotateThenDrive drive = trip->drive;
-  if (const auto* retreating = std::get_if<Retreating>(&behaviour.state)) drive = retreating->way;
+  if (const auto* backtracking = std::get_if<Backtracking>(&behaviour.state)) drive = backtracking->way;
   const auto* paused = std::get_if<Paused>(&behaviour.state);
   if (paused != nullptr && paused->way_back) drive = *paused->way_back;
   return drive.slow_down(Duration::zero());  // zero elapsed time: no change
@@ -61,7 +61,7 @@ TEST(Behaviour, changes_no_speed_abruptly_whatever_happens_but_for_halts) {
 TEST(Behaviour, comes_to_rest_whatever_it_was_about_when_it_is_stopped) {
   for (const NamedBehaviour& from : all_behaviours()) {
     for (const std::string name :
-         {"unsure even for a retreat", "camera lost", "carried away", "pause", "cancel", "halt"}) {
+         {"too uncertain even to backtrack", "camera lost", "carried away", "pause", "cancel", "halt"}) {
       SCOPED_TRACE(from.name + ", " + name);
       Facts facts;
       for (const NamedFacts& happening : all_happenings())
@@ -90,7 +90,7 @@ class Story {
     facts.wish = wish;
     if (random_.uniform() < 0.05) find_something();
     facts.stop = stop_;
-    facts.stop_on_backtrack = stop_on_retreat_;
+    facts.stop_on_backtrack = stop_on_backtrack_;
     facts.sees_marker = sees_marker_;
     facts.room_ahead = room_;
     facts.map_changed = random_.uniform() < 0.02;
@@ -110,18 +110,18 @@ class Story {
   [[nodiscard]] double change_mps() const { return change_mps_; }
   [[nodiscard]] double change_radps() const { return change_radps_; }
   [[nodiscard]] bool may_move() const { return !stop_; }
-  [[nodiscard]] bool may_go_back() const { return !stop_on_retreat_; }
+  [[nodiscard]] bool may_go_back() const { return !stop_on_backtrack_; }
 
  private:
   void find_something() {
     const double what = random_.uniform();
     stop_.reset();
-    stop_on_retreat_.reset();
+    stop_on_backtrack_.reset();
     sees_marker_ = what < 0.2;
     room_ = what > 0.3 && what < 0.4 ? RoomAhead::too_little_when_uncertain : RoomAhead::enough;
     if (what > 0.4) stop_ = StopReason::pose_uncertain;
-    if (what > 0.6) stop_on_retreat_ = StopReason::pose_uncertain;
-    if (what > 0.8) stop_ = stop_on_retreat_ = StopReason::camera_silent;
+    if (what > 0.6) stop_on_backtrack_ = StopReason::pose_uncertain;
+    if (what > 0.8) stop_ = stop_on_backtrack_ = StopReason::camera_silent;
   }
 
   PlanAnswer some_answer() {
@@ -141,7 +141,7 @@ class Story {
   BodyVelocity command_ = velocity_of(behaviour_);
   Stamp now_{std::chrono::seconds(10)};
   std::optional<StopReason> stop_;
-  std::optional<StopReason> stop_on_retreat_;
+  std::optional<StopReason> stop_on_backtrack_;
   bool sees_marker_ = false;
   RoomAhead room_ = RoomAhead::enough;
   double change_mps_ = 0.0;
@@ -161,9 +161,9 @@ TEST(Behaviour, in_any_order_of_events_speeds_up_only_where_it_may_and_never_abr
         story.step(Wish::go_on);
         ASSERT_LE(story.change_mps(), most_mps);
         ASSERT_LE(story.change_radps(), most_radps);
-        const bool retreats_now = is<Retreating>(story.about());
-        if (retreats_now) ++backtracks;
-        const bool may = retreats_now ? story.may_go_back() : story.may_move();
+        const bool backtracks_now = is<Backtracking>(story.about());
+        if (backtracks_now) ++backtracks;
+        const bool may = backtracks_now ? story.may_go_back() : story.may_move();
         const double speed_mps = std::abs(story.command().forward_mps);
         ASSERT_TRUE(may || speed_mps <= std::abs(forward_mps));
         ASSERT_TRUE(!is<Asking>(story.about()) || speed_mps == 0.0);
@@ -203,8 +203,8 @@ TEST(Behaviour, while_paused_stands_and_goes_on_with_what_it_was_about) {
     facts.wish = Wish::go_on;
     const Behaviour resumed = decided(last.behaviour, facts, options);
     EXPECT_TRUE(is_under_way(resumed.state));
-    const bool was_going_back = is<Retreating>(from.behaviour) || from.name == "Paused, retreating";
-    EXPECT_EQ(is<Retreating>(resumed), was_going_back);
+    const bool was_going_back = is<Backtracking>(from.behaviour) || from.name == "Paused, backtracking";
+    EXPECT_EQ(is<Backtracking>(resumed), was_going_back);
   }
 }
 
@@ -251,21 +251,21 @@ TEST(Behaviour, an_answer_that_comes_too_late_changes_nothing) {
   }
 }
 
-TEST(Behaviour, a_retreat_that_was_asked_for_in_vain_is_not_asked_for_again) {
+TEST(Behaviour, a_backtrack_that_was_asked_for_in_vain_is_not_asked_for_again) {
   const Trip trip{drive_at_rest(), std::nullopt, true};
   Behaviour behaviour{Asking{trip, {.kind = PlanKind::way_back}}, places_behind()};
   behaviour = answered(behaviour, PathNotFound{});
   EXPECT_FALSE(behaviour.places.possible());
-  Facts unsure = calm();
-  unsure.stop = StopReason::pose_uncertain;
-  EXPECT_TRUE(is<Searching>(decided(behaviour, unsure, options)));
+  Facts uncertain = calm();
+  uncertain.stop = StopReason::pose_uncertain;
+  EXPECT_TRUE(is<Searching>(decided(behaviour, uncertain, options)));
   EXPECT_EQ(to_string(decided(behaviour, calm(), options).state), "Asking: another way");
 }
 
 TEST(Behaviour, that_came_back_and_saw_no_marker_stays_and_says_why) {
   const Trip trip{drive_at_rest(), PlanRequest{.kind = PlanKind::another_way}, true};
   const RotateThenDrive way({{Vec2::Zero(), Vec2::Zero()}}, std::nullopt);
-  Behaviour behaviour{Retreating{trip, way}, places_when_retreating()};
+  Behaviour behaviour{Backtracking{trip, way}, places_when_backtracking()};
   Facts back = calm();
   back.estimate->map_from_base.position_m = Vec2::Zero();
   behaviour = step(behaviour, back).behaviour;
@@ -284,9 +284,9 @@ TEST(Behaviour, tells_people_what_holds_it_up) {
   EXPECT_EQ(told(Following{trip}).stop, std::nullopt);
   EXPECT_EQ(told(Blocked{trip, false}).stop, StopReason::way_blocked);
   EXPECT_EQ(told(Blocked{trip, true}).stop, StopReason::pose_uncertain);
-  EXPECT_EQ(told(Braking{trip, Reason::unsure}).stop, StopReason::pose_uncertain);
-  EXPECT_EQ(told(Retreating{trip, drive_at_rest()}).stop, std::nullopt);
-  EXPECT_TRUE(told(Retreating{trip, drive_at_rest()}).backtracks);
+  EXPECT_EQ(told(Braking{trip, Reason::uncertain}).stop, StopReason::pose_uncertain);
+  EXPECT_EQ(told(Backtracking{trip, drive_at_rest()}).stop, std::nullopt);
+  EXPECT_TRUE(told(Backtracking{trip, drive_at_rest()}).backtracks);
   Facts stopped = facts;
   stopped.stop = StopReason::camera_silent;
   const Behaviour blocked{Blocked{trip, false}, places_behind()};

@@ -68,7 +68,7 @@ inline Backtrack places_behind() {
   return places;
 }
 
-inline Backtrack places_when_retreating() {
+inline Backtrack places_when_backtracking() {
   Backtrack places = places_behind();
   places.begin();
   return places;
@@ -85,7 +85,7 @@ inline std::vector<NamedBehaviour> all_behaviours() {
     trip.wanted = PlanRequest{.kind = kind, .goal_m = Vec2(2.0, 1.0)};
     return trip;
   };
-  const auto unsure_before = [](Trip trip) {
+  const auto uncertain_before = [](Trip trip) {
     trip.prefers_wide_margins = true;
     return trip;
   };
@@ -99,9 +99,9 @@ inline std::vector<NamedBehaviour> all_behaviours() {
       {"Following", Following{rolling}},
       {"Blocked", Blocked{standing, false}},
       {"Braking: stop", Braking{rolling, Reason::stop}},
-      {"Braking: unsure, rolling", Braking{rolling, Reason::unsure}},
-      {"Braking: unsure, at rest", Braking{standing, Reason::unsure}},
-      {"the same, not the first time", Braking{unsure_before(standing), Reason::unsure}},
+      {"Braking: uncertain, rolling", Braking{rolling, Reason::uncertain}},
+      {"Braking: uncertain, at rest", Braking{standing, Reason::uncertain}},
+      {"the same, not the first time", Braking{uncertain_before(standing), Reason::uncertain}},
       {"Braking: replan, rolling", Braking{wanting(rolling, PlanKind::replan), Reason::replan}},
       {"Braking: replan, at rest", Braking{wanting(standing, PlanKind::replan), Reason::replan}},
       {"Braking: marker found, rolling",
@@ -115,15 +115,15 @@ inline std::vector<NamedBehaviour> all_behaviours() {
       {"Asking: another way", asking(PlanKind::another_way)},
       {"Asking: new goal", asking(PlanKind::new_goal)},
       {"Asking: way back", asking(PlanKind::way_back)},
-      {"Retreating", Retreating{wanting(standing, PlanKind::another_way), rolling_way_back()}},
+      {"Backtracking", Backtracking{wanting(standing, PlanKind::another_way), rolling_way_back()}},
       {"Paused", Paused{rolling, std::nullopt}},
-      {"Paused, retreating", Paused{wanting(standing, PlanKind::another_way), rolling_way_back()}}};
+      {"Paused, backtracking", Paused{wanting(standing, PlanKind::another_way), rolling_way_back()}}};
   std::vector<NamedBehaviour> behaviours;
   behaviours.reserve(states.size());
   for (const auto& [name, state] : states) {
     const bool goes_back =
-        name.find("etreating") != std::string::npos || name.find("found") != std::string::npos;
-    behaviours.push_back({name, {state, goes_back ? places_when_retreating() : places_behind()}});
+        name.find("acktracking") != std::string::npos || name.find("found") != std::string::npos;
+    behaviours.push_back({name, {state, goes_back ? places_when_backtracking() : places_behind()}});
   }
   return behaviours;
 }
@@ -137,10 +137,10 @@ inline std::vector<NamedFacts> all_findings() {
     return facts;
   };
   return {{"nothing new", with([](Facts&) {})},
-          {"too little room in doubt",
+          {"too little clearance for its uncertainty",
            with([](Facts& f) { f.room_ahead = RoomAhead::too_little_when_uncertain; })},
-          {"unsure of its place", with([](Facts& f) { f.stop = StopReason::pose_uncertain; })},
-          {"unsure even for a retreat",
+          {"too uncertain", with([](Facts& f) { f.stop = StopReason::pose_uncertain; })},
+          {"too uncertain even to backtrack",
            with([](Facts& f) { f.stop = f.stop_on_backtrack = StopReason::pose_uncertain; })},
           {"camera lost", with([](Facts& f) { f.stop = f.stop_on_backtrack = StopReason::camera_silent; })},
           {"carried away", with([](Facts& f) { f.stop = f.stop_on_backtrack = StopReason::carried_away; })},

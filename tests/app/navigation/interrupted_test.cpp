@@ -7,10 +7,10 @@
 namespace lodestar {
 namespace {
 
-enum class Moment { retreating, looking_around };
+enum class Moment { backtracking, looking_around };
 
 std::string name_of(const testing::TestParamInfo<Moment>& info) {
-  return info.param == Moment::retreating ? "Retreating" : "LookingAround";
+  return info.param == Moment::backtracking ? "Backtracking" : "LookingAround";
 }
 
 /// A drive through the lab under a plain ceiling. The lens is covered on the way, so the robot backtracks and
@@ -28,7 +28,7 @@ class Interrupted : public testing::TestWithParam<Moment> {
   }
 
   [[nodiscard]] bool is_the_moment() const {
-    if (GetParam() == Moment::retreating) return step.backtracks && step.command.forward_mps > 0.2;
+    if (GetParam() == Moment::backtracking) return step.backtracks && step.command.forward_mps > 0.2;
     return step.stop && step.command.turn_radps == SpinOptions{}.turn_radps;
   }
 
@@ -86,7 +86,7 @@ class Interrupted : public testing::TestWithParam<Moment> {
   double most_change_radps = 0.0;
 };
 
-INSTANTIATE_TEST_SUITE_P(While, Interrupted, testing::Values(Moment::retreating, Moment::looking_around),
+INSTANTIATE_TEST_SUITE_P(While, Interrupted, testing::Values(Moment::backtracking, Moment::looking_around),
                          name_of);
 
 TEST_P(Interrupted, by_nothing_it_drives_on_when_it_sees_again) {
