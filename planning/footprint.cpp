@@ -12,7 +12,7 @@ namespace {
 
 constexpr double touching = 1e-9;  ///< cells; rounding must not turn touching into overlapping
 
-/// In cells, low ends and high ends.
+/// Bounding box in cells.
 struct Bounds {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
   Vec2 high = -low;
@@ -42,7 +42,7 @@ Bounds bounds_of_circle(const Vec2& center, double radius) {
   return bounds;
 }
 
-/// Calls visit(cell) for the cells within bounds until one answers false; whether none did.
+/// Calls visit(cell) for the cells within bounds until one returns false. True when none did.
 template <typename Visit>
 bool all_within(const Bounds& bounds, const Visit& visit) {
   for (int row = static_cast<int>(std::floor(bounds.low.y() + touching)); row < bounds.high.y() - touching;
@@ -64,7 +64,7 @@ std::vector<Polygon> placed(const std::vector<Polygon>& pieces_m, const Pose2& g
   return pieces;
 }
 
-/// What the pieces sweep when they are shifted.
+/// The area that the pieces sweep when shifted.
 std::vector<Polygon> swept(std::vector<Polygon> pieces, const Vec2& shift) {
   for (Polygon& piece : pieces) {
     const std::size_t count = piece.size();
@@ -90,7 +90,7 @@ bool are_clear(const OccupancyMap& map, const std::vector<Polygon>& pieces) {
          });
 }
 
-/// The highest and lowest points of a turn are at its ends or where a corner passes a side of its circle.
+/// The extremes of a turn are at its ends, or where a corner crosses an axis direction of its circle.
 bool turn_stays_on(const OccupancyMap& map, const std::vector<Polygon>& pieces, const Vec2& about,
                    double turn_rad) {
   Bounds bounds;
