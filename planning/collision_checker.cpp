@@ -52,7 +52,7 @@ bool crosses(const Vec2& from, const Vec2& to, Cell cell) {
 bool within(const Vec2& from, const Vec2& to, Cell cell, double radius) {
   const double limit = radius * radius;
   const Vec2 center = center_of(cell);
-  const double far = radius + 0.5 * std::numbers::sqrt2 + rounding;  // square of a centre beyond is out of reach
+  const double far = radius + 0.5 * std::numbers::sqrt2 + rounding;  // beyond it, the square is out of reach
   if ((nearest_on_leg(from, to, center) - center).squaredNorm() > far * far) return false;
   if (squared_distance(from, cell) < limit || squared_distance(to, cell) < limit) return true;
   for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
