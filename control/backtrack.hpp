@@ -50,8 +50,8 @@ class Backtrack {
   /// The robot has reached the backtrack's target.
   void reached_place() { found_no_marker_ = !has_seen_; }
 
-  /// The robot is back where it saw markers before, and sees none. Then the camera is blind or the pose is
-  /// wrong, and the robot must not go on.
+  /// The robot is back where it saw markers before, and has seen none since the backtrack began. Then the
+  /// camera is blind or the pose is wrong, and the robot must not go on.
   [[nodiscard]] bool found_no_marker() const { return found_no_marker_; }
 
   /// Is this position far from the backtrack's target? Then a marker seen here is another one, and the robot

@@ -91,7 +91,7 @@ BodyVelocity RotateThenDrive::slow_down(Duration elapsed) {
 }
 
 BodyVelocity RotateThenDrive::turn_around(double turn_radps, Duration elapsed) {
-  if (phase_ == DrivePhase::passing_corner) next_leg();  // the waypoint itself is not returned to
+  if (phase_ == DrivePhase::passing_corner) next_leg();  // does not return to the waypoint
   // Driving on begins with a turn to the target.
   if (phase_ != DrivePhase::arrived && phase_ != DrivePhase::final_rotation) begin_turn();
   const bool rolling = last_.forward_mps != 0.0;

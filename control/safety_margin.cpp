@@ -10,7 +10,7 @@ namespace lodestar {
 
 namespace {
 
-/// Usual position error of a robot; paths have room for it.
+/// Usual position sigma of a robot; paths have the clearance for it.
 constexpr double usual_sigma_m = 0.005;
 
 double unusual_m(double sigma_m) {

@@ -11,8 +11,8 @@ struct SafetyMargin {
 };
 
 /// The safety margin for a pose covariance of (x_m, y_m, yaw_rad): 2.3 times the position's standard
-/// deviation in excess of the usual 5 mm, for which paths have room, plus ForwardClearance's tolerance, in
-/// full from 10 mm on. It grows ahead by 2.3 times the heading's standard deviation.
+/// deviation beyond the usual 5 mm (the root of the difference of the variances), plus ForwardClearance's
+/// tolerance, in full from 10 mm on. It grows ahead by 2.3 times the heading's standard deviation.
 SafetyMargin margin_for_uncertainty(const Eigen::Matrix3d& covariance);
 
 /// The margin while backtracking: 2 standard deviations, as much of the error is the same as on the way out.
