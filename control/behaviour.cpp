@@ -8,7 +8,7 @@ namespace {
 
 using Reason = Braking::Reason;
 
-/// What a transition goes by.
+/// Inputs of a transition.
 struct Circumstances {
   const Facts& facts;
   const BehaviourOptions& options;
@@ -37,12 +37,12 @@ bool has_goal(const Trip& trip) {
   return has_path(trip) || trip.wanted;
 }
 
-/// A less urgent request is part of a more urgent one.
+/// Keeps the more urgent request, which includes the other.
 void want(Trip& trip, const PlanRequest& request) {
   if (!trip.wanted || trip.wanted->kind < request.kind) trip.wanted = request;
 }
 
-/// What blocks a robot that is on its way lies between it and the leg's end, not on the leg.
+/// An obstacle lies between the robot and the leg's end, maybe beside the leg itself: check from the robot.
 PlanRequest review_by(const Blocked& blocked) {
   return {.kind = PlanKind::review, .leg_from_here = !blocked.only_by_uncertainty};
 }
@@ -62,7 +62,7 @@ auto trip_in(State& state) {
       state);
 }
 
-/// The trip with the motion of whatever moves the robot now.
+/// The trip, with its drive taking over the present speed.
 Trip moving_trip(BehaviourState state) {
   Trip trip = std::move(*trip_in(state));
   if (const auto* backtracking = std::get_if<Backtracking>(&state))
@@ -83,14 +83,14 @@ bool is_off_path(const Trip& trip, const Circumstances& at) {
          at.options.left_path_m;
 }
 
-/// Along its path; what it needs another one for it asks for first.
+/// Follows the path; asks first for any plan that it needs.
 BehaviourState go_on(Trip trip, const Circumstances& at) {
   if (must_ask_first(trip)) return at_rest_asking(std::move(trip));
   if (is_off_path(trip, at)) want(trip, {.kind = PlanKind::review});
   return Following{std::move(trip)};
 }
 
-/// A marker ends the stop: so it goes back to one, or turns to look for one.
+/// When a marker in view would end the stop, the robot backtracks or spins to find one.
 BehaviourState stop_or_go_on(Trip trip, const Circumstances& at) {
   if (!at.stop) return go_on(std::move(trip), at);
   if (!at.marker_can_end_stop()) return Braking{std::move(trip), Reason::stop};
@@ -98,7 +98,7 @@ BehaviourState stop_or_go_on(Trip trip, const Circumstances& at) {
   return Searching{std::move(trip), Spin(at.options.spin)};
 }
 
-/// While it follows nothing it looks for a marker where that is wanted.
+/// Without a path, the robot searches for a marker if allowed to.
 template <typename Resting>
 BehaviourState search_or_stay(Resting state, const Circumstances& at) {
   if (!at.facts.may_look_around || !at.marker_can_end_stop()) return state;
@@ -124,14 +124,14 @@ BehaviourState next(Blocked state, const Circumstances& at) {
   return state;
 }
 
-/// Once it stands: first it looks for a way with more room; where it may not go on, or has done so, it goes
-/// back. While it brakes it may pass the narrow place that it was too unsure for.
+/// At rest: goes on when there is room after all, as braking may have carried it past the narrow place. Else
+/// asks for another path with wider margins, once per goal; after that, or under a stop, backtracks.
 BehaviourState stay_uncertain(Braking state, const Circumstances& at) {
   Trip& trip = state.trip;
   if (at.facts.sees_marker && !at.marker_can_end_stop()) return stop_or_go_on(std::move(trip), at);
   const bool stands = trip.drive.at_rest();
   if (!at.stop && stands && at.facts.room_ahead == RoomAhead::enough) return go_on(std::move(trip), at);
-  if (at.stop && !at.can_go_back() && !at.marker_can_end_stop()) return state;  // that is for later
+  if (at.stop && !at.can_go_back() && !at.marker_can_end_stop()) return state;  // until that stop is over
   if (!at.can_go_back()) return stop_or_go_on(std::move(trip), at);
   if (!stands) return state;
   if (!at.stop && !trip.prefers_wide_margins) {
@@ -167,7 +167,7 @@ BehaviourState next(Searching state, const Circumstances& at) {
   return Braking{std::move(state.trip), Reason::end};
 }
 
-/// What it asks for is good for nothing when it may not go there; when it may again, it asks again.
+/// A stop that forbids the requested motion ends the request; the robot asks again afterwards.
 BehaviourState next(Asking state, const Circumstances& at) {
   const bool asks_for_way_back = state.request.kind == PlanKind::way_back;
   if (!(asks_for_way_back ? at.facts.stop_on_backtrack : at.stop)) return state;
@@ -175,7 +175,7 @@ BehaviourState next(Asking state, const Circumstances& at) {
   return stop_or_go_on(std::move(state.trip), at);
 }
 
-/// A marker on the way that is not the one it goes back to saves the rest of the way.
+/// A marker seen far from the backtrack's target ends the backtrack early.
 BehaviourState next(Backtracking state, const Circumstances& at) {
   const std::optional<PoseEstimate>& estimate = at.facts.estimate;
   if (at.facts.sees_marker && estimate && at.places.is_far_from_its_end(estimate->map_from_base.position_m))
@@ -201,7 +201,7 @@ PlanRequest review_of(const BehaviourState& state) {
   return blocked != nullptr ? review_by(*blocked) : PlanRequest{.kind = PlanKind::review};
 }
 
-/// What holds in every state in which the robot is on a trip comes first.
+/// Transitions common to all states with a trip come first.
 BehaviourState next(BehaviourState state, const Circumstances& at) {
   const Facts& facts = at.facts;
   if (Trip* const trip = trip_in(state)) {
@@ -215,7 +215,7 @@ BehaviourState next(BehaviourState state, const Circumstances& at) {
                     std::move(state));
 }
 
-/// A review changes nothing unless the path is to go.
+/// A review changes nothing unless the path must be replaced.
 template <typename Driving>
 BehaviourState with_review(Driving state, const PlanAnswer& answer) {
   Trip& trip = state.trip;
@@ -227,7 +227,7 @@ BehaviourState with_review(Driving state, const PlanAnswer& answer) {
   return at_rest_asking(std::move(trip));
 }
 
-/// Back, and then by another way than the one on which it saw no marker.
+/// Backtracks, and then asks for another path than the one without markers.
 BehaviourState with_way_back(Asking state, const PlanAnswer& answer, Backtrack& places) {
   places.begin();
   want(state.trip, {.kind = PlanKind::another_way});
@@ -236,7 +236,7 @@ BehaviourState with_way_back(Asking state, const PlanAnswer& answer, Backtrack& 
   return Braking{std::move(state.trip), Reason::replan};
 }
 
-/// Where there is no other way it goes by the old one, unless that is the one which does not hold any more.
+/// Without a new path, the robot follows the old one if that is still valid; else it stands.
 BehaviourState with_plan(Asking state, const PlanAnswer& answer, Backtrack& places) {
   if (state.request.kind == PlanKind::way_back) return with_way_back(std::move(state), answer, places);
   Trip& trip = state.trip;
@@ -279,7 +279,7 @@ bool is_under_way(const BehaviourState& state) {
 
 Behaviour answered(Behaviour before, const PlanAnswer& answer) {
   BehaviourState& state = before.state;
-  if (!plan_wanted(state)) return before;  // any more
+  if (!plan_wanted(state)) return before;
   if (auto* asking = std::get_if<Asking>(&state)) {
     state = with_plan(std::move(*asking), answer, before.places);
   } else if (auto* blocked = std::get_if<Blocked>(&state)) {

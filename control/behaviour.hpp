@@ -10,35 +10,35 @@
 
 namespace lodestar {
 
-/// What the operator wants of the trip under way.
+/// The operator's command for the trip under way.
 enum class Wish {
   go_on,
-  pause,   ///< come to rest, and go on later
-  cancel,  ///< come to rest, and follow nothing any more
-  halt     ///< follow nothing any more, and command zero at once
+  pause,   ///< brake to rest, and go on later
+  cancel,  ///< brake to rest, and drop the path
+  halt     ///< drop the path, and command zero at once
 };
 
-/// Is there room straight ahead, for the disc of the robot and what it does not know of its place?
+/// Is there clearance straight ahead for the robot's disc plus its safety margin for pose uncertainty?
 enum class RoomAhead {
   enough,
-  too_little_when_uncertain,  ///< were it sure of its place there would be
+  too_little_when_uncertain,  ///< enough for the disc without the margin
   none
 };
 
-/// All that a step has to decide by. Times and travel come with the data.
+/// All inputs of a step's decision. Times and travel come with the data.
 struct Facts {
   Stamp now;
   Duration elapsed = Duration::zero();  ///< since the last step
   double turned_rad = 0.0;              ///< by the wheels, since start-up
   std::optional<PoseEstimate> estimate;
   bool sees_marker = false;                     ///< one that agrees with the estimate, in this step
-  std::optional<StopReason> stop;               ///< why it must not move
-  std::optional<StopReason> stop_on_backtrack;  ///< why not even back by the way that it has just come
+  std::optional<StopReason> stop;               ///< why the robot must not move
+  std::optional<StopReason> stop_on_backtrack;  ///< why it must not even backtrack
   SpeedLimit limit;                             ///< valid while there is no `stop`
   RoomAhead room_ahead = RoomAhead::enough;     ///< likewise
   SpeedLimit limit_on_backtrack;                ///< valid while there is no `stop_on_backtrack`
   Wish wish = Wish::go_on;
-  bool may_look_around = false;  ///< while it follows nothing
+  bool may_look_around = false;  ///< may spin while it follows no path
   bool map_changed = false;      ///< since the last step
 };
 
@@ -46,62 +46,62 @@ struct BehaviourOptions {
   DriveOptions drive;
   SpinOptions spin;
   BacktrackOptions backtrack;
-  double left_path_m = 0.2;  ///< farther from its path, the robot is no longer on it
+  double left_path_m = 0.2;  ///< greatest distance from the path at which the robot counts as on it
 };
 
-/// What the robot is about, and the places that it remembers. A value.
+/// The state, and the positions remembered for backtracking. A value.
 struct Behaviour {
   BehaviourState state;
   Backtrack places;
 };
 
-/// The states in which a step leads to another before the robot moves: what it wants to do about the facts.
+/// The state after the transitions that the facts demand, before the robot moves.
 Behaviour decided(Behaviour before, const Facts& facts, const BehaviourOptions& options);
 
-/// The plan that it waits for, or wants while it drives: then it is on a trip.
+/// The plan that the robot waits for, or wants while it drives; then trip_of() is not null.
 std::optional<PlanRequest> plan_wanted(const BehaviourState& state);
 
-/// Nothing while it follows nothing.
+/// Null in Standing and Arrived.
 const Trip* trip_of(const BehaviourState& state);
 
-/// Is it on a trip that leads somewhere, and has not been ended?
+/// Is the robot on a trip with a path or a wanted plan, and not braking to end it?
 bool is_under_way(const BehaviourState& state);
 
-/// What may come of a request.
-struct PathStaysValid {};      ///< the old path does
-struct PathMustBeReplaced {};  ///< of a review: it is to be replaced
-struct PathNotFound {};        ///< none, or no other
+/// Answers to a plan request.
+struct PathStaysValid {};      ///< the old path is kept
+struct PathMustBeReplaced {};  ///< only of a review
+struct PathNotFound {};        ///< no path, or no other one
 struct PathFound {
   RotateThenDrive drive;
 };
 using PlanAnswer = std::variant<PathStaysValid, PathMustBeReplaced, PathNotFound, PathFound>;
 
-/// Takes the answer to the plan that was wanted.
+/// Applies the answer to the wanted plan.
 Behaviour answered(Behaviour before, const PlanAnswer& answer);
 
-/// To another goal: asks for a plan at once if it stands, else when it has come to rest.
+/// Starts a trip to another goal: asks for a plan at once when at rest, else after braking to rest.
 Behaviour sent_to(Behaviour before, const Vec2& goal_m, std::optional<double> goal_heading_rad,
                   const BehaviourOptions& options);
 
 struct Moved {
   BodyVelocity command;
-  Behaviour behaviour;  ///< after it: the robot may have arrived, come to rest, or found no room
+  Behaviour behaviour;  ///< after the command: arrived, at rest, blocked, or unchanged
 };
 
-/// Commands what the state demands.
+/// The command of the state, and the state after it.
 Moved moved(Behaviour before, const Facts& facts, const BehaviourOptions& options);
 
-/// What people are told of a step: why the robot may not go on, and whether it goes back.
+/// A step's report to the operator: why the robot stops, and whether it backtracks.
 struct Shown {
   std::optional<StopReason> stop;
   bool backtracks = false;
 };
 Shown shown(const Behaviour& decided, const Behaviour& moved, const Facts& facts);
 
-/// Why it must not move: what the facts say, or that it went back and saw no marker even there.
+/// Why the robot must not move: the facts' stop, or pose_stale after a backtrack that found no marker.
 std::optional<StopReason> reason_to_stay(const Facts& facts, const Backtrack& places);
 
-/// May it leave the path and go back to where it saw a marker?
+/// May the robot leave the path and backtrack to a marker?
 bool can_go_back(const Facts& facts, const Backtrack& places);
 
 }  // namespace lodestar

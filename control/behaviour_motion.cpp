@@ -48,7 +48,7 @@ Outcome move(Searching state, const Facts& facts, const BehaviourOptions&, Backt
   return {command, std::move(state)};
 }
 
-/// Along a way that the robot knows to be free. What stops it may pass while it brakes.
+/// Follows the way back. After a stop or an obstacle it ends only at rest, as either may be gone before.
 Outcome move(Backtracking state, const Facts& facts, const BehaviourOptions& options, Backtrack& places) {
   RotateThenDrive& way = state.way;
   const bool is_blocked = !facts.stop_on_backtrack && way.phase() == DrivePhase::driving &&
@@ -87,7 +87,7 @@ bool goes_back(const BehaviourState& state) {
          (paused != nullptr && paused->way_back);
 }
 
-/// Is what holds it up that it knows too little of its place, though it would be allowed to move?
+/// Is the robot held up by pose uncertainty alone, without a reason to stop?
 bool is_uncertain(const BehaviourState& state) {
   if (const auto* blocked = std::get_if<Blocked>(&state)) return blocked->only_by_uncertainty;
   const auto* braking = std::get_if<Braking>(&state);

@@ -7,39 +7,39 @@
 #include "control/rotate_then_drive.hpp"
 #include "control/spin.hpp"
 
-// What the robot can be about. Exactly one of these states holds; docs/behaviours.md has the table of what
-// leads from one to another.
+// The robot's behaviour as a state machine. Exactly one of these states holds; docs/behaviours.md has the
+// transition table.
 namespace lodestar {
 
-/// What a plan can be wanted for, the more urgent later.
+/// Purpose of a plan, in rising urgency.
 enum class PlanKind {
-  review,       ///< is the path still clear, and no other clearly faster? Asked for while driving
-  replan,       ///< it is not: a path from here to the same goal, unless the old one holds after all
-  another_way,  ///< with more room, and away from ground where no marker was found
+  review,       ///< is the path still clear, and no other clearly faster? Asked while driving
+  replan,       ///< after a failed review: a path to the same goal, unless the old one is valid after all
+  another_way,  ///< with wider margins, and away from where no marker was found
   new_goal,     ///< to another goal
-  way_back      ///< to where a marker was seen last
+  way_back      ///< backtrack to where a marker was seen last
 };
 
-/// A request for a plan. It may take several steps to be answered.
+/// A request for a plan. The answer may take several steps.
 struct PlanRequest {
   PlanKind kind = PlanKind::review;
   Vec2 goal_m = Vec2::Zero();              ///< in the map; of new_goal and way_back
   std::optional<double> goal_heading_rad;  ///< of new_goal
-  /// Something stands in the way right here: the present leg counts from where the robot is.
+  /// An obstacle is right ahead: the present leg starts at the robot's position.
   bool leg_from_here = false;
 };
 
-/// On the way to a goal, or, with an empty path and no plan wanted, to none.
+/// A trip to a goal; without one when the path is empty and no plan is wanted.
 struct Trip {
-  RotateThenDrive drive;              ///< what moves the robot along the path, or to rest, or around
-  std::optional<PlanRequest> wanted;  ///< a plan that it needs before it goes on; a review can wait
-  bool prefers_wide_margins = false;  ///< has been too unsure on the way to this goal
+  RotateThenDrive drive;              ///< moves the robot along the path, to rest, or on the spot
+  std::optional<PlanRequest> wanted;  ///< a plan needed before the robot goes on; a review can wait
+  bool prefers_wide_margins = false;  ///< the pose was too uncertain once on the way to this goal
 };
 
-/// Follows nothing.
+/// Follows no path.
 struct Standing {};
 
-/// Has come to the end of its path, and follows nothing any more.
+/// Has reached the end of its path, and follows none.
 struct Arrived {};
 
 /// Drives along its path.
@@ -47,54 +47,54 @@ struct Following {
   Trip trip;
 };
 
-/// Is on its path, turned along it, and has no room to go on: it waits until it has.
+/// Faces along its path and waits for clearance ahead.
 struct Blocked {
   Trip trip;
-  bool only_by_uncertainty = false;  ///< were it sure of its place it would have room; and it cannot go back
+  bool only_by_uncertainty = false;  ///< lacks clearance only for its safety margin, and cannot backtrack
 };
 
-/// Comes to rest, and stays there until what it brakes for is over.
+/// Brakes to rest, and stays there until the reason is gone.
 struct Braking {
   enum class Reason {
-    stop,          ///< it must not move, and no marker would change that
-    uncertain,     ///< of its place, too much to go on: at rest it looks for a surer way, or goes back
-    replan,        ///< its path is to be replaced: at rest it asks for another
-    marker_found,  ///< on its way back: from here it can go on
-    end            ///< it follows nothing any more
+    stop,          ///< must not move, and a marker in view would not change that
+    uncertain,     ///< pose too uncertain to go on: at rest asks for wider margins, or backtracks
+    replan,        ///< the path is to be replaced: at rest asks for another
+    marker_found,  ///< while backtracking: can go on from here
+    end            ///< the trip ends
   };
   Trip trip;
   Reason reason = Reason::stop;
 };
 
-/// Does not know where it is, and may not or cannot go back: comes to rest, waits, and turns around once to
-/// look for a marker. Also while it follows nothing.
+/// Pose lost, and backtracking is not possible: brakes to rest, waits, and spins once to look for a marker.
+/// Also without a path.
 struct Searching {
   Trip trip;
   Spin look;
 };
 
-/// Stands until it is given a plan.
+/// Stands until a plan arrives.
 struct Asking {
   Trip trip;
   PlanRequest request;
 };
 
-/// Goes back to where it saw a marker.
+/// Backtracks to where it saw a marker.
 struct Backtracking {
-  Trip trip;            ///< to be taken up again
-  RotateThenDrive way;  ///< moves the robot
+  Trip trip;            ///< resumed afterwards
+  RotateThenDrive way;  ///< moves the robot back
 };
 
-/// Comes to rest and stays there as the operator wishes.
+/// Brakes to rest and stays there until the operator resumes.
 struct Paused {
   Trip trip;
-  std::optional<RotateThenDrive> way_back;  ///< it was backtracking
+  std::optional<RotateThenDrive> way_back;  ///< when it was backtracking
 };
 
 using BehaviourState =
     std::variant<Standing, Arrived, Following, Blocked, Braking, Searching, Asking, Backtracking, Paused>;
 
-/// As docs/behaviours.md calls it: "Following", "Braking: uncertain", "Asking: way back".
+/// The name in docs/behaviours.md: "Following", "Braking: unsure", "Asking: way back".
 std::string_view to_string(const BehaviourState& state);
 
 }  // namespace lodestar

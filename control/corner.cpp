@@ -6,21 +6,20 @@
 namespace lodestar {
 namespace {
 
-/// At sharper corners the robot stops and turns. Chosen by hand: there a corridor of 5 cm
-/// leaves an arc of 0.32 m, driven at 0.14 m/s.
+/// At sharper corners the robot stops and turns. Chosen by hand: at 60 degrees a corridor of 5 cm gives an
+/// arc of 0.32 m radius, driven at 0.14 m/s.
 constexpr double sharpest_blended_rad = radians(60.0);
 
-/// To the left of a heading.
+/// Unit vector to the left of a heading.
 Vec2 left_of(double heading_rad) {
   return {-std::sin(heading_rad), std::cos(heading_rad)};
 }
 
-/// What motors and wheels can do on the arc. Turning cannot begin at once: while it does, the robot falls
-/// behind the arc's heading by v^2 / (2 R^2 a), which is kept below 0.05 rad; and after the corner it must
-/// still be able to stop on the leg.
+/// Speed limit of body and wheels on the arc. While the turn rate builds up, the heading lags the arc's by
+/// v^2 / (2 R^2 a), which is kept below 0.05 rad; and the robot must still be able to stop on the next leg.
 double arc_speed_mps(double radius_m, double next_leg_m, const DriveOptions& options) {
   constexpr double most_lag_rad = 0.05;
-  constexpr double share_to_stop = 0.2;  // of the next leg, whose other end may be cut likewise
+  constexpr double share_to_stop = 0.2;  // of the next leg; the corners at its ends cut up to 0.4 each
   const double by_turn = radius_m * options.max_turn_radps;
   const double by_wheel = options.max_wheel_mps / (1.0 + 0.5 * options.track_width_m / radius_m);
   const double by_turn_acceleration =
@@ -43,7 +42,7 @@ std::optional<Corner> corner_at(const Vec2& before_m, const Vec2& waypoint_m, co
   const double half_rad = 0.5 * std::abs(corner.turn_rad);
   if (half_rad < 1e-3 || std::abs(corner.turn_rad) > sharpest_blended_rad) return std::nullopt;
 
-  constexpr double longest_cut = 0.4;  // of a leg, so that two corners never share a piece of it
+  constexpr double longest_cut = 0.4;  // share of a leg, so that the corners at its two ends never overlap
   const double by_corridor = options.blend_corridor_m / (1.0 / std::cos(half_rad) - 1.0);
   const double by_legs = longest_cut * std::min(in.norm(), out.norm()) / std::tan(half_rad);
   corner.radius_m = std::min(by_corridor, by_legs);

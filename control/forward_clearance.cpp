@@ -9,8 +9,7 @@ namespace lodestar {
 ForwardClearance::ForwardClearance(const OccupancyMap& map, double radius_m, double tolerance_m)
     : map_(map), distances_(map), radius_m_(radius_m - tolerance_m) {}
 
-/// Sphere tracing (Hart 1996): where the nearest obstacle is far, the step may be as far. A disc that
-/// overlaps something already may still move, but not deeper into it.
+/// Sphere tracing (Hart 1996): each step is as long as the distance to the nearest obstacle.
 double ForwardClearance::ahead_m(const Pose2& map_from_base, double up_to_m,
                                  const SafetyMargin& spare) const {
   const Vec2 ahead(std::cos(map_from_base.yaw_rad), std::sin(map_from_base.yaw_rad));
@@ -28,8 +27,8 @@ double ForwardClearance::ahead_m(const Pose2& map_from_base, double up_to_m,
   return up_to_m;
 }
 
-/// From the disc's rim to the nearest obstacle's; less than zero where they overlap. The field measures from
-/// centre to centre of cells: far from everything that says enough.
+/// Far from obstacles the distance field, from cell centre to cell centre, suffices as a lower bound; near
+/// them the distance is exact.
 double ForwardClearance::room_m(const Vec2& point_in_map, double radius_m) const {
   const Cell cell = map_.cell_at(point_in_map);
   if (!map_.contains(cell)) return -radius_m;
@@ -38,7 +37,7 @@ double ForwardClearance::room_m(const Vec2& point_in_map, double radius_m) const
   return (at_least_m > radius_m ? at_least_m : exact_distance_m(point_in_map, radius_m)) - radius_m;
 }
 
-/// To the nearest cell that is not drivable, a square, as far as the body and a cell reach.
+/// Distance to the nearest cell (a square) that is not drivable; searches up to the radius plus 2 cells.
 double ForwardClearance::exact_distance_m(const Vec2& point_in_map, double radius_m) const {
   const Vec2 point_in_grid = inverse(map_.map_from_grid) * point_in_map;
   const Cell middle = map_.cell_at(point_in_map);

@@ -8,23 +8,23 @@
 namespace lodestar {
 namespace {
 
-// Chosen by hand in simulated drives; what follows from each is said beside it.
-constexpr double waypoint_distance_m = 0.02;    ///< epsilon at the waypoints between
-constexpr double turn_done_rad = radians(1.0);  ///< 1 degree is 2 cm after a metre, which steering takes back
-/// A leg's heading error from which the robot stops to turn anew: beyond, it would drive an arc.
+// Chosen by hand in simulated drives.
+constexpr double waypoint_distance_m = 0.02;    ///< epsilon at intermediate waypoints
+constexpr double turn_done_rad = radians(1.0);  ///< 2 cm cross-track error after 1 m, which steering corrects
+/// Heading error on a leg at which the robot stops and turns again; driving on would be an arc.
 constexpr double turn_again_rad = radians(20.0);
-/// Heading correction while driving. With the base's response T = 0.12 s a loop of gain k is damped by
-/// 1 / (2 sqrt(k T)) = 0.9: no overshoot worth the name.
+/// Heading correction while driving. With the base's response T = 0.12 s the loop of gain k has the damping
+/// ratio 1 / (2 sqrt(k T)) = 0.9: hardly any overshoot.
 constexpr double heading_gain_per_s = 2.5;
-/// Heading wanted towards the leg, per metre beside it. At v = 0.6 m/s the way back takes 1 / (v k) = 0.7 s,
-/// slower than the heading follows.
+/// Heading correction towards the leg, per metre of cross-track error. At v = 0.6 m/s the time constant is
+/// 1 / (v k) = 0.7 s, slower than the heading loop.
 constexpr double lateral_gain_per_m = 2.5;
-/// A goal passed nearer than so many of its epsilons is not worth turning back to.
+/// The robot turns back to a goal only when it is farther away than this many epsilons.
 constexpr double passed_distances = 1.5;
-/// At the goal's epsilon; then coming as near as that counts as arrival.
+/// Tries to reach the goal within its tolerance; the last one counts as arrival at any distance.
 constexpr int most_approaches = 4;
 
-/// The speed from which a distance is just enough to brake; never below the slowest that moves the motors.
+/// The speed from which the distance is just enough to brake; never below the motors' dead band.
 double approach_speed(double distance, double deceleration, double slowest, double fastest) {
   return std::clamp(std::sqrt(2.0 * deceleration * std::max(distance, 0.0)), slowest, fastest);
 }
@@ -33,8 +33,8 @@ double stepped(double from, double to, double most) {
   return from + std::clamp(to - from, -most, most);
 }
 
-/// What a base that answers with a first-order lag still has to travel, one period of a command later. The
-/// sum is exact for any base: sooner or later it travels all that was commanded.
+/// The travel still pending, one period of a command later, in a base with first-order lag. The total is
+/// exact for any base: in the end it travels all that was commanded.
 double pending_after(double pending, double command, double response_s, double elapsed_s) {
   const double kept = std::exp(-elapsed_s / std::max(response_s, 1e-3));
   return kept * pending + (1.0 - kept) * response_s * command;
@@ -91,8 +91,8 @@ BodyVelocity RotateThenDrive::slow_down(Duration elapsed) {
 }
 
 BodyVelocity RotateThenDrive::turn_around(double turn_radps, Duration elapsed) {
-  if (phase_ == DrivePhase::passing_corner) next_leg();  // the waypoint itself is not returned to
-  // Whatever comes next begins with a look ahead.
+  if (phase_ == DrivePhase::passing_corner) next_leg();  // does not return to the waypoint
+  // Driving on begins with a turn to the target.
   if (phase_ != DrivePhase::arrived && phase_ != DrivePhase::final_rotation) begin_turn();
   const bool rolling = last_.forward_mps != 0.0;
   return command({0.0, rolling ? 0.0 : turn_radps}, elapsed);
@@ -111,9 +111,9 @@ void RotateThenDrive::next_phase(const Pose2& pose) {
   if (phase_ == DrivePhase::final_rotation) next_phase_final(pose);
 }
 
-/// The heading is taken once, at rest: close to the target its direction changes with every millimetre of
-/// noise, and the robot would chase it. Where the leg's own direction is quite another one, the leg begins
-/// anew here: else the robot would turn to and fro between the two.
+/// The heading to the target is fixed once, at rest: close to the target it changes with every millimetre of
+/// noise, and the robot would chase it. When it differs from the leg's by more than 10 degrees, the leg
+/// restarts at the robot; else the robot would turn back and forth between the two headings.
 void RotateThenDrive::next_phase_rotating(const Pose2& pose) {
   if (!at_rest()) return;
   if ((target_m() - pose.position_m).norm() <= epsilon_m()) {
@@ -140,12 +140,12 @@ void RotateThenDrive::next_phase_driving(const Pose2& pose) {
     end_leg(pose);
     return;
   }
-  // Close to the target its direction means nothing any more; the leg's own counts.
+  // The leg's heading, as the direction to a close target is noise.
   const double error = wrap_angle(leg_heading_rad() - pose.yaw_rad);
   if (std::abs(error) > turn_again_rad) begin_turn();
 }
 
-/// The next leg begins when all that was commanded will have brought the robot to the arc's end.
+/// The next leg begins when the pending motion will reach the arc's end.
 void RotateThenDrive::next_phase_passing(const Pose2& pose) {
   const double turned_rad = on_corner(*corner_, pose.position_m).turned_rad + pending_m_ / corner_->radius_m;
   if (turned_rad < std::abs(corner_->turn_rad)) return;
@@ -169,8 +169,8 @@ void RotateThenDrive::begin_turn() {
   turn_heading_rad_.reset();
 }
 
-/// The end of the leg is passed, or near enough. At the goal the distance itself counts, Eq. (19): when it is
-/// too long the robot turns to the goal anew, but not for ever.
+/// Ends the leg at its end. At the goal the distance counts too, Eq. (19): beyond passed_distances epsilons
+/// the robot turns to the goal again, up to most_approaches.
 void RotateThenDrive::end_leg(const Pose2& pose) {
   begin_turn();
   leg_start_m_ = target_m();
@@ -192,8 +192,8 @@ void RotateThenDrive::next_phase_final(const Pose2& pose) {
   if (at_rest() && std::abs(error) <= options_.arrival_heading_rad) phase_ = DrivePhase::arrived;
 }
 
-/// Turning on the spot, once the robot stands. The error is the one that will be left when all that was
-/// commanded has come into effect, so that lag does not become overshoot.
+/// Turns on the spot, once the robot has stopped. Subtracts the pending rotation from the error, so that lag
+/// causes no overshoot.
 BodyVelocity RotateThenDrive::turn_to(double heading_rad, double done_rad, const Pose2& pose,
                                       const SpeedLimit& limit) const {
   if (std::abs(last_.forward_mps) > 0.5 * options_.min_forward_mps) return {};
@@ -206,8 +206,8 @@ BodyVelocity RotateThenDrive::turn_to(double heading_rad, double done_rad, const
   return {0.0, std::copysign(speed, left)};
 }
 
-/// Straight along the leg: the heading wanted leads back to it, the speed leaves room to brake, to rest or to
-/// the speed of the corner at the leg's end.
+/// Drives along the leg: steers against the cross-track error, and limits the speed so that the robot can
+/// brake to rest, or to the corner's speed, by the leg's end.
 BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose, const SpeedLimit& limit) const {
   const double left_m = remaining_m(pose) - pending_m_ - (corner_ ? corner_->cut_m : 0.0);
   const double end_mps = corner_ ? corner_->speed_mps : 0.0;
@@ -227,7 +227,7 @@ BodyVelocity RotateThenDrive::drive_leg(const Pose2& pose, const SpeedLimit& lim
   return {speed * std::max(std::cos(error), 0.0), turn};
 }
 
-/// Along the arc, at the place where the robot will be when the command takes effect.
+/// Drives along the arc, with the heading of the point where the command takes effect.
 BodyVelocity RotateThenDrive::pass_corner(const Pose2& pose, const SpeedLimit& limit) const {
   const double side = std::copysign(1.0, corner_->turn_rad);
   const OnCorner on = on_corner(*corner_, pose.position_m);
@@ -242,14 +242,14 @@ BodyVelocity RotateThenDrive::pass_corner(const Pose2& pose, const SpeedLimit& l
                             options_.max_turn_radps)};
 }
 
-/// The turning speed that corrects the heading while driving.
+/// Turn rate that corrects the heading while driving.
 double RotateThenDrive::steered(double wanted_heading_rad, const Pose2& pose) const {
   const double error = wrap_angle(wanted_heading_rad - pose.yaw_rad - pending_rad_);
   return std::clamp(heading_gain_per_s * error, -options_.max_turn_radps, options_.max_turn_radps);
 }
 
 BodyVelocity RotateThenDrive::command(const BodyVelocity& wanted, Duration elapsed) {
-  constexpr double longest_s = 0.1;  // after a pause the robot must not leap
+  constexpr double longest_s = 0.1;  // bounds the speed step after a gap between calls
   const double elapsed_s = std::clamp(seconds(elapsed), 0.0, longest_s);
   const BodyVelocity reachable = within_wheel_limit(wanted, options_.track_width_m, options_.max_wheel_mps);
   last_ = {
@@ -280,7 +280,7 @@ double RotateThenDrive::epsilon_m() const {
   return on_last_leg() ? options_.arrival_distance_m : waypoint_distance_m;
 }
 
-/// Along the leg; negative once its end is passed.
+/// Distance left along the leg; negative past its end.
 double RotateThenDrive::remaining_m(const Pose2& pose) const {
   const double heading = leg_heading_rad();
   return (target_m() - pose.position_m).dot(Vec2(std::cos(heading), std::sin(heading)));

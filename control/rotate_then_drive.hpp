@@ -14,32 +14,31 @@ enum class DrivePhase { rotating, driving, passing_corner, final_rotation, arriv
 std::string_view to_string(DrivePhase phase);
 
 /// The paper's closed loop (section 6.3): rotate towards the next waypoint (Eq. (18), with atan2 and
-/// wrapped), drive straight until the distance is within epsilon (Eq. (19)), correcting heading and lateral
-/// error on the way; at the end turn to the final heading. Gentle corners may be passed without stopping. A
-/// value type whose state is which leg, which phase, the last command and what of the commands is still to
-/// come into effect.
+/// wrapped), drive straight until the distance is within epsilon (Eq. (19)), correcting heading and
+/// cross-track error on the way; at the end turn to the final heading. Gentle corners may be passed without
+/// stopping. A value type; its state is the leg, the phase, the last command and the commanded motion not yet
+/// executed.
 class RotateThenDrive {
  public:
   RotateThenDrive(Path path, std::optional<double> final_heading_rad, const DriveOptions& options = {});
 
-  /// The velocity to command now. Called at a steady rate; `elapsed` since the last call bounds the change of
+  /// The velocity to command now. Call at a steady rate; `elapsed` since the last call bounds the change of
   /// speed.
   BodyVelocity update(const PoseEstimate& estimate, Duration elapsed, const SpeedLimit& limit = {});
 
-  /// The velocity that brings the robot to rest within the acceleration limits; forgets nothing of the path.
+  /// The velocity that brakes the robot to rest within the acceleration limits; keeps the path.
   BodyVelocity slow_down(Duration elapsed);
 
-  /// The velocity that turns on the spot once the robot stands, to look for markers; forgets nothing of the
-  /// path.
+  /// The velocity that brakes to rest, then turns on the spot to look for markers; keeps the path.
   BodyVelocity turn_around(double turn_radps, Duration elapsed);
 
-  /// The next command changes the speed from what the other one commanded last.
+  /// Takes over the other's last command and pending motion, so that the speed does not jump.
   void take_over_from(const RotateThenDrive& other);
 
   [[nodiscard]] DrivePhase phase() const { return phase_; }
   [[nodiscard]] bool arrived() const { return phase_ == DrivePhase::arrived; }
 
-  /// Nothing is commanded, and what was has come into effect but for a trace.
+  /// The command is zero, and hardly any commanded motion is pending.
   [[nodiscard]] bool at_rest() const;
 
   /// The leg being driven, from its beginning, and those after it; empty when there is none.
@@ -77,11 +76,11 @@ class RotateThenDrive {
   std::size_t target_ = 0;  ///< index of the waypoint driven to
   Vec2 leg_start_m_ = Vec2::Zero();
   std::optional<double> turn_heading_rad_;  ///< fixed when a turn to a waypoint begins
-  std::optional<Corner> corner_;            ///< at the target, if it is to be passed without stopping
+  std::optional<Corner> corner_;            ///< at the target, if it is passed without stopping
   int approaches_ = 0;                      ///< to the goal
   BodyVelocity last_;
-  double pending_m_ = 0.0;    ///< way that was commanded and has not come into effect yet
-  double pending_rad_ = 0.0;  ///< likewise of turns
+  double pending_m_ = 0.0;    ///< distance commanded but not yet travelled
+  double pending_rad_ = 0.0;  ///< likewise the rotation
 };
 
 }  // namespace lodestar

@@ -10,16 +10,16 @@ namespace lodestar {
 
 namespace {
 
-/// By so much a robot is usually off; paths have room for that.
+/// Usual position sigma of a robot; paths have the clearance for it.
 constexpr double usual_sigma_m = 0.005;
 
 double unusual_m(double sigma_m) {
   return std::sqrt(std::max(sigma_m * sigma_m - usual_sigma_m * usual_sigma_m, 0.0));
 }
 
-/// Of a normal error in one direction 99 of 100 are less than 2.33 deviations.
+/// 99 % of normal errors in one direction are below 2.33 standard deviations.
 constexpr double sigmas = 2.3;
-/// And 98 of 100 less than two: enough where the robot has just come along without touching anything.
+/// 98 % are below 2: enough where the robot has just passed without a collision.
 constexpr double sigmas_on_the_way_back = 2.0;
 
 }  // namespace

@@ -4,18 +4,18 @@
 
 namespace lodestar {
 
-/// The room to be kept on all sides: so much here, and more the farther the robot goes on.
+/// Clearance to keep on all sides: `here_m`, plus `per_m` for each metre ahead.
 struct SafetyMargin {
   double here_m = 0.0;
   double per_m = 0.0;  ///< at least 0
 };
 
-/// What an unsure robot keeps, by the covariance of its (x_m, y_m, yaw_rad): 2.3 times the deviation of its
-/// position, beyond the usual half centimetre for which paths have room; and no longer the tolerance that a
-/// disc is otherwise taken to be smaller by. On its way the error of its heading makes it less sure.
+/// The safety margin for a pose covariance of (x_m, y_m, yaw_rad): 2.3 times the position's standard
+/// deviation beyond the usual 5 mm (the root of the difference of the variances), plus ForwardClearance's
+/// tolerance, in full from 10 mm on. It grows ahead by 2.3 times the heading's standard deviation.
 SafetyMargin margin_for_uncertainty(const Eigen::Matrix3d& covariance);
 
-/// As it goes back by which it has come, much of its error is what it was then: two deviations.
+/// The margin while backtracking: 2 standard deviations, as much of the error is the same as on the way out.
 SafetyMargin margin_on_the_way_back(const Eigen::Matrix3d& covariance);
 
 }  // namespace lodestar

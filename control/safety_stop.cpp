@@ -6,7 +6,7 @@
 namespace lodestar {
 namespace {
 
-/// Asked so that a broken covariance, not finite or with a variance below zero, counts as uncertain.
+/// A broken covariance, not finite or with a negative variance, counts as uncertain.
 bool is_certain(const Eigen::Matrix3d& covariance, const SafetyStopOptions& options) {
   if (!covariance.allFinite()) return false;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance.topLeftCorner<2, 2>(),

@@ -7,20 +7,20 @@
 namespace lodestar {
 
 struct SpinOptions {
-  bool allowed = true;  ///< only a round robot, or one with room around it, may turn where it stands
+  bool allowed = true;  ///< only a round robot, or one with clearance around it, may turn on the spot
   Duration wait = std::chrono::seconds(1);  ///< after the stop
   double turn_radps = 0.4;
-  double most_turn_rad = radians(380.0);  ///< then the robot stays as it is
+  double most_turn_rad = radians(380.0);  ///< then the spin ends
 };
 
-/// What a lost robot does to find itself again: it stands, then turns slowly on the spot, once around, until
-/// it sees a marker. A value type.
+/// Recovery behaviour of a lost robot: waits at rest, then spins slowly, once around at most, until it sees a
+/// marker. A value type.
 class Spin {
  public:
   explicit Spin(const SpinOptions& options = {}) : options_(options) {}
 
-  /// The turning speed (rad/s) to command; nothing while there is no reason to look around, or no more use.
-  /// `turned_rad` is what the wheels say, cumulative.
+  /// The turn rate (rad/s) to command; nothing without a stop that a marker can end, while waiting, or after
+  /// a full turn. `turned_rad`: cumulative, by wheel odometry.
   std::optional<double> update(Stamp now, const std::optional<StopReason>& stop, double turned_rad);
 
  private:

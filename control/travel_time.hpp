@@ -8,7 +8,7 @@
 
 namespace lodestar {
 
-/// What these options leave of the wheels' and the body's limits together.
+/// The tighter of the body's and the wheels' limits.
 MotionLimits motion_limits(const DriveOptions& options);
 
 /// travel_time_s() within those limits.

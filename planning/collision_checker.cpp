@@ -28,7 +28,7 @@ Vec2 nearest_on_leg(const Vec2& from, const Vec2& to, const Vec2& point) {
   return from + std::clamp((point - from).dot(leg) / squared_length, 0.0, 1.0) * leg;
 }
 
-/// Does the leg run through the square? (clipping by Liang and Barsky)
+/// Does the leg cross the square? (clipping by Liang and Barsky)
 bool crosses(const Vec2& from, const Vec2& to, Cell cell) {
   const Vec2 leg = to - from;
   double enter = 0.0;
@@ -47,12 +47,12 @@ bool crosses(const Vec2& from, const Vec2& to, Cell cell) {
   return enter < leave;
 }
 
-/// Of a leg and a square apart, the nearest points are an end of the leg and the square, or a corner and the
-/// leg.
+/// Is the square closer to the leg than the radius? When they do not intersect, the closest points are an end
+/// of the leg and the square, or a corner of the square and the leg.
 bool within(const Vec2& from, const Vec2& to, Cell cell, double radius) {
   const double limit = radius * radius;
   const Vec2 center = center_of(cell);
-  const double far = radius + 0.5 * std::numbers::sqrt2 + rounding;  // from here on no square of this centre
+  const double far = radius + 0.5 * std::numbers::sqrt2 + rounding;  // beyond it, the square is out of reach
   if ((nearest_on_leg(from, to, center) - center).squaredNorm() > far * far) return false;
   if (squared_distance(from, cell) < limit || squared_distance(to, cell) < limit) return true;
   for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
@@ -90,7 +90,7 @@ void CollisionChecker::measure_distances() {
   }
 }
 
-/// Obstacles wholly among obstacles block nothing that their neighbours do not.
+/// Obstacle cells enclosed by obstacles are skipped, as their neighbours block the same cells.
 void CollisionChecker::block_around(Cell obstacle) {
   constexpr std::array<Cell, 4> sides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   const bool at_edge = std::ranges::any_of(sides, [&](Cell side) {
@@ -105,7 +105,7 @@ void CollisionChecker::block_around(Cell obstacle) {
     if (row < 0 || row >= map_.rows) continue;
     const double up = std::max(std::abs(dy) - 0.5, 0.0);
     if (up >= radius_cells_) continue;
-    // Centres nearer than this, across, are blocked in this row.
+    // In this row, centres within this column distance are blocked.
     const double across = std::sqrt(radius_cells_ * radius_cells_ - up * up) + 0.5;
     const int span = static_cast<int>(std::ceil(across)) - 1;
     const int first = std::max(obstacle.column - span, 0);
@@ -132,7 +132,7 @@ void CollisionChecker::label_regions() {
   }
 }
 
-/// Rows and columns are enough: a diagonal step needs both cells beside it to be clear as well.
+/// 4-connected flood fill: a diagonal step needs both cells beside it to be clear as well.
 void CollisionChecker::flood(Cell seed, int label) {
   std::vector<Cell> open{seed};
   regions_[map_.index(seed)] = label;
@@ -148,8 +148,8 @@ void CollisionChecker::flood(Cell seed, int label) {
   }
 }
 
-/// Walks the leg by the distance field: far from obstacles in long strides, elsewhere cell by cell; only
-/// those stretches that come near to an obstacle are looked at square by square.
+/// Walks the leg by the distance field: in long strides far from obstacles, elsewhere cell by cell. Only
+/// stretches near an obstacle are checked square by square.
 bool CollisionChecker::along(const Vec2& from, const Vec2& to) const {
   if (!from.allFinite() || !to.allFinite()) return false;
   const Vec2 low = from.cwiseMin(to).array() - radius_cells_;
@@ -169,7 +169,7 @@ bool CollisionChecker::along(const Vec2& from, const Vec2& to) const {
       continue;
     }
     const double off_center = (point - center_of(cell)).norm();
-    // A square reaches at least half a side from its centre, at most half a diagonal.
+    // A square's edge is between half a side and half a diagonal from its centre.
     if (to_obstacle + off_center + rounding < radius_cells_ + 0.5) return false;
     const double stride = to_obstacle - off_center - 0.5 * std::numbers::sqrt2 - radius_cells_ - rounding;
     if (stride >= 1.0) {

@@ -7,9 +7,9 @@
 
 namespace lodestar {
 
-/// Where a disc-shaped robot fits. Works in grid coordinates: cells as units, cell (0, 0) from (0, 0) to (1,
-/// 1), its centre at (0.5, 0.5). Touching an obstacle's edge is allowed, overlapping it is not; what lies
-/// outside the map is an obstacle.
+/// Exact collision checks for a disc-shaped robot. In grid coordinates: the unit is a cell, cell (0, 0) goes
+/// from (0, 0) to (1, 1), its centre is (0.5, 0.5). Touching an obstacle's edge is allowed, overlapping it is
+/// not; outside the map is obstacle.
 class CollisionChecker {
  public:
   CollisionChecker(const OccupancyMap& map, double radius_m);
@@ -17,15 +17,15 @@ class CollisionChecker {
   [[nodiscard]] int columns() const { return map_.columns; }
   [[nodiscard]] int rows() const { return map_.rows; }
 
-  /// The disc at the centre of this cell overlaps no cell that is not drivable. Exact. When a cell and its
-  /// neighbour in a row or column are clear, so is the way between their centres, for an obstacle square is
-  /// as wide as the step; and when four cells in a square are clear, so are its diagonals.
+  /// Is the disc at this cell's centre clear of cells that are not drivable? Exact. When a cell and its
+  /// neighbour in a row or column are clear, so is the leg between their centres, as an obstacle square is as
+  /// wide as the step; and when four cells in a square are clear, so are its diagonals.
   [[nodiscard]] bool at(Cell cell) const { return map_.contains(cell) && clear_[map_.index(cell)] != 0; }
 
-  /// The disc swept along a straight leg overlaps no cell that is not drivable. Exact, for any two points.
+  /// Is the disc clear all along a straight leg? Exact, for any two points.
   [[nodiscard]] bool along(const Vec2& from, const Vec2& to) const;
 
-  /// In cells from a cell's centre to that of the nearest one that is not drivable.
+  /// Distance in cells from a cell's centre to that of the nearest one that is not drivable.
   [[nodiscard]] double to_obstacle_cells(Cell cell) const {
     return static_cast<double>(to_obstacle_[map_.index(cell)]);
   }
@@ -49,7 +49,7 @@ class CollisionChecker {
   double radius_cells_ = 0.0;
   std::vector<std::uint8_t> clear_;
   std::vector<int> regions_;
-  std::vector<float> to_obstacle_;  ///< cells, centre to centre to the nearest that is not drivable
+  std::vector<float> to_obstacle_;  ///< as to_obstacle_cells()
 };
 
 }  // namespace lodestar

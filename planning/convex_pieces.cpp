@@ -63,8 +63,7 @@ bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
          (a_side == 0 && within(c, d, a)) || (b_side == 0 && within(c, d, b));
 }
 
-/// Angles from 0 to `turn_rad` by which a point, turned about the origin, comes onto the line of all p with
-/// normal . p = distance.
+/// Angles from 0 to `turn_rad` at which a point turned about the origin is on the line normal . p = distance.
 void add_crossings(const Vec2& point, const Vec2& normal, double distance, double turn_rad,
                    std::vector<double>& angles_rad) {
   const double radius = point.norm() * normal.norm();
@@ -82,7 +81,7 @@ void add_crossings(const Vec2& point, const Vec2& normal, double distance, doubl
   }
 }
 
-/// All angles at which something may change, and both ends, in the order of the turn.
+/// All angles at which the overlap may change, and both ends, in the order of the turn.
 std::vector<double> angles_of_change(const Polygon& about_origin, const std::array<Vec2, 4>& square,
                                      double turn_rad) {
   std::vector<double> angles_rad{0.0, turn_rad};
@@ -93,7 +92,7 @@ std::vector<double> angles_of_change(const Polygon& about_origin, const std::arr
       add_crossings(corner, Vec2(1.0, 0.0), square.at(side).x(), turn_rad, angles_rad);
       add_crossings(corner, Vec2(0.0, 1.0), square.at(side).y(), turn_rad, angles_rad);
     }
-    // The square's corners as the polygon sees them turn the other way.
+    // In the polygon's frame the square's corners turn the other way.
     const Vec2 edge = about_origin[(i + 1) % count] - corner;
     const Vec2 normal(edge.y(), -edge.x());
     for (const Vec2& point : square) {

@@ -5,7 +5,7 @@
 #include "maps/geometry.hpp"
 #include "maps/occupancy_map.hpp"
 
-// Polygons as lists of corners, counter-clockwise, in any one unit.
+// Polygons as lists of corners, counter-clockwise, in any unit.
 namespace lodestar {
 
 using Polygon = std::vector<Vec2>;
@@ -17,15 +17,15 @@ Polygon hull_of(std::vector<Vec2> points);
 /// 1975).
 std::vector<Polygon> convex_pieces(const Polygon& polygon);
 
-/// Does the polygon go around once, counter-clockwise, without touching or crossing itself?
+/// Is the polygon counter-clockwise, without touching or crossing itself?
 bool is_simple(const Polygon& polygon);
 
 /// Does a convex polygon overlap the unit square of a cell? Touching is no overlap.
 bool overlaps(const Polygon& convex, Cell cell);
 
-/// Does a convex polygon that turns about a point, from where it is by an angle of either sign, ever overlap
-/// the square of a cell? Exact: whether two convex shapes overlap changes only at angles at which a corner of
-/// one crosses the line of an edge of the other; between these one look is enough.
+/// Does a convex polygon overlap the square of a cell at any time while it turns about a point by an angle of
+/// either sign? Exact: overlap of two convex shapes changes only at angles at which a corner of one crosses
+/// the line of an edge of the other; between two such angles one check is enough.
 bool overlaps_turning(const Polygon& convex, const Vec2& about, double turn_rad, Cell cell);
 
 }  // namespace lodestar

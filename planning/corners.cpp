@@ -7,8 +7,8 @@
 namespace lodestar {
 namespace {
 
-/// Away from the obstacle's corner at the lower left of this cell, or nothing when no outer corner is there:
-/// one of the four cells around it is an obstacle, three are free.
+/// Direction away from the obstacle at the lower left corner of this cell. Nothing unless that is an outer
+/// corner: one of the four cells around it is an obstacle, three are free.
 std::optional<Vec2> outwards(const OccupancyMap& map, int column, int row) {
   int obstacles = 0;
   Vec2 away = Vec2::Zero();
@@ -21,10 +21,10 @@ std::optional<Vec2> outwards(const OccupancyMap& map, int column, int row) {
   return away;
 }
 
-/// A part of the arc about a corner, angles from the grid's x axis mirrored into the first quarter.
+/// A quarter circle about a corner; angles are from the grid's x axis, mirrored into the first quadrant.
 struct Arc {
   Vec2 corner;
-  Vec2 away;  ///< signs of the quarter
+  Vec2 away;  ///< signs of the quadrant
   double radius_cells = 0.0;
 
   [[nodiscard]] Vec2 at(double angle_rad, double reach_cells) const {
@@ -32,8 +32,7 @@ struct Arc {
   }
 };
 
-/// The vertices of the polygon about the arc from one angle to another: so many, each on the tangents to both
-/// sides.
+/// Adds the `count` vertices of the polygon tangent to the arc from one angle to another.
 void add_vertices(const CollisionChecker& space, const Arc& arc, double from_rad, double to_rad, int count,
                   bool tight, std::vector<TurnPoint>& points) {
   const double half_step = 0.5 * (to_rad - from_rad) / count;
@@ -51,7 +50,7 @@ void add_open_part(const CollisionChecker& space, const Arc& arc, double from_ra
   if (count > 1) add_vertices(space, arc, from_rad, to_rad, 1, false, points);
 }
 
-/// Other obstacles may take up some of the quarter circle; what is left of it is found by trying it in steps.
+/// Finds the clear parts of the quarter circle in steps of 5 degrees.
 void add_arc(const CollisionChecker& space, const Arc& arc, std::vector<TurnPoint>& points) {
   constexpr int steps = 18;
   constexpr double step_rad = radians(90.0) / steps;
@@ -75,7 +74,7 @@ std::vector<TurnPoint> turn_points(const CollisionChecker& space, double reach_c
     for (int column = 1; column < map.columns; ++column) {
       const std::optional<Vec2> away = outwards(map, column, row);
       if (!away) continue;
-      constexpr double apart = 1e-6;  // cells, so that rounding makes no tangent touch
+      constexpr double apart = 1e-6;  // cells, so that rounding makes no tangent overlap
       const Arc arc{Vec2(column, row), *away, reach_cells + apart};
       add_arc(space, arc, points);
     }

@@ -11,7 +11,7 @@
 namespace lodestar {
 namespace {
 
-/// In cells, low ends and high ends.
+/// Bounding box in cells.
 struct Bounds {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
   Vec2 high = -low;
@@ -41,7 +41,7 @@ Bounds bounds_of_circle(const Vec2& center, double radius) {
   return bounds;
 }
 
-/// Calls visit(cell) for the cells within bounds until one answers false; whether none did.
+/// Calls visit(cell) for the cells within bounds until one returns false. True when none did.
 template <typename Visit>
 bool all_within(const Bounds& bounds, const Visit& visit) {
   for (int row = static_cast<int>(std::floor(bounds.low.y() + touching)); row < bounds.high.y() - touching;
@@ -63,7 +63,7 @@ std::vector<Polygon> placed(const std::vector<Polygon>& pieces_m, const Pose2& g
   return pieces;
 }
 
-/// What the pieces sweep when they are shifted.
+/// The area that the pieces sweep when shifted.
 std::vector<Polygon> swept(std::vector<Polygon> pieces, const Vec2& shift) {
   for (Polygon& piece : pieces) {
     const std::size_t count = piece.size();
@@ -89,7 +89,7 @@ bool are_clear(const OccupancyMap& map, const std::vector<Polygon>& pieces) {
          });
 }
 
-/// The highest and lowest points of a turn are at its ends or where a corner passes a side of its circle.
+/// The extremes of a turn are at its ends, or where a corner crosses an axis direction of its circle.
 bool turn_stays_on(const OccupancyMap& map, const std::vector<Polygon>& pieces, const Vec2& about,
                    double turn_rad) {
   Bounds bounds;

@@ -47,7 +47,7 @@ bool FootprintCollisionChecker::along(std::span<const Vec2> points, const EndHea
   return !heading_rad || turning(points.back(), *heading_rad, headings.goal_rad.value_or(*heading_rad));
 }
 
-/// What a point's absence changes: the leg past it, and the turns before and after that leg.
+/// Rechecks what removing a point changes: the leg past it, and the turns before and after that leg.
 std::vector<Vec2> FootprintCollisionChecker::with_fewer_legs(std::vector<Vec2> points,
                                                              const EndHeadings& headings) const {
   if (points.size() < 3) return points;

@@ -9,15 +9,15 @@
 
 namespace lodestar {
 
-/// Where a robot with an outline can stand, drive and turn. In grid coordinates as CollisionChecker, headings
-/// in the grid frame. Exact; discs inside and outside of the outline answer most questions quickly.
+/// Exact collision checks for a robot's footprint, in grid coordinates as CollisionChecker, headings in the
+/// grid frame. The inscribed and the circumscribed disc decide most checks quickly.
 class FootprintCollisionChecker {
  public:
   /// The map must outlive it.
   FootprintCollisionChecker(const OccupancyMap& map, Footprint footprint);
 
-  /// For the discs about the robot's origin: a place that is not in `inner` is in no heading clear, one that
-  /// is in `outer` in all.
+  /// The checkers of the inscribed and the circumscribed disc: a position blocked in `inner` is blocked in
+  /// every heading, one clear in `outer` is clear in every heading.
   [[nodiscard]] const CollisionChecker& inner() const { return inner_; }
   [[nodiscard]] const CollisionChecker& outer() const { return outer_; }
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
@@ -28,7 +28,7 @@ class FootprintCollisionChecker {
   [[nodiscard]] bool turning(const Vec2& at, double from_rad, double to_rad) const;  ///< the shorter way
   [[nodiscard]] bool along(std::span<const Vec2> points, const EndHeadings& headings) const;
 
-  /// A clear path without those of its points that can be left out.
+  /// A clear path without the points that it can do without and stay clear.
   [[nodiscard]] std::vector<Vec2> with_fewer_legs(std::vector<Vec2> points,
                                                   const EndHeadings& headings) const;
 

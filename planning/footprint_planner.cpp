@@ -9,11 +9,11 @@ namespace {
 GridPlannerOptions for_disc(GridPlannerOptions options, double radius_m) {
   options.footprint.reset();
   options.radius_m = radius_m;
-  if (sampling_method(options.kind)) options.kind = PlannerKind::astar;  // only asked whether there is a way
+  if (sampling_method(options.kind)) options.kind = PlannerKind::astar;  // only to tell whether a path exists
   return options;
 }
 
-/// In any heading, or in the one that is wanted.
+/// Is the footprint clear in the given heading, or else in any of 32?
 bool fits(const FootprintCollisionChecker& space, const Vec2& point, std::optional<double> heading_rad) {
   if (heading_rad) return space.at(point, *heading_rad);
   constexpr int tried = 32;
@@ -98,7 +98,7 @@ PlanResult FootprintPlanner::sampled(const Query& query) const {
   return plan_over(found->points, found->iterations, query);
 }
 
-/// Points that are left out must not cost the sight of markers.
+/// Removes points only while the uncertainty constraint still holds.
 PlanResult FootprintPlanner::plan_over(std::vector<Vec2> points, std::size_t expanded,
                                        const Query& query) const {
   std::vector<Vec2> few = space_.with_fewer_legs(points, query.headings);
@@ -121,7 +121,7 @@ bool FootprintPlanner::is_clear(const Vec2& from_m, const Vec2& to_m) const {
   return space_.footprint().is_clear_driving(map_, {from_m, heading_between(from_m, to_m)}, to_m);
 }
 
-/// Where the outer disc fits, the robot can turn into whatever heading it needs.
+/// Where the outer disc is clear, the robot can turn to any heading.
 std::optional<Vec2> FootprintPlanner::nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const {
   return outer_.nearest_reachable(start_m, goal_m);
 }

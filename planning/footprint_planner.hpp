@@ -5,9 +5,10 @@
 
 namespace lodestar {
 
-/// Plans for a robot with an outline. The paths of two discs enclose the answer: that of the inner one is no
-/// slower than any path of the outline, and taken when the outline fits along it; that of the outer one
-/// always fits, and is taken when it takes hardly longer. Else headings are searched as well.
+/// Plans for a robot with a footprint. The paths of two discs bound the answer. The inscribed disc's path is
+/// no slower than any of the footprint, and is taken when the footprint is clear along it. The circumscribed
+/// disc's path is clear for the footprint, and is taken when at most 2 % slower. Else FootprintSearch plans
+/// in SE(2).
 class FootprintPlanner {
  public:
   /// The map must outlive it.
@@ -18,7 +19,7 @@ class FootprintPlanner {
   [[nodiscard]] std::optional<Vec2> nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const;
 
  private:
-  /// A query in grid coordinates, and the same as asked.
+  /// A query in grid coordinates and in the map frame.
   struct Query;
 
   [[nodiscard]] std::optional<PlanFailure> fits_at_ends(const Query& query) const;

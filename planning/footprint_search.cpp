@@ -18,7 +18,7 @@ std::array<Cell, 9> cells_about(const Vec2& point) {
 
 }  // namespace
 
-/// The least total first; ties are broken the same way every time.
+/// Least total first; ties by state, so that the search is deterministic.
 struct FootprintSearch::Later {
   bool operator()(const Open& a, const Open& b) const {
     return a.total != b.total ? a.total > b.total : a.state > b.state;
@@ -74,7 +74,7 @@ bool FootprintSearch::steps(Cell cell, int heading) {
   return (known.steps_clear & bit) != 0;
 }
 
-/// Counter-clockwise from this heading to the next; back sweeps the same.
+/// Counter-clockwise from this heading to the next; the turn back sweeps the same cells.
 bool FootprintSearch::turns_an_eighth(Cell cell, int heading) {
   Known& known = known_[space_.map().index(cell)];
   const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(heading));
@@ -86,7 +86,7 @@ bool FootprintSearch::turns_an_eighth(Cell cell, int heading) {
   return (known.turns_clear & bit) != 0;
 }
 
-/// The shorter way; never half around.
+/// Is the turn clear, the shorter way? False for a half turn.
 bool FootprintSearch::turns(Cell cell, int from, int to) {
   const int eighths = turned(to, -from);
   if (eighths == headings_count / 2) return false;
@@ -98,7 +98,7 @@ bool FootprintSearch::turns(Cell cell, int from, int to) {
   return true;
 }
 
-/// A turn costs its own time, and that of stopping before it and setting out again.
+/// Time of a turn, plus that of braking before it and accelerating after it.
 double FootprintSearch::turn_cost(double angle_rad) const {
   if (std::abs(angle_rad) < 1e-9) return 0.0;
   return limits_.turn_time_s(angle_rad) + limits_.max_forward_mps / limits_.max_acceleration_mps2;
@@ -125,7 +125,7 @@ std::optional<FootprintPath> FootprintSearch::find(const Vec2& start, const Vec2
   return std::nullopt;
 }
 
-/// From where the robot stands to the centre of a cell nearby, and there to a heading of the grid.
+/// Opens with a leg from the start to the centre of each cell nearby, and a turn there to a grid heading.
 void FootprintSearch::seed(const Vec2& start, const EndHeadings& headings, Cell goal) {
   for (const Cell cell : cells_about(start)) {
     if (!space_.inner().at(cell)) continue;
@@ -154,7 +154,7 @@ void FootprintSearch::find_landings(const Vec2& goal, const EndHeadings& heading
   for (const Cell cell : cells_about(goal)) {
     const Vec2 center = center_of(cell);
     if (!space_.inner().at(cell)) continue;
-    if (center == goal) continue;  // reached by a step from a neighbour, which lands as well
+    if (center == goal) continue;  // reached from the landing of a neighbour
     const double way_rad = heading_between(center, goal);
     if (!space_.driving(center, goal)) continue;
     if (headings.goal_rad && !space_.turning(goal, way_rad, *headings.goal_rad)) continue;
@@ -193,7 +193,7 @@ void FootprintSearch::reach(Cell cell, int heading, double cost, std::uint32_t p
   Node& node = nodes_[state];
   if (node.visit == visit_ && cost >= node.cost) return;
   node = {.cost = cost, .parent = parent, .visit = visit_};
-  constexpr double landing_cells = 3.0;  // the last leg may save so much of the way over the cells
+  constexpr double landing_cells = 3.0;  // keeps the heuristic admissible: the last leg may save this much
   const double rest = std::max(0.0, free_steps(cell, goal).length_cells() - landing_cells);
   open_.push_back({cost + cell_cost_s_ * rest, cost, state, parent});
   std::ranges::push_heap(open_, Later{});

@@ -17,9 +17,9 @@ struct FootprintPath {
   std::size_t expanded = 0;  ///< pairs of cell and heading
 };
 
-/// The fastest rotate-then-drive path of an outline over the cells' centres and eight headings (A* in SE(2)):
-/// every step and every turn of an eighth is checked against the very cells that it sweeps, which are the
-/// same everywhere. It never turns back on the spot, for then two ways round would be as short.
+/// The fastest rotate-then-drive path of a footprint over cell centres and eight headings (A* in SE(2)).
+/// Every step and every turn by 45 degrees is checked against the cells that it sweeps, which are the same
+/// everywhere. No half turns between steps, as both directions of turning would be equally short.
 class FootprintSearch {
  public:
   /// The space must outlive it.
@@ -43,14 +43,14 @@ class FootprintSearch {
     std::uint32_t parent = none;
   };
   struct Later;
-  /// What is known of a cell's steps and turns: a bit for each of the eight.
+  /// Cached checks of a cell's steps and turns: a bit for each of the eight.
   struct Known {
     std::uint8_t steps_looked_at = 0;
     std::uint8_t steps_clear = 0;
     std::uint8_t turns_looked_at = 0;
     std::uint8_t turns_clear = 0;
   };
-  /// How a search leaves the cells for the goal.
+  /// The last leg, from a cell's centre to the goal.
   struct Landing {
     Cell cell;
     double heading_rad = 0.0;

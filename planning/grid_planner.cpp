@@ -17,7 +17,7 @@
 namespace lodestar {
 namespace {
 
-/// Every leg as far along the points as it is clear.
+/// String pulling: each leg goes as far along the points as it is clear.
 std::vector<Vec2> pulled_tight(const std::vector<Vec2>& points, const CollisionChecker& space) {
   std::vector<Vec2> tight{points.front()};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -27,7 +27,7 @@ std::vector<Vec2> pulled_tight(const std::vector<Vec2>& points, const CollisionC
   return tight;
 }
 
-/// Sampled densely: a way out of a tight place need not be clear, only not through an obstacle.
+/// A leg out of a tight start need not be clear for the disc; its line must not cross an obstacle.
 bool leads_over_drivable(const OccupancyMap& map, const Vec2& from, const Vec2& to) {
   constexpr double spacing_cells = 0.05;
   const int samples = 1 + static_cast<int>((to - from).norm() / spacing_cells);
@@ -60,7 +60,7 @@ std::string_view to_string(PlanFailure failure) {
   return "";
 }
 
-/// What is prepared for a map, and the memory of the searches.
+/// The data precomputed from a map, and the memory of the searches.
 struct GridPlanner::Searches {
   explicit Searches(const OccupancyMap& map, double radius_m) : space(map, radius_m) {}
 
@@ -92,7 +92,7 @@ void GridPlanner::weigh_cells() {
   weigh_avoided();
 }
 
-/// A cell costs 1 when it is as far from obstacles as preferred, and linearly more the nearer it is.
+/// Inflation: a cell costs 1 at the preferred clearance, and linearly more the nearer it is.
 void GridPlanner::weigh_near_obstacles() {
   for (int row = 0; row < map_.rows; ++row) {
     for (int column = 0; column < map_.columns; ++column) {
@@ -104,7 +104,7 @@ void GridPlanner::weigh_near_obstacles() {
   }
 }
 
-/// Once, however many of the places are near.
+/// Weighs a cell once, however many places are near.
 void GridPlanner::weigh_avoided() {
   const AvoidedArea& avoided = options_.avoided;
   const double within = avoided.within_m / map_.resolution_m;
@@ -173,8 +173,8 @@ std::optional<Cell> GridPlanner::clear_cell_near(const Vec2& point_in_grid) cons
   return nearest;
 }
 
-/// From a place too near to an obstacle, the nearest clear cell within the radius, straight over drivable
-/// cells.
+/// From a start too near to an obstacle: the nearest clear cell within about the radius that a straight line
+/// over drivable cells reaches.
 std::optional<Cell> GridPlanner::way_out(const Vec2& start_in_grid) const {
   const Cell start = cell_at(start_in_grid);
   const int reach = 1 + static_cast<int>(std::ceil(options_.radius_m / map_.resolution_m));
@@ -229,12 +229,12 @@ PlanResult GridPlanner::plan(const Vec2& start_m, const Vec2& goal_m, const Plan
     points = legs_within_constraint(ends, plan.expanded);
   if (!points) return PlanFailure::unsure;
   for (const Vec2& point : *points) plan.path.waypoints_m.push_back(in_map(point));
-  plan.path.waypoints_m.front() = start_m;  // to the last bit what was asked for
+  plan.path.waypoints_m.front() = start_m;  // bit-exact, without the rounding of in_map()
   plan.path.waypoints_m.back() = goal_m;
   return plan;
 }
 
-/// By the chosen method; nothing only when a sampling planner gives up.
+/// Plans by the chosen method; nothing only when a sampling planner gives up.
 std::optional<std::vector<Vec2>> GridPlanner::legs_between(const Ends& ends, const PlanHeadings& headings,
                                                            std::size_t& expanded) const {
   if (sampling_method(options_.kind)) return sampled_legs(ends, expanded);
@@ -250,7 +250,7 @@ std::vector<Vec2> GridPlanner::points_over(std::span<const Cell> cells, const En
   return points;
 }
 
-/// The shortest way over the grid's cells from start to goal. There is one: both are in the same region.
+/// The shortest grid path from start to goal. It exists, as both are in the same region.
 std::vector<Vec2> GridPlanner::jump_path(const Ends& ends, std::size_t& expanded) const {
   const JumpPath found = searches_->shortest->find(ends.first, ends.last).value();
   expanded += found.expanded;
@@ -292,7 +292,7 @@ std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeading
   const CollisionChecker& space = searches_->space;
   std::vector<Vec2> known =
       costs_.empty() ? pulled_tight(jump_path(ends, expanded), space) : few_legs(ends, expanded);
-  // For time, moving turns pays far more than for length, where turn points are nearly the best there is.
+  // Moving turns saves much time, but hardly any length: for that, turn points are nearly optimal.
   if (timed) known = refined(std::move(known), in_grid_frame, space, cost, Refinement::coarse);
   TurnPath found = searches_->turns->find(known, in_grid_frame, cost);
   expanded += found.expanded;

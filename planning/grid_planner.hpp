@@ -20,26 +20,26 @@ namespace lodestar {
 
 class FootprintPlanner;
 
-/// Ground to keep away from where there is another way: it costs as much as if it were longer.
+/// Area to avoid when there is another path: its cells cost more.
 struct AvoidedArea {
   std::vector<Vec2> places_m;  ///< in the map frame
-  double within_m = 1.0;       ///< cells nearer than this to one of them
+  double within_m = 1.0;       ///< cells within this distance of a place
   double weight = 10.0;        ///< cost (1 + weight) times as much
 };
 
 struct GridPlannerOptions {
   PlannerKind kind = PlannerKind::astar;
-  double radius_m = 0.25;  ///< of the robot's body; its disc never overlaps a cell that is not drivable
-  std::optional<Footprint> footprint;  ///< when given, planned for instead of the disc
+  double radius_m = 0.25;              ///< of the robot; its disc never overlaps a cell that is not drivable
+  std::optional<Footprint> footprint;  ///< when given, used instead of the disc
   double preferred_clearance_m =
-      0.15;                       ///< beyond the radius, cells nearer than this to an obstacle cost more
-  double clearance_weight = 1.0;  ///< how much more: up to (1 + weight) times at the very edge; 0: shortest
-  AvoidedArea avoided;            ///< not by a footprint
-  double turn_cost_m = 0.2;  ///< of `astar`: the way that a turn is worth to a robot that stops to rotate
-  MotionLimits limits;       ///< of `fastest`
-  SamplingOptions sampling;  ///< of the planners of OMPL
-  /// When given, a path on which the robot would grow less sure of its position than this allows is not
-  /// taken: then the shortest 8-connected one that keeps to it, shortened as far as it still does.
+      0.15;                       ///< inflation: cells nearer than radius plus this to an obstacle cost more
+  double clearance_weight = 1.0;  ///< up to (1 + weight) times at the edge; 0: shortest path
+  AvoidedArea avoided;            ///< ignored by FootprintSearch
+  double turn_cost_m = 0.2;       ///< of `astar`: a turn counts as this much path length
+  MotionLimits limits;            ///< of `fastest`
+  SamplingOptions sampling;       ///< of the OMPL planners
+  /// When given and the path violates it, the cheapest 8-connected path that meets it is taken instead,
+  /// shortened as far as it still does.
   std::optional<UncertaintyConstraint> uncertainty_constraint;
 };
 
@@ -49,29 +49,28 @@ enum class PlanFailure {
   start_occupied,
   goal_occupied,
   no_path,       ///< there is none
-  unsure,        ///< there are some, but on each the pose grows less sure than UncertaintyConstraint allows
-  limit_reached  ///< a sampling planner found none within its limits, though there is one
+  unsure,        ///< paths exist, but none found meets the UncertaintyConstraint
+  limit_reached  ///< a sampling planner found none within its limits, though there may be one
 };
 
-/// In words for people.
+/// Text for the operator.
 std::string_view to_string(PlanFailure failure);
 
 struct Plan {
   Path path;                 ///< few straight legs, each clear of obstacles by the radius
-  std::size_t expanded = 0;  ///< grid cells and turn points taken from open lists, or iterations
+  std::size_t expanded = 0;  ///< expansions of grid cells and turn points, or iterations
 };
 
 using PlanResult = std::variant<Plan, PlanFailure>;
 
-/// How the robot stands at the start and shall stand at the goal, in the map frame; `fastest` counts those
-/// turns.
+/// Headings at the start and the goal, in the map frame; `fastest` counts the turns from and to them.
 struct PlanHeadings {
   std::optional<double> start_rad;
   std::optional<double> goal_rad;
 };
 
-/// Plans over an occupancy map. Holds what it knows of the map and the searches' memory, so that many queries
-/// share it; one query at a time.
+/// Plans on an occupancy map. Keeps the data precomputed from the map and the searches' memory for many
+/// queries; one query at a time.
 class GridPlanner {
  public:
   explicit GridPlanner(const OccupancyMap& map, const GridPlannerOptions& options = {});
@@ -79,21 +78,21 @@ class GridPlanner {
   GridPlanner(const GridPlanner&) = delete;
   GridPlanner& operator=(const GridPlanner&) = delete;
 
-  /// A robot that stands nearer to an obstacle than its radius, as a pose a centimetre off may say, is led
-  /// out on the shortest way; the goal must be clear.
+  /// When the start is nearer to an obstacle than the radius (a small pose error), the path first leads
+  /// straight to the nearest clear cell; the goal must be clear.
   [[nodiscard]] PlanResult plan(const Vec2& start_m, const Vec2& goal_m,
                                 const PlanHeadings& headings = {}) const;
 
-  /// Can the robot's centre travel this straight leg without its disc, or outline, overlapping anything?
+  /// Is this straight leg of the robot's centre clear for its disc, or its footprint?
   [[nodiscard]] bool is_clear(const Vec2& from_m, const Vec2& to_m) const;
 
-  /// The place nearest to a goal, a cell's centre, that can be reached from the start; nothing when the robot
-  /// cannot leave the start. To be offered to people: no plan goes there unasked.
+  /// The reachable cell centre nearest to a goal; nothing when the robot cannot leave the start. A suggestion
+  /// for the operator: no plan uses it by itself.
   [[nodiscard]] std::optional<Vec2> nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const;
 
  private:
   struct Searches;
-  /// Start and goal in grid coordinates, and the clear cells from which and to which the grid is searched.
+  /// Start and goal in grid coordinates, and the clear cells between which the grid is searched.
   struct Ends {
     Vec2 start;
     Vec2 goal;
@@ -125,9 +124,9 @@ class GridPlanner {
 
   OccupancyMap map_;
   GridPlannerOptions options_;
-  std::vector<float> costs_;  ///< of cells; empty: all alike
+  std::vector<float> costs_;  ///< of cells; empty: all cost 1
   std::unique_ptr<Searches> searches_;
-  std::unique_ptr<FootprintPlanner> outline_;  ///< answers instead when there is an outline
+  std::unique_ptr<FootprintPlanner> outline_;  ///< plans instead when there is a footprint
 };
 
 }  // namespace lodestar

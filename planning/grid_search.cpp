@@ -6,7 +6,7 @@
 
 namespace lodestar {
 
-/// The least total first; among equals the one that has come farther, then the lower index.
+/// Least total first; among equals the greater cost so far, then the lower index.
 struct GridSearch::Later {
   bool operator()(const Open& a, const Open& b) const {
     if (a.total != b.total) return a.total > b.total;
@@ -37,7 +37,7 @@ std::optional<GridPath> GridSearch::find(Cell start, Cell goal) {
     const Open next = open_.front();
     std::ranges::pop_heap(open_, Later{});
     open_.pop_back();
-    if (next.cost > nodes_[next.index].cost) continue;  // a better way was found since
+    if (next.cost > nodes_[next.index].cost) continue;  // stale: a cheaper path was found since
     ++expanded_;
     const Cell cell = cell_at(next.index);
     if (cell == goal) return path_to(cell);
@@ -50,7 +50,7 @@ void GridSearch::begin() {
   expanded_ = 0;
   open_.clear();
   if (++visit_ != 0) return;
-  std::ranges::fill(nodes_, Node{});  // the numbers begin anew
+  std::ranges::fill(nodes_, Node{});  // the search number wrapped around
   visit_ = 1;
 }
 

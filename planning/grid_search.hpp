@@ -9,7 +9,7 @@
 
 namespace lodestar {
 
-/// What a way through a cell costs per unit of length: at least 1. Row by row, as the map's cells.
+/// Cost of each cell per unit of length, at least 1; row by row, as the map's cells.
 using CellCosts = std::vector<float>;
 
 struct GridPath {
@@ -18,9 +18,9 @@ struct GridPath {
   std::size_t expanded = 0;  ///< cells taken from the open list
 };
 
-/// The cheapest path on the 8-connected grid of clear cells without cutting corners, whatever the cells cost:
-/// A* with a binary heap and the octile distance (Hart, Nilsson and Raphael 1968). Ties are broken the same
-/// way every time. Memory is kept from search to search. Space and costs must outlive it.
+/// The cheapest path on the 8-connected grid of clear cells without cutting corners, for any cell costs: A*
+/// with a binary heap and the octile distance as heuristic (Hart, Nilsson and Raphael 1968). Deterministic.
+/// Memory is kept between searches. Space and costs must outlive it.
 class GridSearch {
  public:
   GridSearch(const CollisionChecker& space, const CellCosts& costs);
@@ -31,11 +31,11 @@ class GridSearch {
  private:
   struct Node {
     double cost = 0.0;
-    std::uint32_t visit = 0;  ///< the number of the search that reached it last
+    std::uint32_t visit = 0;  ///< number of the search that reached it last
     int came_by = -1;         ///< direction of the last step
   };
   struct Open {
-    double total = 0.0;  ///< cost so far and the least that can follow
+    double total = 0.0;  ///< cost so far plus heuristic
     double cost = 0.0;
     std::size_t index = 0;
   };

@@ -28,22 +28,21 @@ constexpr int direction_between(Cell from, Cell to) {
   return by_sign[sign(to.row - from.row)][sign(to.column - from.column)];
 }
 
-/// The length of a way in fixed point: a straight steps and b diagonal ones are a + b sqrt(2). With 40 binary
-/// places two different counts never change order up to millions of steps, sums are exact, and equal is
-/// equal.
+/// Path length in fixed point: a straight and b diagonal steps are a + b sqrt(2). With 40 fractional bits two
+/// different counts keep their order up to millions of steps, sums are exact, and equality is exact.
 using StepLength = std::int64_t;
 inline constexpr StepLength straight_length = StepLength{1} << 40U;
 inline constexpr StepLength diagonal_length =
     static_cast<StepLength>(std::numbers::sqrt2 * static_cast<double>(straight_length) + 0.5);
 
-/// How many steps a way has; its length is exact to the last bit of a double.
+/// Number of steps of a path; its length is exact to the last bit of a double.
 struct StepCount {
   int straight = 0;
   int diagonal = 0;
   [[nodiscard]] double length_cells() const { return straight + diagonal * std::numbers::sqrt2; }
 };
 
-/// The fewest steps between two cells when nothing is in the way (the octile distance).
+/// The fewest steps between two cells without obstacles (the octile distance).
 inline StepCount free_steps(Cell from, Cell to) {
   const int across = std::abs(to.column - from.column);
   const int up = std::abs(to.row - from.row);

@@ -7,8 +7,8 @@ namespace {
 
 constexpr int word_bits = 64;
 
-/// Bits of cells at which a scan towards higher bits stops: not clear, or clear beside while the cell before
-/// was not.
+/// Bits of cells at which a scan towards higher bits stops: the cell is not clear, or it is a jump point (the
+/// cell beside it is clear and the one before that is not).
 std::uint64_t stops_up(std::uint64_t line, std::uint64_t beside, std::uint64_t beside_before) {
   return ~line | (beside & ~((beside << 1U) | (beside_before >> 63U)));
 }

@@ -7,8 +7,8 @@
 
 namespace lodestar {
 
-/// Lines of cells as bits, 64 to a word, with an empty line before the first and after the last and bits that
-/// are not clear at both ends.
+/// Lines of cells as bits (1: clear), 64 to a word, padded with a blocked line before the first and after the
+/// last, and a blocked bit at both ends of each line.
 class BitLines {
  public:
   BitLines(int length, int lines);
@@ -30,9 +30,9 @@ class BitLines {
   std::vector<std::uint64_t> words_;
 };
 
-/// The same jumps as JumpTable's, found when they are asked for on bit-packed rows and columns (the block
-/// scanning of Harabor and Grastien 2014): a quarter of a byte a cell and nearly nothing to prepare, for a
-/// map that is used once or often changed.
+/// The same jumps as JumpTable's, computed on demand on bit-packed rows and columns (the block scanning of
+/// Harabor and Grastien 2014): a quarter of a byte per cell and hardly any set-up time, for a map used once
+/// or changed often.
 class JumpScan {
  public:
   explicit JumpScan(const CollisionChecker& space);

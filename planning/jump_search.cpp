@@ -8,8 +8,8 @@ namespace {
 
 using DirectionSet = std::uint8_t;
 
-/// Where a path that came in a direction may go on: straight on, after a diagonal also in its two straight
-/// directions, after a straight also to the sides that can be reached no shorter than through here.
+/// Directions to expand after arriving in `direction` (natural and forced neighbours): straight on; after a
+/// diagonal step also its two straight directions; after a straight step also towards forced neighbours.
 constexpr DirectionSet ways_on(int direction, NeighbourMask neighbours) {
   unsigned ways = 1U << direction;
   const auto add = [&](int eighths) { ways |= 1U << turned(direction, eighths); };
@@ -40,7 +40,7 @@ constexpr unsigned all_directions = 0xff;
 
 }  // namespace
 
-/// The least total first; among equals the lower index.
+/// Least total first; among equals the lower index.
 template <typename Jumps>
 struct JumpSearch<Jumps>::Later {
   bool operator()(const Open& a, const Open& b) const {
@@ -61,7 +61,7 @@ std::optional<JumpPath> JumpSearch<Jumps>::find(Cell start, Cell goal) {
     std::ranges::pop_heap(open_, Later{});
     open_.pop_back();
     Node& node = nodes_[next.index];
-    if (node.visit != visit_) continue;  // expanded before, on a way no longer than this
+    if (node.visit != visit_) continue;  // stale: expanded before, at no greater length
     node.visit = visit_ + 1;
     ++expanded_;
     const Cell cell = cell_at(next.index);
@@ -80,7 +80,7 @@ void JumpSearch<Jumps>::begin(Cell start, Cell goal) {
   expanded_ = 0;
   open_.clear();
   visit_ += 2;
-  if (visit_ == 0) {  // after two thousand million searches the stamps begin anew
+  if (visit_ == 0) {  // wraps around after 2^31 searches
     std::ranges::fill(nodes_, Node{});
     visit_ = 2;
   }
@@ -101,8 +101,8 @@ void JumpSearch<Jumps>::expand(Cell cell, unsigned directions) {
   }
 }
 
-/// To the next cell that matters in a direction: where a path may turn, the goal, or on a diagonal the cell
-/// in the goal's row or column. Not above 0 when there is none.
+/// Steps to the next cell to expand in a direction: a jump point, the goal, or on a diagonal the cell in the
+/// goal's row or column. Not above 0 when there is none.
 template <typename Jumps>
 int JumpSearch<Jumps>::steps_towards(Cell from, int direction) const {
   const int jump = jumps_.jump(from, direction);

@@ -15,27 +15,25 @@ struct JumpPath {
   std::size_t expanded = 0;  ///< cells taken from the open list
 };
 
-/// The shortest path on the 8-connected grid of clear cells without cutting corners: A* that looks only at
-/// cells where a path may have to turn (Harabor and Grastien 2012 and 2014). `Jumps` is JumpTable or JumpScan
-/// and must outlive it. Memory is kept from search to search, so only the first allocates.
+/// The shortest path on the 8-connected grid of clear cells without cutting corners: jump point search, A*
+/// that expands only cells where a path may have to turn (Harabor and Grastien 2012 and 2014). `Jumps` is
+/// JumpTable or JumpScan and must outlive it. Memory is kept, so later searches hardly allocate.
 template <typename Jumps>
 class JumpSearch {
  public:
   explicit JumpSearch(const Jumps& jumps);
 
-  /// Both cells must be clear. Nothing when there is no path. The same question has the same answer every
-  /// time.
+  /// Both cells must be clear. Nothing when there is no path. Deterministic.
   std::optional<JumpPath> find(Cell start, Cell goal);
 
  private:
   struct Node {
     StepLength length = 0;  ///< from the start
     std::uint32_t parent = 0;
-    std::uint32_t visit =
-        0;  ///< twice the number of the search, one more when expanded; older: not reached yet
+    std::uint32_t visit = 0;  ///< twice the search's number, plus one when expanded; lower: not reached yet
   };
   struct Open {
-    StepLength total = 0;  ///< length so far and the least that can follow
+    StepLength total = 0;  ///< length so far plus heuristic
     std::uint32_t index = 0;
     std::int32_t direction = 0;  ///< of arrival
   };

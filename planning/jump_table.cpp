@@ -5,8 +5,8 @@
 namespace lodestar {
 namespace {
 
-/// One step more than the neighbour's jump. A jump too long for the table ends early, which only makes one
-/// stop more.
+/// One step more than the neighbour's jump. A jump too long for the table is split, which costs one more
+/// expansion.
 std::int16_t one_more(std::int16_t jump) {
   constexpr std::int16_t longest = std::numeric_limits<std::int16_t>::max();
   if (jump == longest || jump == -longest) return 1;
@@ -27,7 +27,7 @@ JumpTable::JumpTable(const CollisionChecker& space)
   find_neighbours(space);
   for (const int direction : {0, 2, 4, 6}) fill(direction);
   for (const int direction : {1, 3, 5, 7})
-    fill(direction);  // a diagonal needs both of its straight directions
+    fill(direction);  // after the straight ones, which a diagonal jump uses
 }
 
 void JumpTable::find_neighbours(const CollisionChecker& space) {
@@ -35,7 +35,7 @@ void JumpTable::find_neighbours(const CollisionChecker& space) {
     for (int column = 0; column < columns_; ++column) {
       if (!space.at({column, row})) continue;
       for (std::size_t k = 0; k < grid_steps.size(); ++k) {
-        // What a clear cell tells its neighbours: that it is clear, seen from there.
+        // Marks this clear cell in each neighbour's mask.
         const Cell beside{column - grid_steps[k].column, row - grid_steps[k].row};
         if (beside.column < 0 || beside.row < 0 || beside.column >= columns_ || beside.row >= rows_) continue;
         neighbours_[index(beside)] = static_cast<NeighbourMask>(neighbours_[index(beside)] | (1U << k));
@@ -44,8 +44,8 @@ void JumpTable::find_neighbours(const CollisionChecker& space) {
   }
 }
 
-/// In such an order that the neighbour's jump is known: directions 0 to 3 lead to a higher index, 4 to 7 to a
-/// lower one.
+/// Fills in an order in which the neighbour's jump is known: directions 0 to 3 lead to a higher index, 4 to 7
+/// to a lower one.
 void JumpTable::fill(int direction) {
   const std::size_t count = jumps_.size();
   for (std::size_t i = 0; i < count; ++i) {

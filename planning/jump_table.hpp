@@ -12,9 +12,9 @@ namespace lodestar {
 /// Which of a cell's eight neighbours are clear: bit k for grid_steps[k].
 using NeighbourMask = std::uint8_t;
 
-/// Is the cell with these neighbours, reached by this straight step, one at which a shortest path may have to
-/// turn? So it is when a cell beside the step's beginning is not clear and the one beside its end is: only
-/// through here can that one be reached this shortly (Harabor and Grastien 2012, without corner cutting).
+/// Has the cell with these neighbours, reached by this straight step, a forced neighbour on this side? Then a
+/// shortest path may have to turn here. Yes when the cell beside the step's beginning is not clear and that
+/// beside its end is (Harabor and Grastien 2012, without corner cutting).
 constexpr bool is_forced(int direction, NeighbourMask neighbours, int side_eighths) {
   const bool beside_end = ((neighbours >> turned(direction, side_eighths)) & 1) != 0;
   const bool beside_beginning =
@@ -25,9 +25,9 @@ constexpr bool is_jump_point(int direction, NeighbourMask neighbours) {
   return is_forced(direction, neighbours, 2) || is_forced(direction, neighbours, -2);
 }
 
-/// From every cell in every direction the number of steps to the next cell where a path may turn; or, when a
-/// wall comes first, minus the number of steps that are free until there. Computed once for a map in time
-/// linear in its cells (the JPS+ of Harabor and Grastien 2014); 17 bytes a cell.
+/// For every cell and direction: the number of steps to the next jump point; or, if an obstacle comes first,
+/// minus the number of free steps up to it. Computed once per map in time linear in its cells (the JPS+ of
+/// Harabor and Grastien 2014); 17 bytes per cell.
 class JumpTable {
  public:
   explicit JumpTable(const CollisionChecker& space);

@@ -61,8 +61,8 @@ Vec2 MarginPlanner::goal_with_margin(const Vec2& goal_m) const {
   return nearest.value_or(goal_m);
 }
 
-/// The point itself, or the nearest cell's centre with room for the level's margin, straight from the point
-/// with the narrowest.
+/// The point itself, or the nearest cell centre that is clear with the level's margin and reached from the
+/// point by a leg that is clear with the narrowest.
 std::optional<Vec2> MarginPlanner::roomy_place_near(const Vec2& point_m, std::size_t level) const {
   const GridPlanner& roomy = at(level);
   if (roomy.is_clear(point_m, point_m)) return point_m;

@@ -10,44 +10,43 @@
 
 namespace lodestar {
 
-/// How much more than the radius a path keeps, widest first: a robot that follows a path drives a little
-/// beside it, now and then on the wrong side. The last is what every place must have, as an arrival may be
-/// off by it.
+/// Safety margins beyond the radius, widest first, as the robot follows a path with some cross-track error.
+/// Every path must keep the last one, as an arrival may be off by it.
 inline constexpr std::array default_margins_m{0.03, 0.02, 0.01};
 
-/// Plans with the widest margin that there is room for, without going a long way round for it. Where start or
-/// goal lie nearer to an obstacle than that, only the way between them and the nearest roomy place does too.
-/// A goal that has not even the narrowest margin, as one that touches a wall, is replaced by the nearest
-/// place that has, when that is within `goal_slack_m`: the path ends there. One query at a time.
+/// Plans with the widest margin possible without a long detour. When start or goal have less, only the legs
+/// between them and the nearest place with that margin keep the narrowest. A goal without even the narrowest
+/// margin, as one that touches a wall, is replaced by the nearest position that has it, when that is within
+/// `goal_slack_m`: the path ends there. One query at a time.
 class MarginPlanner {
  public:
   static constexpr double goal_slack_m = 0.015;
-  /// A path with more margin may be longer by this share of the shortest, and by so much. Chosen by hand: a
-  /// step to the side at a door post is worth its margin, another corridor is not.
+  /// A path with more margin may be longer than the shortest by detour_share of it plus detour_m. Chosen by
+  /// hand: a step aside at a door post is worth its margin, another corridor is not.
   static constexpr double detour_share = 0.1;
   static constexpr double detour_m = 0.5;
 
-  /// Outlines are planned without a margin.
+  /// Footprints are planned without a margin.
   explicit MarginPlanner(const OccupancyMap& map, const GridPlannerOptions& options = {},
                          std::span<const double> margins_m = default_margins_m);
 
-  /// The failure is that of the narrowest margin.
+  /// A failure is that with the narrowest margin.
   [[nodiscard]] PlanResult plan(const Vec2& start_m, const Vec2& goal_m,
                                 const PlanHeadings& headings = {}) const;
 
-  /// With the narrowest margin.
+  /// Is a leg clear with the narrowest margin?
   [[nodiscard]] bool is_clear(const Vec2& from_m, const Vec2& to_m) const;
 
-  /// With the widest.
+  /// Is a leg clear with the widest?
   [[nodiscard]] bool is_roomy(const Vec2& from_m, const Vec2& to_m) const {
     return at(0).is_clear(from_m, to_m);
   }
 
-  /// As GridPlanner's, with the narrowest margin.
+  /// As GridPlanner::nearest_reachable(), with the narrowest margin.
   [[nodiscard]] std::optional<Vec2> nearest_reachable(const Vec2& start_m, const Vec2& goal_m) const;
 
  private:
-  /// Made when first asked for.
+  /// The planner is created at first use.
   struct Level {
     double margin_m = 0.0;
     std::unique_ptr<const GridPlanner> planner;

@@ -11,7 +11,7 @@ double PathCost::leg(const Vec2& from, const Vec2& to) const {
   return counts_cells() ? least * mean_cell_cost(from, to) : least;
 }
 
-/// Sampled at half cells. No leg leads out of the map.
+/// Sampled every half cell. Infinite for a leg out of the map.
 double PathCost::mean_cell_cost(const Vec2& from, const Vec2& to) const {
   if (!is_on_map(from) || !is_on_map(to)) return std::numeric_limits<double>::infinity();
   const int samples = std::max(1, static_cast<int>(std::ceil(2.0 * (to - from).norm())));

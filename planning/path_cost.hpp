@@ -12,16 +12,15 @@
 
 namespace lodestar {
 
-/// How the robot stands at the start and shall stand at the goal, where that is known or wanted. In the grid
-/// frame.
+/// Headings at the start and the goal in the grid frame, where known or wanted.
 struct EndHeadings {
   std::optional<double> start_rad;
   std::optional<double> goal_rad;
 };
 
-/// What a path of straight legs costs: metres of length, or seconds for a robot that turns on the spot and
-/// drives from rest to rest. Where cells cost more than 1 (near obstacles), a leg costs its mean cell's share
-/// more.
+/// Cost of a path of straight legs: length in metres, or travel time in seconds for a robot that turns on the
+/// spot and drives from rest to rest. A leg's cost is multiplied by the mean cost of its cells, above 1 near
+/// obstacles.
 class PathCost {
  public:
   /// Without limits: length. `costs` may be empty: every cell costs 1. The map and the costs must outlive it.
@@ -31,14 +30,14 @@ class PathCost {
   [[nodiscard]] bool counts_turns() const { return limits_.has_value(); }
   [[nodiscard]] bool counts_cells() const { return !costs_.empty(); }
 
-  /// The least that a leg of this many cells can cost; no chain of legs between its ends costs less.
+  /// Lower bound on the cost of a leg of this many cells, and of any chain of legs between its ends.
   [[nodiscard]] double at_least(double length_cells) const {
     const double length_m = length_cells * map_.resolution_m;
     return limits_ ? limits_->leg_time_s(length_m) : length_m;
   }
   [[nodiscard]] double leg(const Vec2& from, const Vec2& to) const;
-  /// Of a turn on the spot from one heading to another, both in [-pi, pi]; two turns never cost less than one
-  /// from the first heading to the last.
+  /// Cost of a turn on the spot between two headings, both in [-pi, pi]. Two turns never cost less than the
+  /// direct one (triangle inequality).
   [[nodiscard]] double turn(double from_rad, double to_rad) const {
     if (!limits_) return 0.0;
     const double angle_rad = std::abs(to_rad - from_rad);

@@ -7,7 +7,7 @@
 namespace lodestar {
 namespace {
 
-constexpr double worthwhile = 1e-6;  ///< relative gain below which nothing is changed
+constexpr double worthwhile = 1e-6;  ///< least relative gain for moving a turn
 
 class Refining {
  public:
@@ -29,7 +29,7 @@ class Refining {
   }
 
  private:
-  /// What the path costs around turn i: all that a change there can change.
+  /// Cost of the part of the path that moving turn i changes.
   [[nodiscard]] double cost_around(std::size_t i) const {
     const std::size_t reach = cost_.counts_turns() ? 2 : 1;
     const std::size_t first = i > reach ? i - reach : 0;
@@ -46,7 +46,7 @@ class Refining {
     return moved;
   }
 
-  /// Into the first of eight directions that costs less.
+  /// Moves turn i by a step in the first of eight directions that costs less.
   bool move(std::size_t i, double step) {
     constexpr double slant = 0.7071067811865476;
     static constexpr std::array<std::array<double, 2>, 8> directions{{{1, 0},
@@ -80,7 +80,7 @@ class Refining {
     }
   }
 
-  /// Two turns into one, where the legs before and after them meet.
+  /// Merges two turns into one where the extended legs before and after them meet.
   void merge() {
     for (std::size_t i = 1; i + 2 < points_.size();) {
       const std::optional<Vec2> meeting = meeting_point(i);
@@ -98,7 +98,7 @@ class Refining {
     }
   }
 
-  /// Beyond turn i on the leg to it, and before turn i + 1 on the leg from it.
+  /// Where the leg to turn i, extended forward, meets the leg from turn i + 1, extended backward.
   [[nodiscard]] std::optional<Vec2> meeting_point(std::size_t i) const {
     const Vec2 in = points_[i] - points_[i - 1];
     const Vec2 out = points_[i + 2] - points_[i + 1];

@@ -37,9 +37,9 @@ std::vector<Vec2> shortened(const std::vector<Vec2>& points, const CollisionChec
     for (std::size_t from = 0; from < to; ++from) {
       const double so_far = best[from] + (from == 0 ? 0.0 : turn_cost_m);
       if (so_far + cost.at_least((at[to] - at[from]).norm()) >= best[to])
-        continue;  // no leg can be that cheap
+        continue;  // pruned by the lower bound
       const double total = so_far + cost.leg(at[from], at[to]);
-      // The step from the point before is part of the given path: its clearness is not in question.
+      // A leg from the point before is part of the given path and needs no collision check.
       if (total >= best[to] || (from + 1 < to && !space.along(at[from], at[to]))) continue;
       best[to] = total;
       came_from[to] = from;

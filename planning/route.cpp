@@ -57,7 +57,7 @@ Path rest_of(const Path& path, const Vec2& position_m) {
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double distance_m = distance_to_leg_m(points[i - 1], points[i], position_m);
-    if (distance_m > least_m) continue;  // among equals the later leg: at a waypoint the one before is done
+    if (distance_m > least_m) continue;  // a tie, as at a waypoint, goes to the later leg
     least_m = distance_m;
     next = i;
   }

@@ -28,7 +28,7 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-/// A state space that frees at its end the states that a planner forgot (LazyPRM* forgets all of them).
+/// A state space whose destructor frees the states that a planner leaked (LazyPRM* leaks all of them).
 template <typename Space>
 class Remembering : public Space {
  public:
@@ -52,7 +52,7 @@ class Remembering : public Space {
 
 using PlaneSpace = Remembering<ob::RealVectorStateSpace>;
 
-/// The way back sweeps something else: the robot drives ahead only.
+/// Not symmetric: the robot drives only forward, so the reverse motion sweeps another area.
 class PoseSpace : public Remembering<ob::SE2StateSpace> {
  public:
   bool hasSymmetricInterpolate() const override { return false; }
@@ -74,14 +74,14 @@ double heading_of(const ob::State* state) {
 
 using IsClear = std::function<bool(const ob::State* from, const ob::State* to)>;
 
-/// Legs are clear exactly or not at all; no resolution is involved.
+/// Checks a whole leg exactly, without a resolution.
 class ClearMotion : public ob::MotionValidator {
  public:
   ClearMotion(const ob::SpaceInformationPtr& information, IsClear is_clear)
       : ob::MotionValidator(information), is_clear_(std::move(is_clear)) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override { return is_clear_(from, to); }
-  /// Where a leg stops being clear is not asked for by planners that only keep whole legs.
+  /// Reports `from` as the last valid state: these planners keep only whole legs.
   bool checkMotion(const ob::State* from, const ob::State* to,
                    std::pair<ob::State*, double>& last_valid) const override {
     if (checkMotion(from, to)) return true;
@@ -116,7 +116,7 @@ ob::SpaceInformationPtr plane_of(const CollisionChecker& space) {
   return information;
 }
 
-/// Turn to the leg, drive it, turn to the heading of its end.
+/// Turns to the leg, drives it, turns to the heading at its end.
 bool is_clear_between(const FootprintCollisionChecker& space, const ob::State* from, const ob::State* to) {
   const Vec2 a = place_of(from);
   const Vec2 b = place_of(to);
@@ -126,7 +126,7 @@ bool is_clear_between(const FootprintCollisionChecker& space, const ob::State* f
          space.turning(b, way_rad, heading_of(to));
 }
 
-/// `both_ways`: for planners whose edges have no direction.
+/// `both_ways`: for planners with undirected edges.
 ob::SpaceInformationPtr poses_of(const FootprintCollisionChecker& space, bool both_ways) {
   const auto poses = std::make_shared<PoseSpace>();
   poses->setBounds(bounds_of(space.map()));
@@ -141,7 +141,7 @@ ob::SpaceInformationPtr poses_of(const FootprintCollisionChecker& space, bool bo
   return information;
 }
 
-/// The heading that is wanted, or those of eight in which the outline fits.
+/// The given heading, or those of eight in which the footprint is clear.
 std::vector<double> headings_at(const FootprintCollisionChecker& space, const Vec2& point,
                                 std::optional<double> wanted_rad) {
   if (wanted_rad) return {*wanted_rad};
@@ -181,7 +181,7 @@ ob::ProblemDefinitionPtr problem_of(const ob::SpaceInformationPtr& information,
     ob::ScopedState<ob::SE2StateSpace> state(information->getStateSpace());
     state->setXY(point.x(), point.y());
     state->setYaw(heading_rad);
-    state.enforceBounds();  // for OMPL half a turn is -pi
+    state.enforceBounds();  // OMPL's headings are in [-pi, pi)
     return state;
   };
   for (const double heading_rad : headings_at(space, start, headings.start_rad))
@@ -211,7 +211,7 @@ ob::PlannerPtr planner_of(SamplingMethod method, const ob::SpaceInformationPtr& 
 }
 
 struct Solution {
-  std::vector<const ob::State*> states;  ///< as long as the problem lives
+  std::vector<const ob::State*> states;  ///< owned by the problem
   std::size_t iterations = 0;
 };
 
@@ -227,18 +227,18 @@ std::optional<Solution> solution_of(SamplingMethod method, const ob::SpaceInform
   const ob::PlannerStatus status = planner->solve(ob::plannerOrTerminationCondition(
       out_of_iterations, ob::timedPlannerTerminationCondition(options.time_limit_s)));
   if (status != ob::PlannerStatus::EXACT_SOLUTION)
-    return std::nullopt;  // an approximate one is "true" as well
+    return std::nullopt;  // PlannerStatus is true for an approximate solution as well
   Solution solution{.states = {}, .iterations = out_of_iterations.getTimesCalled()};
   for (const ob::State* state : problem->getSolutionPath()->as<og::PathGeometric>()->getStates())
     solution.states.push_back(state);
   return solution;
 }
 
-/// OMPL keeps one seed for the whole program; held as long as the lock.
+/// Sets OMPL's seed, of which there is one per process; valid while the returned lock is held.
 std::unique_lock<std::mutex> seeded(std::uint32_t seed) {
   static std::mutex one_seed_for_all;
   std::unique_lock lock(one_seed_for_all);
-  ompl::msg::noOutputHandler();  // it has words for every query, and a warning for a second seed
+  ompl::msg::noOutputHandler();  // OMPL logs every query, and warns of a second seed
   ompl::RNG::setSeed(seed);
   return lock;
 }

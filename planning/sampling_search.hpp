@@ -13,13 +13,13 @@ namespace lodestar {
 /// needed), Gammell and others 2014, 2015 (Informed RRT*, BIT*), Strub and Gammell 2020 (ABIT*).
 enum class SamplingMethod { rrtstar, informedrrtstar, bitstar, abitstar, prmstar };
 
-/// They go on improving their path until one of the limits. A run that the clock ends is not repeatable; one
-/// that the iterations or the length end is the same for the same seed.
+/// A planner improves its path until it reaches one of these limits. A run ended by the clock is not
+/// repeatable; one ended by iterations or length is, for the same seed.
 struct SamplingOptions {
   std::uint32_t seed = 1;        ///< at least 1
   int max_iterations = 3000;     ///< 0: no limit
-  double time_limit_s = 10.0;    ///< a safeguard, unless the iterations are not limited
-  double enough_length_m = 0.0;  ///< a path no longer than this is taken at once
+  double time_limit_s = 10.0;    ///< a safeguard; the only limit when max_iterations is 0
+  double enough_length_m = 0.0;  ///< a path no longer than this ends the search
 };
 
 struct SampledPath {
@@ -27,17 +27,17 @@ struct SampledPath {
   std::size_t iterations = 0;
 };
 
-/// A path between two clear points with the footprint check of CollisionChecker, exact along every leg.
-/// Nothing when none was found within the limits: paths that only come near to the goal do not count. OMPL
-/// keeps one seed for the whole program, so calls wait for each other.
+/// A path of a disc-shaped robot between two clear points, every leg checked exactly by CollisionChecker.
+/// Nothing when none reached the goal within the limits. OMPL has one seed per process, so concurrent calls
+/// wait for each other.
 std::optional<SampledPath> search_by_sampling(SamplingMethod method, const CollisionChecker& space,
                                               const Vec2& start, const Vec2& goal,
                                               const SamplingOptions& options);
 
-/// The same for a robot with an outline, in SE(2): from state to state it turns to the leg, drives, and turns
-/// to the heading of the state, each checked exactly. Where no heading is given, the start looks towards the
-/// goal or as nearly so as fits, and the goal has eight to choose from. The points are of a path that fits
-/// when the robot turns from leg to leg without the headings between.
+/// The same for a robot with a footprint, in SE(2): between states it turns to the leg, drives, and turns to
+/// the state's heading, each checked exactly. A start or goal without a given heading may have any of eight
+/// that is clear. The returned path is clear also when the robot turns from leg to leg directly, without the
+/// states' headings.
 std::optional<SampledPath> search_by_sampling(SamplingMethod method, const FootprintCollisionChecker& space,
                                               const Vec2& start, const Vec2& goal,
                                               const EndHeadings& headings, const SamplingOptions& options);

@@ -8,7 +8,7 @@
 #include "planning/path_shortening.hpp"
 
 namespace lodestar {
-/// A way to a place that no other way to it beats in both cost and deviation.
+/// A Pareto label: a path to a place that no other path to it dominates in both cost and sigma.
 struct UncertaintyConstrainedPlanner::Label {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
@@ -85,7 +85,7 @@ class UncertaintyConstrainedPlanner::Search {
     double total = 0.0;
     std::size_t label = 0;
   };
-  /// The least total first; among equals the older.
+  /// Least total first; among equals the older label.
   static bool later(const Open& a, const Open& b) {
     return a.total != b.total ? a.total > b.total : a.label > b.label;
   }

@@ -6,17 +6,17 @@
 namespace lodestar {
 namespace {
 
-constexpr double negligible = 1e-9;  ///< of cost, relative: not worth another path
-/// Seconds: of two ways to a place that differ by less than this and a turn from one's heading to the
-/// other's, one is enough.
+constexpr double negligible = 1e-9;  ///< relative saving of cost that is not worth another path
+/// Dominance slack in seconds: a label is dropped when another one plus the turn between their headings is at
+/// most this much slower.
 constexpr double as_good_s = 0.3;
-/// By so much the bound of what still follows may be stretched: it knows nothing of walls.
+/// Inflation of the heuristic (weighted A*) when turns count, as the heuristic ignores obstacles.
 constexpr double stretch = 0.2;
 constexpr std::uint32_t goal_candidate = 0;
 
 }  // namespace
 
-/// The least total first; ties are broken the same way every time.
+/// Least total first; ties by candidate and parent, so that the search is deterministic.
 struct VisibilityGraphSearch::Later {
   bool operator()(const Open& a, const Open& b) const {
     if (a.total != b.total) return a.total > b.total;
@@ -27,7 +27,7 @@ struct VisibilityGraphSearch::Later {
 VisibilityGraphSearch::VisibilityGraphSearch(const CollisionChecker& space,
                                              std::vector<TurnPoint> turn_points)
     : space_(space), turn_points_(std::move(turn_points)) {
-  constexpr std::size_t most_remembered = 4000;  // 16 MB of sights
+  constexpr std::size_t most_remembered = 4000;  // 16 MB of cached sights
   if (turn_points_.size() <= most_remembered) sights_.resize(turn_points_.size() * turn_points_.size());
 }
 
@@ -71,7 +71,7 @@ void VisibilityGraphSearch::gather_candidates(std::span<const Vec2> known) {
   }
 }
 
-/// Only where even the straight way through here stays below the limit.
+/// Skips a point when even the straight path through it reaches the upper bound.
 void VisibilityGraphSearch::add_candidate(const Vec2& position, std::uint32_t turn_point) {
   const Vec2 from_start = position - start_;
   const Vec2 to_goal = goal_ - position;
@@ -83,7 +83,7 @@ void VisibilityGraphSearch::add_candidate(const Vec2& position, std::uint32_t tu
   if (turn_point != none) candidate.corner = turn_points_[turn_point].corner;
   if (cost_->counts_turns() && !is_goal) {
     candidate.heading_to_goal_rad = heading_of(to_goal);
-    // Whatever is between, the heading changes at least from the one straight way to the other.
+    // Whatever lies between, the turns add up to at least that between these two headings.
     const double turn = cost_->turn(heading_of(from_start), candidate.heading_to_goal_rad);
     if (least + turn >= limit_) return;
   }
@@ -129,14 +129,14 @@ void VisibilityGraphSearch::push(const Open& open) {
   std::ranges::push_heap(open_, Later{});
 }
 
-/// A path that turns away from the corner beside it could be cut short.
+/// False for a turn away from the point's corner: such a path could be cut short.
 bool VisibilityGraphSearch::turns_around_its_corner(const Vec2& way) const {
   if (from_.turn_point == none) return true;
   const double turn = cross(from_.arrival, way);
   return turn * from_.corner_side >= 0.0 && turn * cross(way, from_.to_corner) >= 0.0;
 }
 
-/// Could another way to the same place, and there a turn on the spot, have been as cheap?
+/// Is another label of the same point, plus a turn on the spot, as cheap within the slack?
 bool VisibilityGraphSearch::is_dominated(const Open& open) const {
   const double slack = cost_->counts_turns() && open.candidate != goal_candidate ? as_good_s : 0.0;
   for (std::uint32_t i = candidates_[open.candidate].newest_label; i != none; i = labels_[i].older_label) {
@@ -146,8 +146,8 @@ bool VisibilityGraphSearch::is_dominated(const Open& open) const {
   return false;
 }
 
-/// A bound from below: the straight way, and the turn towards the goal or to the final heading, if that is
-/// farther.
+/// Admissible heuristic: the straight leg to the goal, plus the larger of the turns towards the goal and to
+/// the final heading.
 double VisibilityGraphSearch::least_rest(const Candidate& candidate, double heading_rad) const {
   const bool is_goal = &candidate == candidates_.data();
   double turn = is_goal ? 0.0 : cost_->turn(heading_rad, candidate.heading_to_goal_rad);
@@ -155,7 +155,7 @@ double VisibilityGraphSearch::least_rest(const Candidate& candidate, double head
   return candidate.least_to_goal + turn;
 }
 
-/// Is the leg clear? One that costs more than supposed waits for its turn again.
+/// Is the leg clear, at the cost assumed so far? A clear leg that costs more is re-queued at its true cost.
 bool VisibilityGraphSearch::goes_on(Open& open) {
   if (open.looked_at) return true;
   const Label& parent = labels_[open.parent];
@@ -181,7 +181,7 @@ VisibilityGraphSearch::Sight VisibilityGraphSearch::known_sight(std::uint32_t fr
   return sights_[low * turn_points_.size() + high];
 }
 
-/// Between turn points the map decides once and for all.
+/// Lines of sight between turn points are cached, as they depend only on the map.
 bool VisibilityGraphSearch::sees(std::uint32_t from_turn_point, std::uint32_t to_turn_point, const Vec2& from,
                                  const Vec2& to) {
   if (from_turn_point == none || to_turn_point == none || sights_.empty()) return space_.along(from, to);

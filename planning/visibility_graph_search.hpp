@@ -12,21 +12,21 @@ namespace lodestar {
 struct TurnPath {
   std::vector<Vec2> points;  ///< start, turns, goal in grid coordinates
   double cost = 0.0;
-  std::size_t expanded = 0;  ///< turn points from which the search went on
+  std::size_t expanded = 0;  ///< labels expanded
 };
 
 /// The shortest, or nearly the fastest, path of straight clear legs that turns at turn points only: A* on
-/// their visibility graph. A state is a turn point and the heading of arrival, for the next turn depends on
-/// it; one that could be reached cheaper by another way and a turn on the spot is dropped. Lines of sight are
-/// looked at last, for the few legs that come up as cheapest (lazy A*, Cohen, Phillips and Likhachev 2014).
-/// Memory is kept from search to search.
+/// their visibility graph. A state is a turn point with the arrival heading, on which the next turn's cost
+/// depends; it is dominated when another path and a turn on the spot reach it more cheaply. Only legs taken
+/// from the open list are checked for a line of sight (lazy A*, Cohen, Phillips and Likhachev 2014). Memory
+/// is kept between searches.
 class VisibilityGraphSearch {
  public:
   /// The space must outlive it.
   VisibilityGraphSearch(const CollisionChecker& space, std::vector<TurnPoint> turn_points);
 
-  /// `known` is a clear path from start to goal: no costlier way is looked at, its points are turn points
-  /// too, and when nothing cheaper is found it is the answer.
+  /// `known` is a clear path from start to goal. Its cost is the upper bound, its points are turn points too,
+  /// and it is the answer when no cheaper one is found.
   TurnPath find(std::span<const Vec2> known, const EndHeadings& headings, const PathCost& cost);
 
  private:
@@ -41,7 +41,7 @@ class VisibilityGraphSearch {
     std::uint32_t turn_point = none;  ///< none: a point of the known path
     std::uint32_t newest_label = none;
   };
-  /// A way to a candidate.
+  /// A path to a candidate.
   struct Label {
     double cost = 0.0;
     double heading_rad = 0.0;
@@ -55,14 +55,14 @@ class VisibilityGraphSearch {
     double heading_rad = 0.0;
     std::uint32_t candidate = 0;
     std::uint32_t parent = 0;
-    bool looked_at = false;  ///< the leg is known to be clear, and what it costs
+    bool looked_at = false;  ///< the leg has been checked clear, and `cost` is its true cost
   };
-  /// The place that is expanded, and what the ways on from there are compared with.
+  /// The point being expanded, with its arrival leg.
   struct Expanded {
     Vec2 position = Vec2::Zero();
     Vec2 arrival = Vec2::Zero();  ///< the leg to it
     Vec2 to_corner = Vec2::Zero();
-    double corner_side = 0.0;  ///< of the arrival: cross product with the way to the corner
+    double corner_side = 0.0;  ///< cross product of arrival and to_corner
     std::uint32_t turn_point = none;
   };
   struct Later;
@@ -86,9 +86,8 @@ class VisibilityGraphSearch {
 
   const CollisionChecker& space_;
   std::vector<TurnPoint> turn_points_;
-  std::vector<Sight>
-      sights_;  ///< between turn points, as far as they were looked at; empty when there are too many
-  const PathCost* cost_ = nullptr;  ///< of the present search, as all that follows
+  std::vector<Sight> sights_;  ///< cached lines of sight between turn points; empty when there are too many
+  const PathCost* cost_ = nullptr;  ///< of the present search, as all members below
   EndHeadings headings_;
   Vec2 start_ = Vec2::Zero();
   Vec2 goal_ = Vec2::Zero();

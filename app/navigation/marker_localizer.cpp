@@ -5,9 +5,9 @@
 namespace lodestar {
 namespace {
 
-/// A robot without a marker in view may drive on to the next one; with a broken camera it would never see it.
-/// On half a metre wheels whose scales nobody has learned (2 % each) turn it by 2 degrees and lead it 9 mm
-/// aside, less than the smallest margin of a path.
+/// A robot without a marker in view may drive on to the next one, but with a camera fault only this far. On
+/// 0.5 m, unlearned wheel scales (2 % each) turn it by 2 degrees and give 9 mm cross-track error, less than
+/// the smallest margin of a path.
 constexpr double farthest_with_broken_camera_m = 0.5;
 
 /// Of markers that contradict each other: the fix with the smallest Mahalanobis distance to the estimate, if

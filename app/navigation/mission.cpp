@@ -53,7 +53,7 @@ MissionStep Mission::step(const SensorInput& input) {
 
 MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& step) {
   if (step.stop && is_latched(*step.stop)) return fail(input.now, std::string(to_string(*step.stop)));
-  // Visits a copy, since the steps assign state_.
+  // Visits a copy, as the steps assign state_.
   return std::visit([&](const auto& state) { return advance(state, input, step); }, State(state_));
 }
 
@@ -172,7 +172,7 @@ MissionEvent Mission::advance(Held, const SensorInput& input, const NavigationSt
   return hold(input);
 }
 
-/// Where a stopped robot stands is not where its path is: once the base is ready again, it plans anew.
+/// Drops the path, as the stopped robot may have left it, and replans once the base is ready again.
 MissionEvent Mission::hold(const SensorInput& input) {
   const bool is_hopeless = input.base.fault == BaseFault::guard_lost;
   if (!options_.hold_on_base_fault || is_hopeless) {
@@ -184,7 +184,7 @@ MissionEvent Mission::hold(const SensorInput& input) {
   return MissionEvent::none;
 }
 
-/// What the wheels alone have told is no arrival: they may have slipped on the last of the way.
+/// Wheel odometry alone does not prove arrival: the wheels may have slipped.
 MissionEvent Mission::advance(Settling state, const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
   if (!state.still_since || !at_rest(input.base)) state.still_since = input.now;

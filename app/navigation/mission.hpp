@@ -9,22 +9,21 @@
 namespace lodestar {
 
 struct MissionOptions {
-  Duration max_wait_for_start = std::chrono::seconds(25);  ///< for a first pose and a base that obeys
+  Duration max_wait_for_start = std::chrono::seconds(25);  ///< for a first pose and a ready base
   Duration max_stop = std::chrono::seconds(20);            ///< a safety stop that lasts longer fails the goal
-  Duration settle = std::chrono::milliseconds(400);        ///< at rest for so long before arrival is claimed
-  /// Arrival is claimed only when a frame has confirmed it: within so much travel, and so near.
+  Duration settle = std::chrono::milliseconds(400);        ///< time at rest before arrival is reported
+  /// Arrival needs a frame that confirmed the estimate within this travel, and a position this near the goal.
   double max_rolled_unseen_m = 0.2;
   double max_distance_at_arrival_m = 0.05;
-  int attempts = 3;                 ///< to come so near
+  int attempts = 3;                 ///< to come that near
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
-  /// A drive that takes longer than so many times the ideal, and so much more, fails: the robot is stuck.
+  /// A drive longer than max_time_factor times the ideal time plus max_time_more fails: the robot is stuck.
   double max_time_factor = 4.0;
   Duration max_time_more = std::chrono::seconds(60);
 };
 
-/// What a mission is about.
 enum class MissionPhase { idle, starting, driving, settling, waiting_for_base, paused, stopping };
-/// In words for people.
+/// Text for the operator.
 std::string_view to_string(MissionPhase phase);
 
 enum class MissionEvent { none, path_planned, goal_arrived, goal_failed };
@@ -34,7 +33,7 @@ struct MissionStep {
   MissionEvent event = MissionEvent::none;
 };
 
-/// Drives to one goal after the other. Time arrives with the data.
+/// Drives to the goals in turn. Time arrives with the data.
 class Mission {
  public:
   Mission(const KnownWorld& world, const NavigationOptions& navigation, std::vector<Goal> goals,
@@ -42,50 +41,49 @@ class Mission {
 
   MissionStep step(const SensorInput& input);
 
-  /// New goals, once it has finished.
+  /// Starts new goals; call only when finished().
   void start(std::vector<Goal> goals);
-  /// Comes to rest within the limits; the goal under way then fails, and those after it are forgotten.
+  /// Brakes to rest within the limits; then the present goal fails, and those after it are dropped.
   void stop();
-  /// Comes to rest within the limits, until resume().
+  /// Brakes to rest within the limits, until resume().
   void pause();
   void resume();
   [[nodiscard]] bool paused() const { return paused_; }
-  /// Somebody says where the robot stands. False while the wheels have not been heard.
+  /// Sets the initial pose, as Navigation::place_robot() does.
   [[nodiscard]] bool place_robot(const Pose2& map_from_base) {
     return navigation_.place_robot(map_from_base);
   }
 
   [[nodiscard]] MissionPhase phase() const;
   [[nodiscard]] const std::vector<Goal>& goals() const { return goals_; }
-  /// The map as it is from now on; the present path is replaced if need be.
+  /// Sets a new map; the present path is replaced if need be.
   void map_changed(const OccupancyMap& map) { navigation_.map_changed(map); }
 
   [[nodiscard]] bool finished() const { return current_ >= goals_.size(); }
   [[nodiscard]] std::size_t current() const { return current_; }
   /// The path being followed; valid from path_planned on, which comes again when it is replaced.
   [[nodiscard]] const Path& path() const { return path_; }
-  /// What driving that path takes at best, without a glance at the clock for stops, speed limits and
-  /// settling.
+  /// Ideal driving time of that path, without stops, speed limits and settling.
   [[nodiscard]] double ideal_s() const { return ideal_s_; }
-  /// Why the last goal failed, in words.
+  /// Why the last goal failed, as text.
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
  private:
-  /// About to drive to the present goal, as soon as it may.
+  /// Waits until it may drive to the present goal.
   struct Starting {
     std::optional<Stamp> since;
   };
   struct Driving {
-    Stamp ends;                          ///< at the latest
+    Stamp ends;                          ///< deadline
     std::optional<Stamp> stopped_since;  ///< while there is a reason not to move
   };
-  /// At the goal; arrival is claimed once it has stood for a while and seen where.
+  /// At the goal; reports arrival after a time at rest with the pose confirmed.
   struct Settling {
     std::optional<Stamp> still_since;
   };
-  /// The base has a fault.
+  /// Holds the goal while the base has a fault.
   struct Held {};
-  /// The operator has cancelled; comes to rest, then the goal fails.
+  /// Cancelled by the operator: brakes to rest, then the goal fails.
   struct Stopping {};
   using State = std::variant<Starting, Driving, Settling, Held, Stopping>;
 
@@ -109,7 +107,7 @@ class Mission {
   std::size_t current_ = 0;
   DriveOptions drive_options_;
   int attempt_ = 0;      ///< at the present goal
-  bool paused_ = false;  ///< as the operator wishes, in any of these states
+  bool paused_ = false;  ///< by the operator, in any of these states
   Stamp last_step_;
   Path path_;
   double ideal_s_ = 0.0;

@@ -88,8 +88,8 @@ Facts Navigation::judge(const SensorInput& input, const NavigationStep& step,
   return facts;
 }
 
-/// How fast it may go, with room kept for what the robot does not know of its place; not at all where it has
-/// less.
+/// Sets the speed limits, with the safety margin for the pose uncertainty kept; zero where the clearance is
+/// smaller than the margin.
 void Navigation::judge_room(Facts& facts, bool is_contradicted) const {
   CautionOptions caution = options_.caution;
   if (is_contradicted) caution.swing_per_m = caution.contradicted_swing_per_m;
@@ -114,7 +114,7 @@ void Navigation::judge_room(Facts& facts, bool is_contradicted) const {
         limit_with(margin_on_the_way_back(facts.estimate->covariance), options_.backtrack.limits);
 }
 
-/// With a planner that is quick enough to be waited for.
+/// Answers all plan requests within the step; the planner must be quick.
 Behaviour Navigation::planned(Behaviour behaviour, const std::optional<PoseEstimate>& estimate,
                               std::optional<RouteUpdate>& update) {
   while (estimate) {

@@ -13,7 +13,7 @@
 
 namespace lodestar {
 
-/// The world as the robot knows it.
+/// The world model.
 struct KnownWorld {
   OccupancyMap map;
   MarkerRegistry registry;
@@ -37,62 +37,61 @@ struct NavigationOptions {
   BacktrackOptions backtrack;
 };
 
-/// All that has arrived since the last step. Time arrives with the data.
+/// All data since the last step. Time arrives with the data.
 struct SensorInput {
   Stamp now;
   std::vector<Frame> frames;
   BaseFeedback base;
 };
 
-/// What one step of the navigator found out and wants.
+/// Result of one navigation step.
 struct NavigationStep {
   std::vector<FixAttempt> fixes;
   std::optional<PoseEstimate> estimate;
-  std::optional<StopReason> stop;  ///< why the robot may not move, if so
-  bool backtracks = false;         ///< lost, it goes back to where it saw a marker
+  std::optional<StopReason> stop;  ///< why the robot must not move, if so
+  bool backtracks = false;         ///< lost, the robot drives back to where it saw a marker
   BodyVelocity command;
-  std::optional<RouteUpdate> reroute;        ///< the path followed from now on is another one, or lost
-  std::optional<CameraFault> camera;         ///< what is wrong with it, if anything
-  double rolled_unseen_m = 0.0;              ///< by the wheels, since a frame confirmed the estimate
+  std::optional<RouteUpdate> reroute;        ///< the path is replaced, or lost
+  std::optional<CameraFault> camera;         ///< present fault of the camera
+  double rolled_unseen_m = 0.0;              ///< wheel travel since a frame confirmed the estimate
   std::vector<DistrustedMarker> distrusted;  ///< so far
   Vec2 wheel_scales = Vec2::Ones();          ///< true over reported travel, left and right, as learned so far
 };
 
-/// The road from frames and wheel travel to a velocity. What the robot is about is a state of
-/// control/behaviour_states.hpp; docs/behaviours.md says what leads from one to another.
+/// From frames and wheel travel to a velocity. control/behaviour_states.hpp has the states,
+/// docs/behaviours.md the transitions.
 class Navigation {
  public:
   Navigation(const KnownWorld& world, const NavigationOptions& options);
 
-  /// One step; called at a steady rate. The command is zero while there is no path to follow.
+  /// One step; call at a steady rate. Without a path to follow, the robot brakes, stands or spins.
   NavigationStep step(const SensorInput& input);
 
-  /// Plans from where the robot stands to the goal, and follows that path from the next step on; nothing is
-  /// followed when there is none. Where the robot still rolls, or does not know where it is, nothing is
-  /// returned: it comes to rest and finds out, and a later step's `reroute` tells what came of it.
+  /// Plans a path from the robot to the goal and follows it from the next step on; with no path, the robot
+  /// stands. Returns nothing while the robot still moves or its pose is unknown: it then comes to rest and
+  /// localizes first, and a later step's `reroute` has the result.
   std::optional<RouteUpdate> go_to(const Goal& goal);
 
-  /// The map as it is from now on. A path that it blocks, or that is clearly worse now, is replaced: the
-  /// robot comes to rest and plans anew from there.
+  /// Sets a new map. When it blocks the path or makes another clearly faster, the robot brakes to rest and
+  /// replans from there.
   void map_changed(const OccupancyMap& map);
 
-  /// Follows nothing any more: the next command is zero.
+  /// Drops the path: the next command is zero.
   void halt();
 
-  /// While it follows nothing: may it turn on the spot to look for a marker when it does not know where it
-  /// is?
+  /// Allows the robot, while it follows no path and its pose is lost, to spin to look for a marker.
   void look_for_markers(bool wanted) { may_look_around_ = wanted; }
 
-  /// Brings the robot to rest within its limits; then resume() goes on to the same goal.
+  /// Brakes to rest within the limits; then resume() goes on to the same goal.
   void pause();
   void resume();
   [[nodiscard]] bool paused() const { return wish_ == Wish::pause; }
 
-  /// Brings the robot to rest within its limits and follows nothing any more.
+  /// Brakes to rest within the limits and drops the path.
   void cancel();
 
-  /// Somebody says where the robot stands, to about half a metre and 20 degrees. Markers then tell more.
-  /// False while the wheels have not been heard.
+  /// Sets the initial pose (sigma 0.25 m, 10 degrees), which marker fixes then refine. False before the first
+  /// wheel reading.
   [[nodiscard]] bool place_robot(const Pose2& map_from_base);
 
   [[nodiscard]] bool arrived() const { return std::holds_alternative<Arrived>(behaviour_.state); }

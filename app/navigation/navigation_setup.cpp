@@ -23,10 +23,10 @@ KnownWorld known_world(const Site& site, const std::string& camera) {
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
   options.fix.prior = pose_prior(robot);
-  // Assumed, not measured: film is cut and glued to some 0.05 mm, and the ceiling's pattern beside a dot
+  // Assumed, not measured: film is cut and glued to about 0.05 mm, and the ceiling's pattern beside a dot
   // shifts its detected centre by as much again. At 2.6 m that is 0.02 px of the paper's camera (755 px). On
-  // a real ceiling the fixes' residual_px (run.mcap and the live viewers) show it: half of their square is
-  // about the sum of the squares of this sigma and of the image noise, some 0.01 px.
+  // a real ceiling, check the fixes' residual_px (run.mcap and the live viewers): half its square is about
+  // the sum of the squares of this sigma and of the image noise, about 0.01 px.
   options.fix.dot_place_sigma_m = 0.00007;
   options.filter.track_width_m = robot.track_width_m;
   options.filter.wheel_step_m = robot.encoder_step_m.value_or(options.filter.wheel_step_m);

@@ -22,7 +22,7 @@ std::span<const double> margins_m(Margins margins);
 struct PlanningContext {
   PlanningContext(const OccupancyMap& known, const GridPlannerOptions& options, Margins margins);
 
-  /// For a path on this map: corners are cut only where there is room for it.
+  /// For a path on this map: blends corners only when all of them have the clearance for it.
   [[nodiscard]] DriveOptions drive_options(const Path& path, DriveOptions options) const;
 
   OccupancyMap map;

@@ -12,8 +12,8 @@ void TripPlanner::map_changed(const OccupancyMap& map, std::span<const Vec2> bli
   rebuild_context(map, blind_m);
 }
 
-/// An unsure robot keeps away from what it could touch; and where it has found no marker it drives again only
-/// if every other way is far longer.
+/// After the pose was too uncertain, or with blind places, margins are wide. Where no marker was found, the
+/// robot drives again only if every other path is far longer.
 void TripPlanner::rebuild_context(const OccupancyMap& map, std::span<const Vec2> blind_m) {
   GridPlannerOptions options = options_.planner;
   options.avoided.places_m.assign(blind_m.begin(), blind_m.end());
@@ -32,7 +32,7 @@ TripPlanner::Planned TripPlanner::plan(const PlanRequest& request, const Trip& t
   }
   switch (request.kind) {
     case PlanKind::review:
-      // Sampling planners take too long to be asked while the robot drives.
+      // Sampling planners are too slow to run while the robot drives: it brakes and replans at rest.
       if (sampling_method(options_.planner.kind)) return {PathMustBeReplaced{}, std::nullopt};
       return review(route_from(request, trip, pose));
     case PlanKind::replan:
@@ -82,7 +82,7 @@ TripPlanner::Planned TripPlanner::to_goal(const PlanRequest& request, const Pose
   return {along(update.route), update};
 }
 
-/// First along the leg by which it has come: every other way may be narrower.
+/// Goes back along the present leg first: every other way may be narrower.
 TripPlanner::Planned TripPlanner::way_back(const Vec2& place_m, const Trip& trip, const Pose2& pose) const {
   constexpr double beside_leg_m = 0.3;
   const auto along_way = [&](Path path) {

@@ -16,7 +16,7 @@ struct TripPlannerOptions {
   DriveOptions drive;
 };
 
-/// Makes the plans that the robot's behaviour asks for, over the map as it is now.
+/// Answers the plan requests of the behaviour, on the present map.
 class TripPlanner {
  public:
   TripPlanner(const OccupancyMap& map, const TripPlannerOptions& options);
@@ -26,7 +26,7 @@ class TripPlanner {
 
   struct Planned {
     PlanAnswer answer;
-    std::optional<RouteUpdate> update;  ///< where another path is followed from now on, or none
+    std::optional<RouteUpdate> update;  ///< when another path is followed from now on, or none
   };
   Planned plan(const PlanRequest& request, const Trip& trip, const Pose2& pose,
                std::span<const Vec2> blind_m);
@@ -45,7 +45,7 @@ class TripPlanner {
 
   TripPlannerOptions options_;
   std::unique_ptr<const PlanningContext> context_;
-  bool prefers_wide_margins_ = false;  ///< the ground is for a robot that does
+  bool prefers_wide_margins_ = false;  ///< as the planning context was built for
 };
 
 }  // namespace lodestar
