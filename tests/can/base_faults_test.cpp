@@ -169,7 +169,7 @@ TEST_F(BaseFaults, slipping_wheels_are_driven_through) {
 TEST_F(BaseFaults, a_robot_that_is_carried_away_stops_within_300_ms_and_for_good) {
   drive("kidnap@1.5");
   EXPECT_EQ(run->wait(40s), 1);
-  EXPECT_TRUE(run->said("not where it was believed to be")) << run->output();
+  EXPECT_TRUE(wait_for_words("not where it was believed to be", 1s)) << run->output();
   const auto moved_first = witness->wait_for(is_moving_command, Stamp{}, 1s);
   ASSERT_TRUE(moved_first);
   expect_no_motion_after(300ms, moved_first->stamp + 1500ms);

@@ -59,7 +59,7 @@ TEST_F(Mission, a_full_disk_ends_the_log_and_not_the_drive) {
   start_base();
   start_run("--goal 2.4,5.5 -o /run/small/run");
   EXPECT_EQ(wait_for_the_end(40s), 0);
-  EXPECT_TRUE(run->said("the run is not recorded as a whole"));
+  EXPECT_TRUE(wait_for_words("the run is not recorded as a whole", 1s));
   EXPECT_NEAR(end_base().x_m, 2.4, 0.03);
   ASSERT_TRUE(shell("umount /run/small"));
 }
@@ -119,7 +119,7 @@ TEST_F(Mission, is_refused_with_a_camera_that_is_not_there) {
   start_base();
   start_run("--goal 1.8,5.6");
   EXPECT_EQ(run->wait(start_up), 2);
-  EXPECT_TRUE(run->said("/dev/video9: found a device that cannot be opened"));
+  EXPECT_TRUE(wait_for_words("/dev/video9: found a device that cannot be opened", 1s));
   EXPECT_TRUE(witness->heard(is_motion_command, Stamp{}).empty());
 }
 
