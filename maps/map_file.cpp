@@ -142,7 +142,11 @@ LoadedMap load_map(const fs::path& yaml_file) {
   loaded.map.resolution_m = yaml.number("resolution", finest_m, coarsest_m);
   const std::vector<double> origin = yaml.numbers("origin", 3);
   loaded.map.map_from_grid = {{origin[0], origin[1]}, origin[2]};
-  yaml.finish();
+  for (const StrictYaml::OtherKey& key : yaml.take_other_keys()) {
+    loaded.info.other_keys += key.yaml + "\n";
+    loaded.warnings.push_back(fmt::format("{}:{}: the key '{}' is not known here and has no effect",
+                                          yaml_file.string(), key.line, key.name));
+  }
 
   try {
     const MapImage image = read_map_image(loaded.info.image);
@@ -155,7 +159,7 @@ LoadedMap load_map(const fs::path& yaml_file) {
   return loaded;
 }
 
-void save_map(const OccupancyMap& map, const fs::path& yaml_file) {
+void save_map(const OccupancyMap& map, const fs::path& yaml_file, const std::string& other_keys) {
   const std::string extension = yaml_file.extension().string();
   if (extension != ".yaml" && extension != ".yml") {
     throw InputError(fmt::format("{}: found '{}', wanted the name of a YAML file: .yaml or .yml",
@@ -171,11 +175,11 @@ void save_map(const OccupancyMap& map, const fs::path& yaml_file) {
   const Pose2& origin = map.map_from_grid;
   write_file_atomically(image_file, pgm_text(image_of(map, trinary)));
   write_file_atomically(
-      yaml_file,
-      fmt::format("image: {}\nmode: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\n"
-                  "occupied_thresh: {}\nfree_thresh: {}\n",
-                  name, trinary ? "trinary" : "raw", map.resolution_m, origin.position_m.x(),
-                  origin.position_m.y(), origin.yaw_rad, saved_occupied_threshold, saved_free_threshold));
+      yaml_file, fmt::format("image: {}\nmode: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\n"
+                             "occupied_thresh: {}\nfree_thresh: {}\n{}",
+                             name, trinary ? "trinary" : "raw", map.resolution_m, origin.position_m.x(),
+                             origin.position_m.y(), origin.yaw_rad, saved_occupied_threshold,
+                             saved_free_threshold, other_keys));
   const bool was_ours = before == stem + ".pgm" || before == stem + "_b.pgm";
   std::error_code none;
   if (was_ours) fs::remove(yaml_file.parent_path() / before, none);

@@ -18,16 +18,17 @@ struct MapFileInfo {
   bool negate = false;
   double occupied_threshold = 0.65;
   double free_threshold = 0.196;
+  std::string other_keys;  ///< lines of YAML: keys that this program does not know
 };
 
 struct LoadedMap {
   OccupancyMap map;
   MapFileInfo info;
-  std::vector<std::string> warnings;  ///< such as 205 (unknown to the saver) read as free
+  std::vector<std::string> warnings;  ///< unknown keys; 205 (unknown to the saver) read as free
 };
 
 /// Reads a map_server YAML file and its image (PGM P2/P5, PNG, BMP; relative to the YAML file). Throws
-/// InputError with file and line: unknown or missing keys, NaN or infinite origin, resolution <= 0,
+/// InputError with file and line: missing keys, NaN or infinite origin, resolution <= 0,
 /// thresholds out of order, an image that is missing or broken.
 LoadedMap load_map(const std::filesystem::path& yaml_file);
 
@@ -35,7 +36,9 @@ LoadedMap load_map(const std::filesystem::path& yaml_file);
 /// already): at every moment, also after a power cut, the YAML file names a complete image, the old or the
 /// new one. The mode is lossless: trinary when all values are 0, 100 or -1, raw otherwise. Numbers are
 /// written such that reading returns the same doubles. Throws InputError for a name without .yaml or .yml,
-/// which might be that of the image, and when a file cannot be written.
-void save_map(const OccupancyMap& map, const std::filesystem::path& yaml_file);
+/// which might be that of the image, and when a file cannot be written. `other_keys` are lines of YAML to be
+/// kept, as MapFileInfo has them.
+void save_map(const OccupancyMap& map, const std::filesystem::path& yaml_file,
+              const std::string& other_keys = {});
 
 }  // namespace lodestar

@@ -196,6 +196,18 @@ void StrictYaml::finish() const {
   }
 }
 
+std::vector<StrictYaml::OtherKey> StrictYaml::take_other_keys() {
+  std::vector<OtherKey> others;
+  for (const auto& entry : node_) {
+    const std::string key = entry.first.Scalar();
+    if (!asked_.insert(key).second) continue;
+    YAML::Emitter yaml;
+    yaml << YAML::BeginMap << YAML::Key << entry.first << YAML::Value << entry.second << YAML::EndMap;
+    others.push_back({key, line_of(entry.first), yaml.c_str()});
+  }
+  return others;
+}
+
 void StrictYaml::refuse(const std::string& key, const std::string& found, const std::string& wanted) const {
   const YAML::Node value = node_[key];
   const std::string name = where_.empty() ? key : where_ + "." + key;

@@ -35,6 +35,15 @@ class StrictYaml {
   /// Throws for the first key that was not read.
   void finish() const;
 
+  /// A key that another program may have written into a file of its own format.
+  struct OtherKey {
+    std::string name;
+    int line = 0;
+    std::string yaml;  ///< "name: value"
+  };
+  /// All keys that were not read; they count as read then.
+  [[nodiscard]] std::vector<OtherKey> take_other_keys();
+
   /// Throws InputError with the line of the given key of this mapping.
   [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& wanted) const;
 

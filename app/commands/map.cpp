@@ -18,6 +18,10 @@
 namespace lodestar {
 namespace {
 
+void print_warnings(const LoadedMap& loaded) {
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
+}
+
 struct MapArguments {
   std::string file;
   std::string output;
@@ -60,7 +64,7 @@ nlohmann::ordered_json octomap_summary(const std::filesystem::path& file) {
 
 nlohmann::ordered_json grid_summary(const std::filesystem::path& file) {
   const LoadedMap loaded = load_map(file);
-  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
+  print_warnings(loaded);
   const OccupancyMap& map = loaded.map;
   const auto unknown = std::ranges::count(map.cells, OccupancyMap::unknown);
   const auto drivable = std::ranges::count_if(map.cells, is_drivable);
@@ -169,7 +173,7 @@ void print_summary(const VisibilitySummary& summary) {
 
 ExitCode visibility(const VisibilityArguments& arguments) {
   const LoadedMap loaded = load_map(arguments.map);
-  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
+  print_warnings(loaded);
   const MarkerRegistry registry = load_registry(arguments.markers);
   const CameraModel camera = load_camera(arguments.camera);
   std::optional<SightLines> sight_lines;
@@ -187,7 +191,9 @@ ExitCode visibility(const VisibilityArguments& arguments) {
 }
 
 ExitCode convert(const MapArguments& arguments) {
-  save_map(load_map(arguments.file).map, arguments.output);
+  const LoadedMap loaded = load_map(arguments.file);
+  print_warnings(loaded);
+  save_map(loaded.map, arguments.output, loaded.info.other_keys);
   return done;
 }
 

@@ -131,6 +131,7 @@ ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> pro
 ExitCode run_command(const RunArguments& arguments) {
   if (arguments.goals.empty() && !arguments.serve) throw InputError("found neither --goal nor --serve");
   const Site site = load_site(arguments.site);
+  for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const BaseConnection connection = connection_of(site, arguments.interface);
   OperatorInput input;
   RunOptions options{
