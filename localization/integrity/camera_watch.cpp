@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "maps/percentile.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -83,14 +85,19 @@ std::optional<CameraFault> CameraWatch::fault(Stamp now) const {
   return fault_;
 }
 
-/// Averages over the last fifty frames or so. A long silence counts as no more than `longest_silence`, and
-/// stamps that do not ascend are ignored.
+/// Averages over the last fifty frames. The period is the lower quartile of the intervals: a camera that
+/// loses up to three frames of four still shows it, and a single short interval, as from a driver that
+/// catches up, does not. A long silence counts as no more than `longest_silence`; stamps that do not ascend
+/// are ignored.
 void CameraWatch::learn_pace(Stamp captured) {
-  constexpr double share_of_newest = 0.02;
+  constexpr std::size_t frames = 50;
+  constexpr double share_of_newest = 1.0 / frames;
   const std::optional<Stamp> before = std::exchange(last_capture_, captured);
   if (!before || captured <= *before) return;
   const double apart_s = seconds(std::min<Duration>(captured - *before, options_.longest_silence));
-  period_s_ = period_s_ > 0.0 ? std::min(period_s_, apart_s) : apart_s;
+  intervals_s_.push_back(apart_s);
+  if (intervals_s_.size() > frames) intervals_s_.pop_front();
+  period_s_ = percentile({intervals_s_.begin(), intervals_s_.end()}, 0.25).value();
   pace_s_ = pace_s_ > 0.0 ? std::lerp(pace_s_, apart_s, share_of_newest) : apart_s;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string_view>
 
@@ -53,8 +54,9 @@ class CameraWatch {
 
   CameraWatchOptions options_;
   std::optional<Stamp> last_capture_;
-  double period_s_ = 0.0;  ///< shortest time between two captures
-  double pace_s_ = 0.0;    ///< mean time between the captures of frames that arrive
+  std::deque<double> intervals_s_;  ///< the last ones between two captures
+  double period_s_ = 0.0;           ///< the shortest of them but for outliers
+  double pace_s_ = 0.0;             ///< mean time between the captures of frames that arrive
   std::optional<Stamp> last_arrival_;
   std::optional<std::uint64_t> last_picture_;
   std::optional<CameraFault> fault_;  ///< of the newest frame

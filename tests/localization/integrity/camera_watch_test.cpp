@@ -49,6 +49,17 @@ TEST(CameraWatch, misses_a_slow_camera_after_three_of_its_periods) {
       << "a pause does not count as a frame period";
 }
 
+TEST(CameraWatch, misses_a_camera_as_soon_as_before_after_one_short_interval) {
+  CameraWatch watch;
+  Stamp now = noon;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    now += i == 10 ? milliseconds(1) : milliseconds(50);
+    watch.update(frame_at(now, i), now);
+  }
+  EXPECT_FALSE(watch.fault(now + milliseconds(150)));
+  EXPECT_EQ(watch.fault(now + milliseconds(151)), CameraFault::silent);
+}
+
 TEST(CameraWatch, refuses_the_same_picture_again) {
   CameraWatch watch;
   watch.update(frame_at(noon, 1), noon);
