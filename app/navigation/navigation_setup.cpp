@@ -1,5 +1,7 @@
 #include "app/navigation/navigation_setup.hpp"
 
+#include <algorithm>
+
 #include "control/travel_time.hpp"
 
 namespace lodestar {
@@ -45,8 +47,10 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.drive.max_wheel_mps = robot.max_wheel_mps;
   options.drive.track_width_m = robot.track_width_m;
   options.drive.response_s = robot.response_s.value_or(options.drive.response_s);
-  options.drive.min_forward_mps = robot.dead_band_mps.value_or(options.drive.min_forward_mps);
-  options.drive.min_turn_radps = robot.dead_band_radps.value_or(options.drive.min_turn_radps);
+  options.drive.min_forward_mps =
+      robot.dead_band_mps.value_or(std::min(options.drive.min_forward_mps, robot.max_forward_mps));
+  options.drive.min_turn_radps =
+      robot.dead_band_radps.value_or(std::min(options.drive.min_turn_radps, robot.max_turn_radps));
   options.drive.arrival_distance_m = robot.arrival_distance_m;
   options.drive.blend_corridor_m = robot.pass_corners_within_m;
   options.drive.arrival_heading_rad = robot.arrival_heading_rad;

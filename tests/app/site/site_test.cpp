@@ -66,6 +66,17 @@ TEST(Site, robot_of_another_base_drives_and_rolls_by_its_file) {
   EXPECT_EQ(options.filter.wheel_noise_m_per_sqrt_m, 0.006);
 }
 
+TEST(Site, robot_slower_than_the_usual_dead_band_has_a_smaller_one) {
+  Robot robot = lab().robot;
+  robot.dead_band_mps.reset();
+  robot.dead_band_radps.reset();
+  robot.max_forward_mps = 0.015;
+  robot.max_turn_radps = 0.05;
+  const NavigationOptions options = navigation_options(robot);
+  EXPECT_LE(options.drive.min_forward_mps, options.drive.max_forward_mps);
+  EXPECT_LE(options.drive.min_turn_radps, options.drive.max_turn_radps);
+}
+
 TEST(Site, robot_that_says_nothing_of_its_base_has_one_like_the_labs) {
   const NavigationOptions silent = navigation_options(robot_with(""));
   const NavigationOptions spoken = navigation_options(lab().robot);
