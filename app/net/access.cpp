@@ -19,11 +19,18 @@ bool is_address(const std::string& host) {
   return !host.empty() && host.find_first_not_of("0123456789.") == std::string::npos;
 }
 
-bool is_our_host(const std::string& host, unsigned short port) {
-  const std::string suffix = fmt::format(":{}", port);
+std::string in_lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+bool is_our_host(const std::string& host, const AccessRules& rules) {
+  const std::string suffix = fmt::format(":{}", rules.port);
   if (!host.ends_with(suffix)) return false;
-  const std::string name = host.substr(0, host.size() - suffix.size());
-  return name == "localhost" || is_address(name);
+  const std::string name = in_lower_case(host.substr(0, host.size() - suffix.size()));
+  return name == "localhost" || is_address(name) ||
+         std::ranges::find(rules.host_names, name) != rules.host_names.end();
 }
 
 /// Our cookie among those that other ports of the same host have set.
@@ -112,8 +119,9 @@ bool equal_in_constant_time(const std::string& a, const std::string& b) {
 }
 
 std::optional<HttpResponse> rejection(const HttpRequest& head, const AccessRules& rules) {
-  if (!is_our_host(head.host, rules.port)) {
-    return refusal(403, "found another host's name, wanted this address and port");
+  if (!is_our_host(head.host, rules)) {
+    return refusal(403,
+                   "found the host '" + head.host + "', wanted an address or --host-name, and this port");
   }
   if (!head.origin.empty() && head.origin != "http://" + head.host) {
     return refusal(403, "found a request of another page, wanted one of the console's own");

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/net/http.hpp"
 
@@ -11,6 +13,8 @@ namespace lodestar {
 struct AccessRules {
   std::string bind = "127.0.0.1";
   unsigned short port = 0;
+  /// By which browsers may call this machine, besides localhost and its addresses; in lower case.
+  std::vector<std::string> host_names;
   // Each token grants its role. With none of them set every client may do everything, which is allowed on
   // loopback only.
   std::string token;  ///< for the role drive, which includes the others
@@ -31,8 +35,8 @@ bool equal_in_constant_time(const std::string& a, const std::string& b);
 
 /// The response that refuses a request, or nothing when it may proceed. Reads the header only, so it can be
 /// called before the body is read:
-/// - Host must be an address or localhost with our port: a foreign name that resolves to us (DNS
-///   rebinding) is refused;
+/// - Host must be an address, localhost or one of the host names with our port: another name that resolves
+///   to us (DNS rebinding) is refused;
 /// - Origin, where sent, must be ourselves;
 /// - a request that changes something must carry X-Lodestar and be JSON: a form of another page cannot;
 /// - with tokens configured, all of /api/ but the session itself and every WebSocket need one;

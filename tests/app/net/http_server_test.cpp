@@ -108,6 +108,19 @@ TEST(HttpServer, answers_its_own_page_and_says_what_a_browser_must_not_do) {
   EXPECT_THAT(answer, Not(HasSubstr("Access-Control")));
 }
 
+TEST(HttpServer, answers_to_the_host_names_that_it_was_given) {
+  const Served served({.access = {.host_names = {"robot", "robot.local"}}});
+  const std::string port = std::to_string(served.port());
+  for (const std::string name : {"robot", "Robot.local"})
+    EXPECT_THAT(served.ask("GET /api/site", "Host: " + name + ":" + port + "\r\n"),
+                StartsWith("HTTP/1.1 200"))
+        << name;
+  for (const std::string name : {"robot.evil.example", "robot.local.evil.example", "evil-robot"})
+    EXPECT_THAT(served.ask("GET /api/site", "Host: " + name + ":" + port + "\r\n"),
+                StartsWith("HTTP/1.1 403"))
+        << name;
+}
+
 TEST(HttpServer, refuses_another_name_for_this_machine) {
   const Served served({});
   const std::string port = std::to_string(served.port());
