@@ -5,10 +5,11 @@
 
 namespace lodestar {
 
-/// Plans for a robot with a footprint. The paths of two discs bound the answer. The inscribed disc's path is
-/// no slower than any of the footprint, and is taken when the footprint is clear along it. The circumscribed
-/// disc's path is clear for the footprint, and is taken when at most 2 % slower. Else FootprintSearch plans
-/// in SE(2).
+/// Plans for a robot with a footprint. First the paths of two discs are tried. The inscribed disc's path is
+/// taken when the footprint is clear along it: as no footprint needs less room, it is the best that the
+/// planner finds. The circumscribed disc's path is taken when at most 2 % slower; the footprint is clear
+/// along it, except perhaps on the first leg out of a tight start, which is checked. Else FootprintSearch
+/// plans in SE(2).
 class FootprintPlanner {
  public:
   /// The map must outlive it.

@@ -35,7 +35,7 @@ struct GridPlannerOptions {
       0.15;                       ///< inflation: cells nearer than radius plus this to an obstacle cost more
   double clearance_weight = 1.0;  ///< up to (1 + weight) times at the edge; 0: shortest path
   AvoidedArea avoided;            ///< ignored by FootprintSearch
-  double turn_cost_m = 0.2;       ///< of `astar`: a turn counts as this much path length
+  double turn_cost_m = 0.2;       ///< where few legs are made of a path: a turn counts as this much length
   MotionLimits limits;            ///< of `fastest`
   SamplingOptions sampling;       ///< of the OMPL planners
   /// When given and the path violates it, the cheapest 8-connected path that meets it is taken instead,
@@ -57,7 +57,7 @@ enum class PlanFailure {
 std::string_view to_string(PlanFailure failure);
 
 struct Plan {
-  Path path;                 ///< few straight legs, each clear of obstacles by the radius
+  Path path;                 ///< few straight legs, clear but perhaps for the first out of a tight start
   std::size_t expanded = 0;  ///< expansions of grid cells and turn points, or iterations
 };
 

@@ -16,15 +16,16 @@ enum class SamplingMethod { rrtstar, informedrrtstar, bitstar, abitstar, prmstar
 /// A planner improves its path until it reaches one of these limits. A run ended by the clock is not
 /// repeatable; one ended by iterations or length is, for the same seed.
 struct SamplingOptions {
-  std::uint32_t seed = 1;        ///< at least 1
-  int max_iterations = 3000;     ///< 0: no limit
-  double time_limit_s = 10.0;    ///< a safeguard; the only limit when max_iterations is 0
-  double enough_length_m = 0.0;  ///< a path no longer than this ends the search
+  std::uint32_t seed = 1;      ///< at least 1
+  int max_iterations = 3000;   ///< 0: no limit
+  double time_limit_s = 10.0;  ///< a safeguard; the only limit when max_iterations is 0
+  /// A path no longer than this ends the search; in SE(2) half a cell for each radian turned is added.
+  double enough_length_m = 0.0;
 };
 
 struct SampledPath {
-  std::vector<Vec2> points;  ///< from start to goal in grid coordinates
-  std::size_t iterations = 0;
+  std::vector<Vec2> points;    ///< from start to goal in grid coordinates
+  std::size_t iterations = 0;  ///< tests of the limits
 };
 
 /// A path of a disc-shaped robot between two clear points, every leg checked exactly by CollisionChecker.
