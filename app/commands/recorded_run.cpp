@@ -13,10 +13,10 @@ namespace {
 std::string lost_pictures(const RunRecord& record) {
   const auto unmade = std::ranges::count_if(
       record.pictures, [](const KeptPicture& picture) { return picture.jpeg.get().empty(); });
-  const auto lost = record.dropped_pictures + unmade;
+  const auto lost = static_cast<std::ptrdiff_t>(record.dropped_pictures) + unmade;
   if (lost == 0) return {};
   return fmt::format("pictures: {} of {} are missing", lost,
-                     record.dropped_pictures + record.pictures.size());
+                     static_cast<std::size_t>(record.dropped_pictures) + record.pictures.size());
 }
 
 }  // namespace
