@@ -50,12 +50,14 @@ void add_console_options(CLI::App& command, AccessRules& access) {
   command.add_option("--bind", access.bind, "Address to listen on; any other than loopback needs a token")
       ->capture_default_str();
   access.host_names = own_host_names();
-  command.add_option_function<std::vector<std::string>>(
-      "--host-name",
-      [&access](const std::vector<std::string>& names) {
-        for (const std::string& name : names) access.host_names.push_back(host_name_in(name));
-      },
-      "Another name by which browsers may call this machine, besides its own; may be given again");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--host-name",
+          [&access](const std::vector<std::string>& names) {
+            for (const std::string& name : names) access.host_names.push_back(host_name_in(name));
+          },
+          "Another name by which browsers may call this machine, besides its own; may be given again")
+      ->allow_extra_args(false);
   command.add_option("--token", access.token, "Token that permits everything: view, edit and drive")
       ->envname("LODESTAR_TOKEN");
   command.add_option("--edit-token", access.edit_token, "Token that permits to view and edit")
