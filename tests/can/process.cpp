@@ -78,11 +78,12 @@ Process::~Process() {
 void Process::listen(const std::stop_token& stop) {
   std::string begun;
   while (!stop.stop_requested()) {
+    const Stamp before = monotonic_now();
     pollfd source{.fd = printed_.get(), .events = POLLIN, .revents = 0};
-    if (::poll(&source, 1, 20) <= 0) continue;
     std::array<char, 4096> bytes{};
-    const ssize_t size = ::read(printed_.get(), bytes.data(), bytes.size());
-    if (size <= 0) return;
+    const bool printed = ::poll(&source, 1, 20) > 0;
+    const ssize_t size = printed ? ::read(printed_.get(), bytes.data(), bytes.size()) : 0;
+    if (printed && size <= 0) break;
     const Stamp now = monotonic_now();
     begun.append(bytes.data(), static_cast<std::size_t>(size));
     const std::lock_guard lock(mutex_);
@@ -90,7 +91,9 @@ void Process::listen(const std::stop_token& stop) {
       lines_.push_back({now, begun.substr(0, end)});
       begun.erase(0, end + 1);
     }
+    if (static_cast<std::size_t>(size) < bytes.size()) read_until_ = before;  // the pipe was empty after `before`
   }
+  read_until_ = Stamp::max();
 }
 
 void Process::say(const std::string& line) {
@@ -109,6 +112,7 @@ std::optional<int> Process::wait(Duration longest) {
     int status = 0;
     if (waitpid(id_, &status, WNOHANG) == id_) {
       ended_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+      await_last_words();
     } else if (monotonic_now() >= end) {
       break;
     } else {
@@ -118,10 +122,15 @@ std::optional<int> Process::wait(Duration longest) {
   return ended_;
 }
 
+/// All that was printed before this call is in the output afterwards.
+void Process::await_last_words() const {
+  const Stamp ended = monotonic_now();
+  while (read_until_.load() < ended) std::this_thread::sleep_for(1ms);
+}
+
 std::string Process::end() {
   signal(SIGTERM);
   wait(5s);
-  std::this_thread::sleep_for(50ms);  // for its last output to arrive
   return output();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -29,7 +30,8 @@ class Process {
 
   void say(const std::string& line);
   void signal(int number) const;
-  /// Its exit code, or minus the signal that ended it; nothing when it does not end in time.
+  /// Its exit code, or minus the signal that ended it, once all its output is here; nothing when it does not end
+  /// in time.
   std::optional<int> wait(Duration longest);
   /// Ends it by SIGTERM and returns all its output.
   std::string end();
@@ -43,6 +45,7 @@ class Process {
 
  private:
   void listen(const std::stop_token& stop);
+  void await_last_words() const;
 
   FileDescriptor input_;
   FileDescriptor printed_;
@@ -50,6 +53,7 @@ class Process {
   std::optional<int> ended_;
   mutable std::mutex mutex_;
   std::vector<Line> lines_;
+  std::atomic<Stamp> read_until_{Stamp{}};  ///< all that was printed before is in `lines_`
   std::jthread thread_;
 };
 
