@@ -98,20 +98,34 @@ BehaviourState stop_or_go_on(Trip trip, const Circumstances& at) {
   return Searching{std::move(trip), Spin(at.options.spin)};
 }
 
+bool is_steered(const Circumstances& at) {
+  return at.facts.steering && may_be_steered(at.stop);
+}
+
+Trip no_trip(const Circumstances& at) {
+  return {RotateThenDrive({}, std::nullopt, at.options.drive), std::nullopt, false};
+}
+
 /// Without a path, the robot searches for a marker if allowed to.
 template <typename Resting>
 BehaviourState search_or_stay(Resting state, const Circumstances& at) {
   if (!at.facts.may_look_around || !at.marker_can_end_stop()) return state;
-  return Searching{{RotateThenDrive({}, std::nullopt, at.options.drive), std::nullopt, false},
-                   Spin(at.options.spin)};
+  return Searching{no_trip(at), Spin(at.options.spin)};
 }
 
 BehaviourState next(Standing state, const Circumstances& at) {
+  if (is_steered(at)) return Steered{no_trip(at)};
   return search_or_stay(state, at);
 }
 
 BehaviourState next(Arrived state, const Circumstances& at) {
+  if (is_steered(at)) return Steered{no_trip(at)};
   return search_or_stay(state, at);
+}
+
+BehaviourState next(Steered state, const Circumstances& at) {
+  if (is_steered(at)) return state;
+  return Braking{std::move(state.trip), Reason::end};
 }
 
 BehaviourState next(Following state, const Circumstances& at) {
@@ -153,6 +167,7 @@ BehaviourState next(Braking state, const Circumstances& at) {
       if (state.trip.drive.at_rest()) return stop_or_go_on(std::move(state.trip), at);
       return state;
     case Reason::end:
+      if (is_steered(at)) return Steered{std::move(state.trip)};
       break;
   }
   return state;
@@ -163,6 +178,7 @@ BehaviourState next(Searching state, const Circumstances& at) {
     if (at.marker_can_end_stop() && !at.can_go_back()) return state;
     return stay_uncertain({std::move(state.trip), Reason::uncertain}, at);
   }
+  if (is_steered(at)) return Steered{std::move(state.trip)};
   if (at.facts.may_look_around && at.marker_can_end_stop()) return state;
   return Braking{std::move(state.trip), Reason::end};
 }

@@ -7,6 +7,7 @@
 #include "control/behaviour_states.hpp"
 #include "control/safety_stop.hpp"
 #include "control/speed_limit.hpp"
+#include "control/steering.hpp"
 
 namespace lodestar {
 
@@ -38,14 +39,16 @@ struct Facts {
   RoomAhead room_ahead = RoomAhead::enough;     ///< likewise
   SpeedLimit limit_on_backtrack;                ///< valid while there is no `stop_on_backtrack`
   Wish wish = Wish::go_on;
-  bool may_look_around = false;  ///< may spin while it follows no path
-  bool map_changed = false;      ///< since the last step
+  std::optional<BodyVelocity> steering;  ///< by the operator's hand, as ordered just now
+  bool may_look_around = false;          ///< may spin while it follows no path
+  bool map_changed = false;              ///< since the last step
 };
 
 struct BehaviourOptions {
   DriveOptions drive;
   SpinOptions spin;
   BacktrackOptions backtrack;
+  SteeringOptions steering;
   double left_path_m = 0.2;  ///< greatest distance from the path at which the robot counts as on it
 };
 

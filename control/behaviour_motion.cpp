@@ -74,6 +74,14 @@ Outcome move(Asking state, const Facts& facts, const BehaviourOptions&, Backtrac
   return {command, std::move(state)};
 }
 
+/// Where the pose is known, the map's obstacles ahead count too.
+Outcome move(Steered state, const Facts& facts, const BehaviourOptions& options, Backtrack&) {
+  const SpeedLimit limit = facts.stop ? SpeedLimit{} : facts.limit;
+  const BodyVelocity wanted = within(facts.steering.value_or(BodyVelocity{}), limit, options.steering);
+  const BodyVelocity command = state.trip.drive.steer(wanted, facts.elapsed);
+  return {command, std::move(state)};
+}
+
 template <typename Resting>
 Outcome move(Resting state, const Facts&, const BehaviourOptions&, Backtrack&) {
   return {BodyVelocity{}, state};
@@ -107,6 +115,7 @@ Moved moved(Behaviour before, const Facts& facts, const BehaviourOptions& option
 }
 
 Shown shown(const Behaviour& decided, const Behaviour& moved, const Facts& facts) {
+  if (std::holds_alternative<Steered>(decided.state)) return {};
   if (goes_back(decided.state)) return {.stop = facts.stop_on_backtrack, .backtracks = true};
   if (const std::optional<StopReason> stop = reason_to_stay(facts, decided.places)) return {.stop = stop};
   if (is_uncertain(moved.state)) return {.stop = StopReason::pose_uncertain};
@@ -135,7 +144,7 @@ std::string_view to_string(const BehaviourState& state) {
     return names.at(static_cast<std::size_t>(asking->request.kind));
   }
   constexpr std::array names{"Standing",  "Arrived", "Following",    "Blocked", "",
-                             "Searching", "",        "Backtracking", "Paused"};
+                             "Searching", "",        "Backtracking", "Paused",  "Steered"};
   return names.at(state.index());
 }
 

@@ -27,6 +27,8 @@ struct PlanRequest {
   std::optional<double> goal_heading_rad;  ///< of new_goal
   /// An obstacle is right ahead: the present leg starts at the robot's position.
   bool leg_from_here = false;
+
+  bool operator==(const PlanRequest&) const = default;
 };
 
 /// A trip to a goal; without one when the path is empty and no plan is wanted.
@@ -91,8 +93,13 @@ struct Paused {
   std::optional<RotateThenDrive> way_back;  ///< when it was backtracking
 };
 
-using BehaviourState =
-    std::variant<Standing, Arrived, Following, Blocked, Braking, Searching, Asking, Backtracking, Paused>;
+/// Moves as the operator steers, with a trip that has no path.
+struct Steered {
+  Trip trip;
+};
+
+using BehaviourState = std::variant<Standing, Arrived, Following, Blocked, Braking, Searching, Asking,
+                                    Backtracking, Paused, Steered>;
 
 /// The name in docs/behaviours.md: "Following", "Braking: unsure", "Asking: way back".
 std::string_view to_string(const BehaviourState& state);

@@ -19,9 +19,8 @@ constexpr double heading_gain_per_s = 2.5;
 /// Heading correction towards the leg, per metre of cross-track error. At v = 0.6 m/s the time constant is
 /// 1 / (v k) = 0.7 s, slower than the heading loop.
 constexpr double lateral_gain_per_m = 2.5;
-/// The robot turns back to a goal only when it is farther away than this many epsilons.
-constexpr double passed_distances = 1.5;
-/// Tries to reach the goal within its tolerance; the last one counts as arrival at any distance.
+/// Tries to reach the goal within epsilon. The last one ends the drive at any distance: whoever sent the
+/// robot decides what that means.
 constexpr int most_approaches = 4;
 
 /// The speed from which the distance is just enough to brake; never below the motors' dead band.
@@ -98,6 +97,10 @@ BodyVelocity RotateThenDrive::turn_around(double turn_radps, Duration elapsed) {
   return command({0.0, rolling ? 0.0 : turn_radps}, elapsed);
 }
 
+BodyVelocity RotateThenDrive::steer(const BodyVelocity& wanted, Duration elapsed) {
+  return command(wanted, elapsed);
+}
+
 void RotateThenDrive::take_over_from(const RotateThenDrive& other) {
   last_ = other.last_;
   pending_m_ = other.pending_m_;
@@ -169,8 +172,8 @@ void RotateThenDrive::begin_turn() {
   turn_heading_rad_.reset();
 }
 
-/// Ends the leg at its end. At the goal the distance counts too, Eq. (19): beyond passed_distances epsilons
-/// the robot turns to the goal again, up to most_approaches.
+/// Ends the leg at its end. At the goal the distance counts too, Eq. (19): beyond epsilon the robot turns to
+/// the goal again, up to most_approaches.
 void RotateThenDrive::end_leg(const Pose2& pose) {
   begin_turn();
   leg_start_m_ = target_m();
@@ -180,7 +183,7 @@ void RotateThenDrive::end_leg(const Pose2& pose) {
   }
   ++approaches_;
   const double distance_m = (target_m() - pose.position_m).norm();
-  if (distance_m > passed_distances * options_.arrival_distance_m && approaches_ < most_approaches) {
+  if (distance_m > options_.arrival_distance_m && approaches_ < most_approaches) {
     leg_start_m_ = pose.position_m;
     return;
   }

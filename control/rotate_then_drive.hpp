@@ -32,10 +32,14 @@ class RotateThenDrive {
   /// The velocity that brakes to rest, then turns on the spot to look for markers; keeps the path.
   BodyVelocity turn_around(double turn_radps, Duration elapsed);
 
+  /// The velocity nearest to the wanted one within the acceleration limits; keeps the path.
+  BodyVelocity steer(const BodyVelocity& wanted, Duration elapsed);
+
   /// Takes over the other's last command and pending motion, so that the speed does not jump.
   void take_over_from(const RotateThenDrive& other);
 
   [[nodiscard]] DrivePhase phase() const { return phase_; }
+  /// The path is driven to its end: to within epsilon of the goal, or as near as several approaches came.
   [[nodiscard]] bool arrived() const { return phase_ == DrivePhase::arrived; }
 
   /// The command is zero, and hardly any commanded motion is pending.

@@ -22,19 +22,24 @@ constexpr double sigmas = 2.3;
 /// 98 % are below 2: enough where the robot has just passed without a collision.
 constexpr double sigmas_on_the_way_back = 2.0;
 
+/// So many standard deviations beyond the usual one, plus ForwardClearance's tolerance.
+double margin_m(const Eigen::Matrix3d& covariance, double deviations) {
+  const double sigma_m = larger_sigma(covariance.topLeftCorner<2, 2>());
+  if (sigma_m < usual_sigma_m) return 0.0;
+  const double taken_back = std::min(sigma_m / usual_sigma_m - 1.0, 1.0);
+  return deviations * unusual_m(sigma_m) + taken_back * ForwardClearance::usual_tolerance_m;
+}
+
 }  // namespace
 
 SafetyMargin margin_for_uncertainty(const Eigen::Matrix3d& covariance) {
-  const double sigma_m = larger_sigma_m(covariance);
-  if (sigma_m < usual_sigma_m) return {};
-  const double taken_back = std::min(sigma_m / usual_sigma_m - 1.0, 1.0);
-  return {.here_m = sigmas * unusual_m(sigma_m) + taken_back * ForwardClearance::usual_tolerance_m,
-          .per_m = sigmas * std::sqrt(std::max(covariance(2, 2), 0.0))};
+  const double here_m = margin_m(covariance, sigmas);
+  if (here_m == 0.0) return {};
+  return {.here_m = here_m, .per_m = sigmas * std::sqrt(std::max(covariance(2, 2), 0.0))};
 }
 
 SafetyMargin margin_on_the_way_back(const Eigen::Matrix3d& covariance) {
-  return {.here_m = sigmas_on_the_way_back / sigmas * margin_for_uncertainty(covariance).here_m,
-          .per_m = 0.0};
+  return {.here_m = margin_m(covariance, sigmas_on_the_way_back), .per_m = 0.0};
 }
 
 }  // namespace lodestar

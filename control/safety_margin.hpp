@@ -15,7 +15,8 @@ struct SafetyMargin {
 /// tolerance, in full from 10 mm on. It grows ahead by 2.3 times the heading's standard deviation.
 SafetyMargin margin_for_uncertainty(const Eigen::Matrix3d& covariance);
 
-/// The margin while backtracking: 2 standard deviations, as much of the error is the same as on the way out.
+/// The margin while backtracking: 2 standard deviations, as much of the error is the same as on the way out,
+/// and the same tolerance.
 SafetyMargin margin_on_the_way_back(const Eigen::Matrix3d& covariance);
 
 }  // namespace lodestar

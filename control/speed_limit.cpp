@@ -11,15 +11,9 @@ double speed_to_stop_within(double distance_m, double deceleration_mps2, double 
   return std::sqrt(lost_mps * lost_mps + 2.0 * deceleration_mps2 * std::max(distance_m, 0.0)) - lost_mps;
 }
 
-double larger_sigma_m(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance.topLeftCorner<2, 2>(),
-                                                              Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
-}
-
 double share_of_speed(const Eigen::Matrix3d& covariance, const SafetyStopOptions& limits,
                       const CautionOptions& options) {
-  const double position = larger_sigma_m(covariance) / limits.max_position_sigma_m;
+  const double position = larger_sigma(covariance.topLeftCorner<2, 2>()) / limits.max_position_sigma_m;
   const double heading = std::sqrt(std::max(covariance(2, 2), 0.0)) / limits.max_heading_sigma_rad;
   const double beyond = (std::max(position, heading) - options.careful_from) / (1.0 - options.careful_from);
   return std::lerp(1.0, options.slowest, std::clamp(beyond, 0.0, 1.0));

@@ -18,9 +18,6 @@ struct SpeedLimit {
 /// The speed from which the robot brakes to rest within the distance: v^2 / (2 a) + latency v = distance.
 double speed_to_stop_within(double distance_m, double deceleration_mps2, double latency_s);
 
-/// The larger principal standard deviation of the position, from a covariance of (x_m, y_m, yaw_rad).
-double larger_sigma_m(const Eigen::Matrix3d& covariance);
-
 struct CautionOptions {
   double careful_from = 0.4;  ///< share of the uncertainty limit up to which the robot drives at full speed
   double slowest = 0.15;      ///< share of the full speed at the uncertainty limit

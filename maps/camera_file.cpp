@@ -1,3 +1,5 @@
+#include "maps/camera_file.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -7,7 +9,6 @@
 #include <string>
 
 #include "maps/atomic_file.hpp"
-#include "maps/camera_model.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
 
@@ -71,6 +72,7 @@ CameraModel model_of(const Calibration& calibration, const StrictYaml& yaml) {
   std::ranges::copy(calibration.coefficients, camera.coefficients.begin());
   const bool is_ideal = std::ranges::all_of(calibration.coefficients, [](double k) { return k == 0.0; });
   if (is_ideal && camera.distortion != Distortion::equidistant) camera.distortion = Distortion::none;
+  camera.limit_rays();
   return camera;
 }
 
@@ -99,7 +101,7 @@ void read_unused(StrictYaml& yaml) {
   if (yaml.has("roi")) (void)yaml.node("roi");
 }
 
-CameraModel load_camera_info(const fs::path& file) {
+CameraFile load_camera_info(const fs::path& file) {
   StrictYaml yaml = StrictYaml::load(file);
   Calibration calibration;
   calibration.width_px = yaml.integer("image_width", 1, max_image_side_px);
@@ -108,8 +110,13 @@ CameraModel load_camera_info(const fs::path& file) {
   if (yaml.has("distortion_model")) calibration.model = yaml.text("distortion_model");
   calibration.coefficients = read_matrix(yaml.mapping("distortion_coefficients"), 1, std::nullopt);
   read_unused(yaml);
-  yaml.finish();
-  return model_of(calibration, yaml);
+  CameraFile read{.camera = model_of(calibration, yaml), .other_keys = {}, .warnings = {}};
+  for (const StrictYaml::OtherKey& key : yaml.take_other_keys()) {
+    read.other_keys += key.yaml + "\n";
+    read.warnings.push_back(fmt::format("{}:{}: the key '{}' is not known here and has no effect",
+                                        file.string(), key.line, key.name));
+  }
+  return read;
 }
 
 /// An !!opencv-matrix with the given number of entries, as a row or as a column.
@@ -152,12 +159,22 @@ std::size_t written_count(Distortion distortion) {
 }  // namespace
 
 CameraModel load_camera(const fs::path& file) {
+  return read_camera_file(file).camera;
+}
+
+CameraFile read_camera_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return text.starts_with("%YAML:1.0") ? load_file_storage(file, text) : load_camera_info(file);
+  if (!text.starts_with("%YAML:1.0")) return load_camera_info(file);
+  return {.camera = load_file_storage(file, text), .other_keys = {}, .warnings = {}};
 }
 
 void save_camera(const CameraModel& camera, const std::string& name, const fs::path& file) {
+  save_camera(camera, name, file, "");
+}
+
+void save_camera(const CameraModel& camera, const std::string& name, const fs::path& file,
+                 const std::string& other_keys) {
   const std::size_t count = written_count(camera.distortion);
   const std::span coefficients = std::span(camera.coefficients).first(count);
   const auto [fx, fy, cx, cy] = std::array{camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
@@ -172,7 +189,7 @@ void save_camera(const CameraModel& camera, const std::string& name, const fs::p
   text +=
       fmt::format("projection_matrix: {{rows: 3, cols: 4, data: [{}, 0, {}, 0, 0, {}, {}, 0, 0, 0, 1, 0]}}\n",
                   fx, cx, fy, cy);
-  write_file_atomically(file, text);
+  write_file_atomically(file, text + other_keys);
 }
 
 }  // namespace lodestar

@@ -1,6 +1,7 @@
 #include "maps/camera_model.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace lodestar {
 namespace {
@@ -61,11 +62,47 @@ Eigen::Matrix2d fisheye_jacobian(const Vec2& p, const std::array<double, 8>& k) 
   return scale * Eigen::Matrix2d::Identity() + (radius_by_r - scale) * outward * outward.transpose();
 }
 
+/// Does the image around the rays at this angle to the axis lie the right way round, on all sides? Tangential
+/// terms move the fold differently on each side.
+bool keeps_orientation(const CameraModel& camera, double angle_rad) {
+  constexpr int sides = 32;
+  const double length = std::tan(angle_rad);
+  for (int i = 0; i < sides; ++i) {
+    const double side_rad = 2.0 * std::numbers::pi * i / sides;
+    const Vec2 ray(length * std::cos(side_rad), length * std::sin(side_rad));
+    if (!(camera.distorted_jacobian(ray).determinant() > 0.0)) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+/// Steps outwards from the axis, where every lens keeps its orientation, to the first angle that does not,
+/// and halves that last step.
+void CameraModel::limit_rays() {
+  widest_ray_squared = std::numeric_limits<double>::infinity();
+  if (distortion == Distortion::none) return;
+  constexpr int steps = 360;  // a quarter of a degree each
+  constexpr int halvings = 30;
+  constexpr double step_rad = 0.5 * std::numbers::pi / steps;
+  int good = 0;
+  while (good + 1 < steps && keeps_orientation(*this, (good + 1) * step_rad)) ++good;
+  if (good + 1 == steps) return;
+  double inside_rad = good * step_rad;
+  double outside_rad = inside_rad + step_rad;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle_rad = 0.5 * (inside_rad + outside_rad);
+    (keeps_orientation(*this, middle_rad) ? inside_rad : outside_rad) = middle_rad;
+  }
+  const double widest_ray = std::tan(inside_rad);
+  widest_ray_squared = widest_ray * widest_ray;
+}
 
 std::optional<Vec2> CameraModel::project(const Vec3& point_in_camera) const {
   if (!(point_in_camera.z() > 0.0)) return std::nullopt;
-  return distorted(point_in_camera.head<2>() / point_in_camera.z());
+  const Vec2 ray = point_in_camera.head<2>() / point_in_camera.z();
+  if (ray.squaredNorm() > widest_ray_squared) return std::nullopt;
+  return distorted(ray);
 }
 
 Vec2 CameraModel::distorted(const Vec2& normalized) const {
@@ -91,6 +128,9 @@ Eigen::Matrix2d CameraModel::distorted_jacobian(const Vec2& normalized) const {
 std::optional<Vec2> CameraModel::normalized(const Vec2& pixel) const {
   const Vec2 wanted((pixel.x() - cx_px) / fx_px, (pixel.y() - cy_px) / fy_px);
   if (distortion == Distortion::none) return wanted;
+  const auto within = [&](const Vec2& ray) {
+    return ray.squaredNorm() <= widest_ray_squared ? std::optional<Vec2>(ray) : std::nullopt;
+  };
   Vec2 guess = wanted;
   if (distortion == Distortion::equidistant) {
     // The image radius is close to the angle itself: a good initial guess for Newton's method.
@@ -101,13 +141,13 @@ std::optional<Vec2> CameraModel::normalized(const Vec2& pixel) const {
   constexpr int enough = 30;
   for (int i = 0; i < enough; ++i) {
     const Vec2 error = distorted(guess) - pixel;
-    if (error.squaredNorm() < 1e-22 * (1.0 + pixel.squaredNorm())) return guess;
+    if (error.squaredNorm() < 1e-22 * (1.0 + pixel.squaredNorm())) return within(guess);
     const Eigen::Matrix2d j = distorted_jacobian(guess);
     if (!(j.determinant() > 0.0)) return std::nullopt;  // past the fold: no ray, or two, map here
     guess -= j.inverse() * error;
   }
   const bool converged = (distorted(guess) - pixel).squaredNorm() < 1e-12;
-  return converged ? std::optional<Vec2>(guess) : std::nullopt;
+  return converged ? within(guess) : std::nullopt;
 }
 
 bool CameraModel::contains(const Vec2& pixel, double margin_px) const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -23,18 +24,25 @@ struct CameraModel {
   double cy_px = 0.0;
   Distortion distortion = Distortion::none;
   std::array<double, 8> coefficients{};
+  /// Square of the widest ray's length in the plane z = 1: beyond it the distortion folds back, and rays
+  /// would show where others do. Unlimited until limit_rays() has been called, as load_camera and fit_lens
+  /// do.
+  double widest_ray_squared = std::numeric_limits<double>::infinity();
 
-  /// Image point of a point in the camera frame; empty behind the camera (z <= 0).
+  /// Sets widest_ray_squared; call again whenever the coefficients change.
+  void limit_rays();
+
+  /// Image point of a point in the camera frame; empty behind the camera (z <= 0) and beyond the widest ray.
   [[nodiscard]] std::optional<Vec2> project(const Vec3& point_in_camera) const;
 
-  /// Image point of the ray (x, y, 1).
+  /// Image point of the ray (x, y, 1), also beyond the widest one.
   [[nodiscard]] Vec2 distorted(const Vec2& normalized) const;
 
   /// Jacobian of distorted(), in pixels per unit of the ray.
   [[nodiscard]] Eigen::Matrix2d distorted_jacobian(const Vec2& normalized) const;
 
   /// The inverse of distorted(): x and y of the ray (x, y, 1) through a pixel (Newton's method). Empty where
-  /// the distortion cannot be inverted.
+  /// the distortion cannot be inverted, and beyond the widest ray.
   [[nodiscard]] std::optional<Vec2> normalized(const Vec2& pixel) const;
 
   [[nodiscard]] bool contains(const Vec2& pixel, double margin_px = 0.0) const;

@@ -1,5 +1,7 @@
 #include "maps/geometry.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace lodestar {
@@ -51,6 +53,11 @@ RollPitchYaw angles_of(const Eigen::Matrix3d& rotation) {
   return {std::atan2(rotation(2, 1), rotation(2, 2)),
           std::atan2(-rotation(2, 0), std::hypot(rotation(2, 1), rotation(2, 2))),
           std::atan2(rotation(1, 0), rotation(0, 0))};
+}
+
+double larger_sigma(const Eigen::Matrix2d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
 }
 
 }  // namespace lodestar

@@ -66,4 +66,7 @@ struct RollPitchYaw {
 Eigen::Matrix3d rotation_from(const RollPitchYaw& angles);
 RollPitchYaw angles_of(const Eigen::Matrix3d& rotation);
 
+/// Standard deviation along the longer axis of a covariance's ellipse.
+double larger_sigma(const Eigen::Matrix2d& covariance);
+
 }  // namespace lodestar

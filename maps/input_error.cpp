@@ -1,14 +1,41 @@
 #include "maps/input_error.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace lodestar {
 namespace {
 
+/// Bytes of the UTF-8 character that begins there; 0 where none does. Control characters, which a terminal
+/// would obey, are none.
+std::size_t character_bytes(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text.front());
+  if (lead < 0x80U) return lead >= 0x20U && lead != 0x7FU ? 1 : 0;
+  const std::size_t size = lead >= 0xF0U ? 4 : lead >= 0xE0U ? 3 : 2;
+  if (lead < 0xC2U || lead > 0xF4U || text.size() < size) return 0;
+  const auto continues = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; };
+  return std::ranges::all_of(text.substr(1, size - 1), continues) ? size : 0;
+}
+
+/// What was found, for people: a whole file that is read as one word, or binary data, would fill the
+/// terminal.
+std::string shown(std::string_view found) {
+  constexpr std::size_t most_bytes = 160;
+  std::string text;
+  while (!found.empty() && text.size() < most_bytes) {
+    const std::size_t size = character_bytes(found);
+    text += size > 0 ? std::string(found.substr(0, size))
+                     : fmt::format("\\x{:02x}", static_cast<unsigned char>(found.front()));
+    found.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return found.empty() ? text : text + "...";
+}
+
 std::string message(const std::filesystem::path& file, int line, const std::string& found,
                     const std::string& wanted) {
   const std::string place = line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string();
-  return fmt::format("{}: found {}, wanted {}", place, found, wanted);
+  return fmt::format("{}: found {}, wanted {}", place, shown(found), wanted);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <set>
 
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
@@ -131,6 +132,30 @@ std::string present_image(const fs::path& yaml_file) {
   }
 }
 
+/// Images that the folder's other YAML files name: `map.yml` beside a `map.yaml` must not take its image.
+std::set<std::string> images_of_others(const fs::path& yaml_file) {
+  const fs::path folder = yaml_file.has_parent_path() ? yaml_file.parent_path() : fs::path(".");
+  std::set<std::string> images;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".yaml" && extension != ".yml") continue;
+    if (entry.path().filename() != yaml_file.filename()) images.insert(present_image(entry.path()));
+  }
+  return images;
+}
+
+/// Not that of the image which the file names at present: until the YAML file is replaced, the old map is
+/// valid.
+std::string free_image_name(const fs::path& yaml_file, const std::string& before,
+                            const std::set<std::string>& of_others) {
+  const std::string stem = yaml_file.stem().string();
+  std::string name = stem + ".pgm";
+  for (std::string suffix = "_b"; name == before || of_others.contains(name); suffix += "_b")
+    name = stem + suffix + ".pgm";
+  return name;
+}
+
 }  // namespace
 
 LoadedMap load_map(const fs::path& yaml_file) {
@@ -165,11 +190,9 @@ void save_map(const OccupancyMap& map, const fs::path& yaml_file, const std::str
     throw InputError(fmt::format("{}: found '{}', wanted the name of a YAML file: .yaml or .yml",
                                  yaml_file.string(), extension));
   }
-  // Do not overwrite the image that the file names at present: until the YAML file is replaced, the old map
-  // is valid.
-  const std::string stem = yaml_file.stem().string();
   const std::string before = present_image(yaml_file);
-  const std::string name = before == stem + ".pgm" ? stem + "_b.pgm" : stem + ".pgm";
+  const std::set<std::string> of_others = images_of_others(yaml_file);
+  const std::string name = free_image_name(yaml_file, before, of_others);
   const fs::path image_file = yaml_file.parent_path() / name;
   const bool trinary = is_trinary(map);
   const Pose2& origin = map.map_from_grid;
@@ -180,7 +203,8 @@ void save_map(const OccupancyMap& map, const fs::path& yaml_file, const std::str
                              name, trinary ? "trinary" : "raw", map.resolution_m, origin.position_m.x(),
                              origin.position_m.y(), origin.yaw_rad, saved_occupied_threshold,
                              saved_free_threshold, other_keys));
-  const bool was_ours = before == stem + ".pgm" || before == stem + "_b.pgm";
+  const std::string stem = yaml_file.stem().string();
+  const bool was_ours = (before == stem + ".pgm" || before == stem + "_b.pgm") && !of_others.contains(before);
   std::error_code none;
   if (was_ours) fs::remove(yaml_file.parent_path() / before, none);
 }

@@ -1,11 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "maps/geometry.hpp"
 
 namespace lodestar {
+
+/// How well a survey knows a marker: standard deviations of each of x, y and z, and of the yaw.
+struct MarkerSigma {
+  double position_m = 0.0;
+  double yaw_rad = 0.0;
+};
 
 /// One surveyed marker: the centre of its dot O, and the direction O->X counter-clockwise from the x axis
 /// seen from above, both in the registry's frame.
@@ -13,7 +20,8 @@ struct RegisteredMarker {
   int id = 0;
   Vec3 position_m = Vec3::Zero();
   double yaw_rad = 0.0;
-  int line = 0;  ///< line number in its file, for messages; 0 when it has none
+  int line = 0;                      ///< line number in its file, for messages; 0 when it has none
+  std::optional<MarkerSigma> sigma;  ///< nothing where nobody has said
 };
 
 /// All surveyed markers, and the registry's transform to the occupancy map.

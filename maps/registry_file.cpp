@@ -22,11 +22,23 @@ Pose2 read_alignment(StrictYaml yaml) {
   return {{x_m, y_m}, wrap_angle(radians(yaw_deg))};
 }
 
+/// One of the two alone leaves the other at 0.
+std::optional<MarkerSigma> read_sigma(StrictYaml& yaml) {
+  if (!yaml.has("sigma_m") && !yaml.has("sigma_deg")) return std::nullopt;
+  constexpr double most_m = 10.0;
+  constexpr double most_deg = 180.0;
+  MarkerSigma sigma;
+  if (yaml.has("sigma_m")) sigma.position_m = yaml.number("sigma_m", 0.0, most_m);
+  if (yaml.has("sigma_deg")) sigma.yaw_rad = radians(yaml.number("sigma_deg", 0.0, most_deg));
+  return sigma;
+}
+
 RegisteredMarker read_marker(StrictYaml& yaml) {
   RegisteredMarker marker;
   marker.id = yaml.integer("id", 0, marker_id_count - 1);
   marker.position_m = {yaml.number("x_m"), yaml.number("y_m"), yaml.number("z_m")};
   marker.yaw_rad = wrap_angle(radians(yaml.number("yaw_deg")));
+  marker.sigma = read_sigma(yaml);
   marker.line = yaml.line();
   yaml.finish();
   return marker;
@@ -36,6 +48,11 @@ RegisteredMarker read_marker(StrictYaml& yaml) {
 double tidy_degrees(double angle_rad) {
   constexpr double per_degree = 1e9;
   return std::round(degrees(angle_rad) * per_degree) / per_degree;
+}
+
+std::string sigma_text(const std::optional<MarkerSigma>& sigma) {
+  if (!sigma) return "";
+  return fmt::format(", sigma_m: {}, sigma_deg: {}", sigma->position_m, tidy_degrees(sigma->yaw_rad));
 }
 
 MarkerRegistry read_registry(StrictYaml yaml) {
@@ -82,9 +99,9 @@ std::string registry_text(const MarkerRegistry& registry) {
                   format_name, alignment.position_m.x(), alignment.position_m.y(),
                   tidy_degrees(alignment.yaw_rad), registry.markers.empty() ? " []" : "");
   for (const RegisteredMarker& marker : registry.markers) {
-    text += fmt::format("  - {{id: {}, x_m: {}, y_m: {}, z_m: {}, yaw_deg: {}}}\n", marker.id,
+    text += fmt::format("  - {{id: {}, x_m: {}, y_m: {}, z_m: {}, yaw_deg: {}{}}}\n", marker.id,
                         marker.position_m.x(), marker.position_m.y(), marker.position_m.z(),
-                        tidy_degrees(marker.yaw_rad));
+                        tidy_degrees(marker.yaw_rad), sigma_text(marker.sigma));
   }
   return text;
 }

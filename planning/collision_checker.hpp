@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "maps/occupancy_map.hpp"
+#include "maps/obstacle_field.hpp"
+#include "planning/regions.hpp"
 
 namespace lodestar {
 
@@ -12,6 +14,9 @@ namespace lodestar {
 /// not; outside the map is obstacle.
 class CollisionChecker {
  public:
+  /// Checkers of several radii on one map share its field.
+  CollisionChecker(std::shared_ptr<const ObstacleField> field, double radius_m);
+  /// With a copy of the map.
   CollisionChecker(const OccupancyMap& map, double radius_m);
 
   [[nodiscard]] int columns() const { return map_.columns; }
@@ -20,36 +25,46 @@ class CollisionChecker {
   /// Is the disc at this cell's centre clear of cells that are not drivable? Exact. When a cell and its
   /// neighbour in a row or column are clear, so is the leg between their centres, as an obstacle square is as
   /// wide as the step; and when four cells in a square are clear, so are its diagonals.
-  [[nodiscard]] bool at(Cell cell) const { return map_.contains(cell) && clear_[map_.index(cell)] != 0; }
+  [[nodiscard]] bool at(Cell cell) const {
+    if (!map_.contains(cell)) return false;
+    const auto column = static_cast<std::size_t>(cell.column);
+    return ((clear_[word(cell.row) + column / 64U] >> (column % 64U)) & 1U) != 0;
+  }
 
   /// Is the disc clear all along a straight leg? Exact, for any two points.
   [[nodiscard]] bool along(const Vec2& from, const Vec2& to) const;
 
-  /// Distance in cells from a cell's centre to that of the nearest one that is not drivable.
-  [[nodiscard]] double to_obstacle_cells(Cell cell) const {
-    return static_cast<double>(to_obstacle_[map_.index(cell)]);
-  }
+  /// A look at a few points of a leg: true only if it is blocked. Much cheaper than along() for legs through
+  /// walls.
+  [[nodiscard]] bool is_surely_blocked(const Vec2& from, const Vec2& to) const;
+
+  [[nodiscard]] const ObstacleField& field() const { return *field_; }
+  [[nodiscard]] const std::shared_ptr<const ObstacleField>& shared_field() const { return field_; }
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   [[nodiscard]] double radius_cells() const { return radius_cells_; }
 
   /// Cells with the same label, and only those, can be reached from each other; 0 for cells that are not
   /// clear.
-  [[nodiscard]] int region(Cell cell) const { return regions_[map_.index(cell)]; }
+  [[nodiscard]] int region(Cell cell) const { return regions_.label(cell); }
 
  private:
+  [[nodiscard]] std::size_t word(int row) const { return static_cast<std::size_t>(row) * words_a_row_; }
+  void clear_drivable();
+  void block_around_obstacles();
   void block_around(Cell obstacle);
   void block_border();
-  void label_regions();
-  void flood(Cell seed, int label);
-  void measure_distances();
+  void block(int row, int first, int last);
+  [[nodiscard]] bool is_surely_blocked_at(const Vec2& point) const;
   [[nodiscard]] bool stretch_is_clear(const Vec2& from, const Vec2& to) const;
   [[nodiscard]] bool row_is_clear(int row, const Vec2& from, const Vec2& to) const;
 
+  std::shared_ptr<const ObstacleField> field_;
   const OccupancyMap& map_;
   double radius_cells_ = 0.0;
-  std::vector<std::uint8_t> clear_;
-  std::vector<int> regions_;
-  std::vector<float> to_obstacle_;  ///< as to_obstacle_cells()
+  std::vector<int> spans_;  ///< blocked columns to each side, by rows from an obstacle
+  std::size_t words_a_row_ = 0;
+  std::vector<std::uint64_t> clear_;  ///< bits, as the field's obstacles
+  Regions regions_;
 };
 
 }  // namespace lodestar

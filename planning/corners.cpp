@@ -1,24 +1,38 @@
 #include "planning/corners.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace lodestar {
 namespace {
 
-/// Direction away from the obstacle at the lower left corner of this cell. Nothing unless that is an outer
-/// corner: one of the four cells around it is an obstacle, three are free.
-std::optional<Vec2> outwards(const OccupancyMap& map, int column, int row) {
-  int obstacles = 0;
-  Vec2 away = Vec2::Zero();
-  for (const auto& [dx, dy] : {std::pair(-1, -1), std::pair(0, -1), std::pair(-1, 0), std::pair(0, 0)}) {
-    if (is_drivable(map.at({column + dx, row + dy}))) continue;
-    ++obstacles;
-    away = Vec2(dx == 0 ? -1.0 : 1.0, dy == 0 ? -1.0 : 1.0);
+/// Calls for the lower left corner of each cell that is an outer corner of the obstacles: one of the four
+/// cells around it is an obstacle, three are free. With the direction away from that one. Row by row.
+template <typename Work>
+void for_each_outer_corner(const CollisionChecker& space, const Work& work) {
+  for (int row = 1; row < space.rows(); ++row) {
+    const std::span<const std::uint64_t> below = space.field().obstacles(row - 1);
+    const std::span<const std::uint64_t> above = space.field().obstacles(row);
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      const std::uint64_t a = below[i];
+      const std::uint64_t b = above[i];
+      const std::uint64_t a_left = a << 1U | (i > 0 ? below[i - 1] >> 63U : 0U);
+      const std::uint64_t b_left = b << 1U | (i > 0 ? above[i - 1] >> 63U : 0U);
+      const std::uint64_t two = (a & b) | (a_left & b_left) | ((a | b) & (a_left | b_left));
+      std::uint64_t one = (a | b | a_left | b_left) & ~two;
+      if (i == 0) one &= ~std::uint64_t{1};  // the first column has no cell to its left
+      for (; one != 0; one &= one - 1) {
+        const int bit = std::countr_zero(one);
+        const int column = static_cast<int>(i) * 64 + bit;
+        if (column >= space.columns()) break;
+        const auto is = [&](std::uint64_t bits) { return ((bits >> static_cast<unsigned>(bit)) & 1U) != 0; };
+        work(Vec2(column, row), Vec2(is(a_left | b_left) ? 1.0 : -1.0, is(a | a_left) ? 1.0 : -1.0));
+      }
+    }
   }
-  if (obstacles != 1) return std::nullopt;
-  return away;
 }
 
 /// A quarter circle about a corner; angles are from the grid's x axis, mirrored into the first quadrant.
@@ -68,17 +82,11 @@ void add_arc(const CollisionChecker& space, const Arc& arc, std::vector<TurnPoin
 }  // namespace
 
 std::vector<TurnPoint> turn_points(const CollisionChecker& space, double reach_cells) {
-  const OccupancyMap& map = space.map();
   std::vector<TurnPoint> points;
-  for (int row = 1; row < map.rows; ++row) {
-    for (int column = 1; column < map.columns; ++column) {
-      const std::optional<Vec2> away = outwards(map, column, row);
-      if (!away) continue;
-      constexpr double apart = 1e-6;  // cells, so that rounding makes no tangent overlap
-      const Arc arc{Vec2(column, row), *away, reach_cells + apart};
-      add_arc(space, arc, points);
-    }
-  }
+  for_each_outer_corner(space, [&](const Vec2& corner, const Vec2& away) {
+    constexpr double apart = 1e-6;  // cells, so that rounding makes no tangent overlap
+    add_arc(space, {corner, away, reach_cells + apart}, points);
+  });
   return points;
 }
 

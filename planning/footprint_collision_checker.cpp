@@ -10,7 +10,7 @@ FootprintCollisionChecker::FootprintCollisionChecker(const OccupancyMap& map, Fo
     : map_(map),
       footprint_(std::move(footprint)),
       inner_(map, footprint_.inner_radius_m()),
-      outer_(map, footprint_.outer_radius_m()) {}
+      outer_(inner_.shared_field(), footprint_.outer_radius_m()) {}
 
 Pose2 FootprintCollisionChecker::in_map(const Vec2& point, double heading_rad) const {
   return map_.map_from_grid * Pose2{point * map_.resolution_m, heading_rad};

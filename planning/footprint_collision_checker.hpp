@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "maps/footprint.hpp"
 #include "planning/collision_checker.hpp"
-#include "planning/footprint.hpp"
 #include "planning/path_cost.hpp"
 
 namespace lodestar {

@@ -17,16 +17,6 @@
 namespace lodestar {
 namespace {
 
-/// String pulling: each leg goes as far along the points as it is clear.
-std::vector<Vec2> pulled_tight(const std::vector<Vec2>& points, const CollisionChecker& space) {
-  std::vector<Vec2> tight{points.front()};
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    if (!space.along(tight.back(), points[i + 1])) tight.push_back(points[i]);
-  }
-  tight.push_back(points.back());
-  return tight;
-}
-
 /// A leg out of a tight start need not be clear for the disc; its line must not cross an obstacle.
 bool leads_over_drivable(const OccupancyMap& map, const Vec2& from, const Vec2& to) {
   constexpr double spacing_cells = 0.05;
@@ -62,18 +52,30 @@ std::string_view to_string(PlanFailure failure) {
 
 /// The data precomputed from a map, and the memory of the searches.
 struct GridPlanner::Searches {
-  explicit Searches(const OccupancyMap& map, double radius_m) : space(map, radius_m) {}
+  Searches(std::shared_ptr<const ObstacleField> field, double radius_m) : space(std::move(field), radius_m) {}
+
+  [[nodiscard]] JumpPath shortest_path(Cell first, Cell last) {
+    return (by_table ? by_table->find(first, last) : by_scan->find(first, last)).value();
+  }
 
   CollisionChecker space;
-  std::optional<JumpTable> jumps;
-  std::optional<JumpSearch<JumpTable>> shortest;  ///< on the grid
+  std::optional<JumpTable> table;
+  std::optional<JumpScan> scan;
+  std::optional<JumpSearch<JumpTable>> by_table;  ///< on the grid, for `astar`
+  std::optional<JumpSearch<JumpScan>> by_scan;    ///< on the grid, as the first answer of all others
   std::optional<GridSearch> cheapest;             ///< on the grid, when cells cost differently
   std::optional<VisibilityGraphSearch> turns;
   std::optional<UncertaintyConstrainedPlanner> constrained;
 };
 
 GridPlanner::GridPlanner(const OccupancyMap& map, const GridPlannerOptions& options)
-    : map_(map), options_(options), searches_(std::make_unique<Searches>(map_, options.radius_m)) {
+    : GridPlanner(std::make_shared<const ObstacleField>(map), options) {}
+
+GridPlanner::GridPlanner(std::shared_ptr<const ObstacleField> field, const GridPlannerOptions& options)
+    : field_(std::move(field)),
+      map_(field_->map()),
+      options_(options),
+      searches_(std::make_unique<Searches>(field_, options.radius_m)) {
   if (options_.footprint) {
     outline_ = std::make_unique<FootprintPlanner>(map_, *options_.footprint, options_);
     return;
@@ -84,61 +86,26 @@ GridPlanner::GridPlanner(const OccupancyMap& map, const GridPlannerOptions& opti
 
 GridPlanner::~GridPlanner() = default;
 
-void GridPlanner::weigh_cells() {
-  const bool keeps_clear = options_.clearance_weight > 0.0 && options_.preferred_clearance_m > 0.0;
-  if (!keeps_clear && options_.avoided.places_m.empty()) return;
-  costs_.assign(map_.cells.size(), 1.0F);
-  if (keeps_clear) weigh_near_obstacles();
-  weigh_avoided();
-}
-
-/// Inflation: a cell costs 1 at the preferred clearance, and linearly more the nearer it is.
-void GridPlanner::weigh_near_obstacles() {
-  for (int row = 0; row < map_.rows; ++row) {
-    for (int column = 0; column < map_.columns; ++column) {
-      const double to_edge_m = (searches_->space.to_obstacle_cells({column, row}) - 0.5) * map_.resolution_m;
-      const double missing = 1.0 - (to_edge_m - options_.radius_m) / options_.preferred_clearance_m;
-      costs_[map_.index({column, row})] =
-          static_cast<float>(1.0 + options_.clearance_weight * std::clamp(missing, 0.0, 1.0));
-    }
-  }
-}
-
-/// Weighs a cell once, however many places are near.
-void GridPlanner::weigh_avoided() {
-  const AvoidedArea& avoided = options_.avoided;
-  const double within = avoided.within_m / map_.resolution_m;
-  std::vector<bool> is_avoided(costs_.size(), false);
-  for (const Vec2& place_m : avoided.places_m) {
-    const Vec2 place = in_grid(place_m);
-    const Cell low = cell_at(place - Vec2::Constant(within));
-    const Cell high = cell_at(place + Vec2::Constant(within));
-    for (int row = std::max(low.row, 0); row <= std::min(high.row, map_.rows - 1); ++row)
-      for (int column = std::max(low.column, 0); column <= std::min(high.column, map_.columns - 1); ++column)
-        if ((center_of({column, row}) - place).norm() <= within) is_avoided[map_.index({column, row})] = true;
-  }
-  for (std::size_t i = 0; i < costs_.size(); ++i)
-    if (is_avoided[i]) costs_[i] *= static_cast<float>(1.0 + avoided.weight);
-}
-
 void GridPlanner::prepare_searches() {
   Searches& searches = *searches_;
   if (options_.uncertainty_constraint)
     searches.constrained.emplace(searches.space, costs_, *options_.uncertainty_constraint);
   if (sampling_method(options_.kind)) return;
-  if (costs_.empty()) {
-    searches.jumps.emplace(searches.space);
-    searches.shortest.emplace(*searches.jumps);
+  if (costs_.empty() && options_.kind == PlannerKind::astar) {
+    searches.table.emplace(searches.space);
+    searches.by_table.emplace(*searches.table);
   } else {
-    searches.cheapest.emplace(searches.space, costs_);
+    searches.scan.emplace(searches.space);
+    searches.by_scan.emplace(*searches.scan);
   }
+  if (!costs_.empty()) searches.cheapest.emplace(searches.space, costs_);
   if (options_.kind == PlannerKind::astar) return;
   std::vector<TurnPoint> points = turn_points(searches.space, searches.space.radius_cells());
   if (!costs_.empty()) {
     const double away_cells = (options_.radius_m + options_.preferred_clearance_m) / map_.resolution_m;
     std::ranges::copy(turn_points(searches.space, away_cells), std::back_inserter(points));
   }
-  searches.turns.emplace(searches.space, std::move(points));
+  searches.turns.emplace(searches.space, std::move(points), options_.turn_search);
 }
 
 Vec2 GridPlanner::in_grid(const Vec2& point_m) const {
@@ -252,7 +219,7 @@ std::vector<Vec2> GridPlanner::points_over(std::span<const Cell> cells, const En
 
 /// The shortest grid path from start to goal. It exists, as both are in the same region.
 std::vector<Vec2> GridPlanner::jump_path(const Ends& ends, std::size_t& expanded) const {
-  const JumpPath found = searches_->shortest->find(ends.first, ends.last).value();
+  const JumpPath found = searches_->shortest_path(ends.first, ends.last);
   expanded += found.expanded;
   return points_over(found.turns, ends);
 }
@@ -267,16 +234,18 @@ std::optional<std::vector<Vec2>> GridPlanner::legs_within_constraint(const Ends&
 }
 
 std::vector<Vec2> GridPlanner::few_legs(const Ends& ends, std::size_t& expanded) const {
-  std::vector<Vec2> points;
-  if (costs_.empty()) {
-    points = jump_path(ends, expanded);
-  } else {
-    const GridPath found = searches_->cheapest->find(ends.first, ends.last).value();
-    expanded += found.expanded;
-    points = points_over(found.cells, ends);
-  }
+  const std::vector<Vec2> points = costs_.empty() ? jump_path(ends, expanded) : cheapest_path(ends, expanded);
   const PathCost cost(map_, costs_, std::nullopt);
   return shortened(points, searches_->space, cost, options_.turn_cost_m);
+}
+
+/// Over cells that cost differently; for `fastest` and `anyangle`, the shortest when that search is too long.
+std::vector<Vec2> GridPlanner::cheapest_path(const Ends& ends, std::size_t& expanded) const {
+  const bool is_answer = options_.kind == PlannerKind::astar;
+  const std::size_t most = is_answer ? GridSearch::unlimited : options_.turn_search.cells;
+  const std::optional<GridPath> found = searches_->cheapest->find(ends.first, ends.last, most);
+  expanded += searches_->cheapest->expanded();
+  return found ? points_over(found->cells, ends) : jump_path(ends, expanded);
 }
 
 std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeadings& headings,
@@ -296,8 +265,21 @@ std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeading
   if (timed) known = refined(std::move(known), in_grid_frame, space, cost, Refinement::coarse);
   TurnPath found = searches_->turns->find(known, in_grid_frame, cost);
   expanded += found.expanded;
-  if (!timed) return found.points;
-  return refined(std::move(found.points), in_grid_frame, space, cost, Refinement::fine);
+  return timed ? refined_best(std::move(found), in_grid_frame, cost) : found.points;
+}
+
+/// The fastest of the paths found, once they are refined.
+std::vector<Vec2> GridPlanner::refined_best(TurnPath found, const EndHeadings& headings,
+                                            const PathCost& cost) const {
+  constexpr double most_saved_s = 3.0;  // two turns less; measured: refining seldom saves more
+  const CollisionChecker& space = searches_->space;
+  std::vector<Vec2> best = refined(std::move(found.points), headings, space, cost, Refinement::coarse);
+  for (std::vector<Vec2>& other : found.others) {
+    if (cost.path(other, headings) > cost.path(best, headings) + most_saved_s) continue;
+    other = refined(std::move(other), headings, space, cost, Refinement::coarse);
+    if (cost.path(other, headings) < cost.path(best, headings)) best.swap(other);
+  }
+  return refined(std::move(best), headings, space, cost, Refinement::fine);
 }
 
 std::optional<std::vector<Vec2>> GridPlanner::sampled_legs(const Ends& ends, std::size_t& expanded) const {

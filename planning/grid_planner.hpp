@@ -9,16 +9,20 @@
 #include <variant>
 #include <vector>
 
+#include "maps/footprint.hpp"
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
 #include "maps/travel_time.hpp"
-#include "planning/footprint.hpp"
 #include "planning/planner_kind.hpp"
+#include "planning/turn_search_limits.hpp"
 #include "planning/uncertainty_constrained_planner.hpp"
 
 namespace lodestar {
 
 class FootprintPlanner;
+class PathCost;
+struct EndHeadings;
+struct TurnPath;
 
 /// Area to avoid when there is another path: its cells cost more.
 struct AvoidedArea {
@@ -37,6 +41,7 @@ struct GridPlannerOptions {
   AvoidedArea avoided;            ///< ignored by FootprintSearch
   double turn_cost_m = 0.2;       ///< where few legs are made of a path: a turn counts as this much length
   MotionLimits limits;            ///< of `fastest`
+  TurnSearchLimits turn_search;   ///< of `anyangle` and `fastest`
   SamplingOptions sampling;       ///< of the OMPL planners
   /// When given and the path violates it, the cheapest 8-connected path that meets it is taken instead,
   /// shortened as far as it still does.
@@ -74,6 +79,8 @@ struct PlanHeadings {
 class GridPlanner {
  public:
   explicit GridPlanner(const OccupancyMap& map, const GridPlannerOptions& options = {});
+  /// Shares the field with other planners on the same map.
+  GridPlanner(std::shared_ptr<const ObstacleField> field, const GridPlannerOptions& options);
   ~GridPlanner();
   GridPlanner(const GridPlanner&) = delete;
   GridPlanner& operator=(const GridPlanner&) = delete;
@@ -112,8 +119,11 @@ class GridPlanner {
   [[nodiscard]] std::optional<std::vector<Vec2>> legs_within_constraint(const Ends& ends,
                                                                         std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> few_legs(const Ends& ends, std::size_t& expanded) const;
+  [[nodiscard]] std::vector<Vec2> cheapest_path(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> cheapest_legs(const Ends& ends, const PlanHeadings& headings,
                                                 std::size_t& expanded) const;
+  [[nodiscard]] std::vector<Vec2> refined_best(TurnPath found, const EndHeadings& headings,
+                                               const PathCost& cost) const;
   [[nodiscard]] std::optional<std::vector<Vec2>> sampled_legs(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] static std::vector<Vec2> points_over(std::span<const Cell> cells, const Ends& ends);
   [[nodiscard]] std::vector<Vec2> jump_path(const Ends& ends, std::size_t& expanded) const;
@@ -122,7 +132,8 @@ class GridPlanner {
   void weigh_avoided();
   void prepare_searches();
 
-  OccupancyMap map_;
+  std::shared_ptr<const ObstacleField> field_;
+  const OccupancyMap& map_;
   GridPlannerOptions options_;
   std::vector<float> costs_;  ///< of cells; empty: all cost 1
   std::unique_ptr<Searches> searches_;

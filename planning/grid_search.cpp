@@ -28,12 +28,12 @@ Cell GridSearch::cell_at(std::size_t index) const {
   return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
 }
 
-std::optional<GridPath> GridSearch::find(Cell start, Cell goal) {
+std::optional<GridPath> GridSearch::find(Cell start, Cell goal, std::size_t most_expanded) {
+  begin();
   if (!space_.at(start) || !space_.at(goal) || space_.region(start) != space_.region(goal))
     return std::nullopt;
-  begin();
   reach(start, 0.0, -1, goal);
-  while (!open_.empty()) {
+  while (!open_.empty() && expanded_ < most_expanded) {
     const Open next = open_.front();
     std::ranges::pop_heap(open_, Later{});
     open_.pop_back();

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -25,8 +26,12 @@ class GridSearch {
  public:
   GridSearch(const CollisionChecker& space, const CellCosts& costs);
 
-  /// Nothing when there is no path.
-  std::optional<GridPath> find(Cell start, Cell goal);
+  static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+
+  /// Nothing when there is no path, or none within so many expanded cells.
+  std::optional<GridPath> find(Cell start, Cell goal, std::size_t most_expanded = unlimited);
+
+  [[nodiscard]] std::size_t expanded() const { return expanded_; }  ///< in the last search
 
  private:
   struct Node {

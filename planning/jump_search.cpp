@@ -37,6 +37,13 @@ constexpr auto ways_table = [] {
 }();
 
 constexpr unsigned all_directions = 0xff;
+constexpr std::size_t small_map = std::size_t{1} << 20U;   // 16 MB of nodes
+constexpr std::size_t first_room = std::size_t{1} << 16U;  // nodes in a hash table; a power of two
+
+/// Spreads neighbouring cells (Fibonacci hashing, Knuth 1973).
+std::size_t spread(std::uint32_t index, std::size_t room) {
+  return static_cast<std::size_t>((index * 0x9e3779b97f4a7c15ULL) >> 20U) & (room - 1);
+}
 
 }  // namespace
 
@@ -51,7 +58,38 @@ struct JumpSearch<Jumps>::Later {
 template <typename Jumps>
 JumpSearch<Jumps>::JumpSearch(const Jumps& jumps)
     : jumps_(jumps),
-      nodes_(static_cast<std::size_t>(jumps.columns()) * static_cast<std::size_t>(jumps.rows())) {}
+      nodes_(static_cast<std::size_t>(jumps.columns()) * static_cast<std::size_t>(jumps.rows()) <= small_map
+                 ? static_cast<std::size_t>(jumps.columns()) * static_cast<std::size_t>(jumps.rows())
+                 : first_room) {
+  const bool has_all =
+      nodes_.size() == static_cast<std::size_t>(jumps.columns()) * static_cast<std::size_t>(jumps.rows());
+  if (!has_all) indices_.resize(nodes_.size());
+}
+
+/// In the hash table, nodes of earlier searches count as free.
+template <typename Jumps>
+typename JumpSearch<Jumps>::Node& JumpSearch<Jumps>::node_of(std::uint32_t index) {
+  if (indices_.empty()) return nodes_[index];
+  std::size_t at = spread(index, nodes_.size());
+  while (nodes_[at].visit >= visit_ && indices_[at] != index) at = (at + 1) & (nodes_.size() - 1);
+  if (nodes_[at].visit < visit_) {
+    indices_[at] = index;
+    nodes_[at].visit = 0;
+  }
+  return nodes_[at];
+}
+
+/// Doubles a hash table that becomes half full with one node more.
+template <typename Jumps>
+void JumpSearch<Jumps>::make_room() {
+  if (indices_.empty() || 2 * ++reached_ <= nodes_.size()) return;
+  const std::vector<Node> nodes = std::move(nodes_);
+  const std::vector<std::uint32_t> indices = std::move(indices_);
+  nodes_.assign(2 * nodes.size(), Node{});
+  indices_.assign(2 * nodes.size(), 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].visit >= visit_) node_of(indices[i]) = nodes[i];
+}
 
 template <typename Jumps>
 std::optional<JumpPath> JumpSearch<Jumps>::find(Cell start, Cell goal) {
@@ -60,7 +98,7 @@ std::optional<JumpPath> JumpSearch<Jumps>::find(Cell start, Cell goal) {
     const Open next = open_.front();
     std::ranges::pop_heap(open_, Later{});
     open_.pop_back();
-    Node& node = nodes_[next.index];
+    Node& node = node_of(next.index);
     if (node.visit != visit_) continue;  // stale: expanded before, at no greater length
     node.visit = visit_ + 1;
     ++expanded_;
@@ -79,6 +117,7 @@ void JumpSearch<Jumps>::begin(Cell start, Cell goal) {
   goal_ = goal;
   expanded_ = 0;
   open_.clear();
+  reached_ = 0;
   visit_ += 2;
   if (visit_ == 0) {  // wraps around after 2^31 searches
     std::ranges::fill(nodes_, Node{});
@@ -90,7 +129,7 @@ void JumpSearch<Jumps>::begin(Cell start, Cell goal) {
 template <typename Jumps>
 void JumpSearch<Jumps>::expand(Cell cell, unsigned directions) {
   const std::uint32_t at = index(cell);
-  const StepLength length = nodes_[at].length;
+  const StepLength length = node_of(at).length;
   for (; directions != 0; directions &= directions - 1) {
     const int direction = std::countr_zero(directions);
     const int steps = steps_towards(cell, direction);
@@ -120,8 +159,10 @@ int JumpSearch<Jumps>::steps_towards(Cell from, int direction) const {
 template <typename Jumps>
 void JumpSearch<Jumps>::reach(Cell cell, StepLength length, std::uint32_t parent, int direction) {
   const std::uint32_t at = index(cell);
-  Node& node = nodes_[at];
-  if (node.visit >= visit_ && length >= node.length) return;
+  const bool is_new = node_of(at).visit < visit_;
+  if (is_new) make_room();
+  Node& node = node_of(at);
+  if (!is_new && length >= node.length) return;
   node = {.length = length, .parent = parent, .visit = visit_};
   open_.push_back({length + free_length(cell, goal_), at, direction});
   std::ranges::push_heap(open_, Later{});
@@ -132,7 +173,7 @@ JumpPath JumpSearch<Jumps>::path_found() {
   turns_.assign(1, goal_);
   StepCount steps;
   while (turns_.back() != start_) {
-    const Cell before = cell_at(nodes_[index(turns_.back())].parent);
+    const Cell before = cell_at(node_of(index(turns_.back())).parent);
     const StepCount leg = free_steps(before, turns_.back());
     steps.straight += leg.straight;
     steps.diagonal += leg.diagonal;

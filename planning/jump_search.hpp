@@ -43,6 +43,9 @@ class JumpSearch {
     return static_cast<std::uint32_t>(cell.row) * static_cast<std::uint32_t>(jumps_.columns()) +
            static_cast<std::uint32_t>(cell.column);
   }
+  /// The cell's node; one that no search has reached when the present search has not.
+  Node& node_of(std::uint32_t index);
+  void make_room();
   [[nodiscard]] Cell cell_at(std::uint32_t index) const {
     const auto columns = static_cast<std::uint32_t>(jumps_.columns());
     return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
@@ -58,7 +61,11 @@ class JumpSearch {
   Cell goal_;
   std::uint32_t visit_ = 0;
   std::size_t expanded_ = 0;
+  /// One for each cell of a small map; of a large one only those reached, in a hash table with linear
+  /// probing.
   std::vector<Node> nodes_;
+  std::vector<std::uint32_t> indices_;  ///< of the nodes' cells in the hash table; empty on a small map
+  std::size_t reached_ = 0;             ///< nodes in the hash table that the present search uses
   std::vector<Open> open_;
   std::vector<Cell> turns_;
 };

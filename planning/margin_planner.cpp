@@ -2,12 +2,17 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lodestar {
 
 MarginPlanner::MarginPlanner(const OccupancyMap& map, const GridPlannerOptions& options,
                              std::span<const double> margins_m)
-    : map_(map), options_(options) {
+    : MarginPlanner(std::make_shared<const ObstacleField>(map), options, margins_m) {}
+
+MarginPlanner::MarginPlanner(std::shared_ptr<const ObstacleField> field, const GridPlannerOptions& options,
+                             std::span<const double> margins_m)
+    : field_(std::move(field)), map_(field_->map()), options_(options) {
   if (!options.footprint)
     for (const double margin_m : margins_m) levels_.push_back({margin_m, nullptr});
   if (levels_.empty()) levels_.emplace_back();
@@ -18,7 +23,7 @@ const GridPlanner& MarginPlanner::at(std::size_t level) const {
   if (!wanted.planner) {
     GridPlannerOptions options = options_;
     options.radius_m += wanted.margin_m;
-    wanted.planner = std::make_unique<const GridPlanner>(map_, options);
+    wanted.planner = std::make_unique<const GridPlanner>(field_, options);
   }
   return *wanted.planner;
 }

@@ -29,6 +29,9 @@ class MarginPlanner {
   /// Footprints are planned without a margin.
   explicit MarginPlanner(const OccupancyMap& map, const GridPlannerOptions& options = {},
                          std::span<const double> margins_m = default_margins_m);
+  /// Shares the field with others on the same map.
+  explicit MarginPlanner(std::shared_ptr<const ObstacleField> field, const GridPlannerOptions& options = {},
+                         std::span<const double> margins_m = default_margins_m);
 
   /// A failure is that with the narrowest margin.
   [[nodiscard]] PlanResult plan(const Vec2& start_m, const Vec2& goal_m,
@@ -59,7 +62,8 @@ class MarginPlanner {
   [[nodiscard]] PlanResult plan_at(std::size_t level, const Vec2& start_m, const Vec2& goal_m,
                                    const PlanHeadings& headings) const;
 
-  OccupancyMap map_;
+  std::shared_ptr<const ObstacleField> field_;  ///< of all levels
+  const OccupancyMap& map_;
   GridPlannerOptions options_;
   mutable std::vector<Level> levels_;  ///< widest first
 };

@@ -35,6 +35,11 @@ class PathCost {
     const double length_m = length_cells * map_.resolution_m;
     return limits_ ? limits_->leg_time_s(length_m) : length_m;
   }
+  /// Length in cells of the longest path that can cost no more than this.
+  [[nodiscard]] double longest(double cost) const {
+    const double length_m = limits_ ? limits_->max_forward_mps * cost : cost;
+    return length_m / map_.resolution_m;
+  }
   [[nodiscard]] double leg(const Vec2& from, const Vec2& to) const;
   /// Cost of a turn on the spot between two headings, both in [-pi, pi]. Two turns never cost less than the
   /// direct one (triangle inequality).

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "planning/turn_merging.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -17,7 +19,7 @@ class Refining {
 
   std::vector<Vec2> run(Refinement refinement) {
     leave_out();
-    if (cost_.counts_turns()) merge();
+    if (cost_.counts_turns()) points_ = with_turns_merged(std::move(points_), headings_, space_, cost_);
     for (const double step : {1.0, 0.3, 0.1, 0.03, 0.01}) {
       if (refinement == Refinement::coarse && step < 0.3) break;
       constexpr int most_rounds = 6;
@@ -72,7 +74,7 @@ class Refining {
 
   void leave_out() {
     for (std::size_t i = 1; i + 1 < points_.size();) {
-      if (space_.along(points_[i - 1], points_[i + 1])) {
+      if (is_better_without(i)) {
         points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i));
       } else {
         ++i;
@@ -80,35 +82,13 @@ class Refining {
     }
   }
 
-  /// Merges two turns into one where the extended legs before and after them meet.
-  void merge() {
-    for (std::size_t i = 1; i + 2 < points_.size();) {
-      const std::optional<Vec2> meeting = meeting_point(i);
-      std::vector<Vec2> fewer = points_;
-      if (meeting) {
-        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
-        fewer[i] = *meeting;
-      }
-      if (meeting && cost_.path(fewer, headings_) < cost_.path(points_, headings_) &&
-          space_.along(fewer[i - 1], fewer[i]) && space_.along(fewer[i], fewer[i + 1])) {
-        points_ = std::move(fewer);
-      } else {
-        ++i;
-      }
-    }
-  }
-
-  /// Where the leg to turn i, extended forward, meets the leg from turn i + 1, extended backward.
-  [[nodiscard]] std::optional<Vec2> meeting_point(std::size_t i) const {
-    const Vec2 in = points_[i] - points_[i - 1];
-    const Vec2 out = points_[i + 2] - points_[i + 1];
-    const Vec2 between = points_[i + 1] - points_[i];
-    const double parallel = cross(in, out);
-    if (std::abs(parallel) < 1e-9) return std::nullopt;
-    const double beyond = cross(between, out) / parallel;
-    const double before = cross(in, between) / parallel;
-    if (beyond < 0.0 || before > 0.0) return std::nullopt;
-    return points_[i] + beyond * in;
+  /// A direct leg is never longer nor slower, but may lead over cells that cost more.
+  [[nodiscard]] bool is_better_without(std::size_t i) const {
+    if (!space_.along(points_[i - 1], points_[i + 1])) return false;
+    if (!cost_.counts_cells()) return true;
+    std::vector<Vec2> fewer = points_;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+    return cost_.path(fewer, headings_) <= cost_.path(points_, headings_);
   }
 
   std::vector<Vec2> points_;

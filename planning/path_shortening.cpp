@@ -26,6 +26,15 @@ std::vector<Vec2> leg_ends(const std::vector<Vec2>& points) {
   return chosen;
 }
 
+std::vector<Vec2> pulled_tight(const std::vector<Vec2>& points, const CollisionChecker& space) {
+  std::vector<Vec2> tight{points.front()};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    if (!space.along(tight.back(), points[i + 1])) tight.push_back(points[i]);
+  }
+  tight.push_back(points.back());
+  return tight;
+}
+
 std::vector<Vec2> shortened(const std::vector<Vec2>& points, const CollisionChecker& space,
                             const PathCost& cost, double turn_cost_m) {
   if (points.size() < 3) return points;

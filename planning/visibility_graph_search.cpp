@@ -6,13 +6,10 @@
 namespace lodestar {
 namespace {
 
-constexpr double negligible = 1e-9;  ///< relative saving of cost that is not worth another path
-/// Dominance slack in seconds: a label is dropped when another one plus the turn between their headings is at
-/// most this much slower.
-constexpr double as_good_s = 0.3;
 /// Inflation of the heuristic (weighted A*) when turns count, as the heuristic ignores obstacles.
 constexpr double stretch = 0.2;
 constexpr std::uint32_t goal_candidate = 0;
+constexpr std::size_t more_for_cells = 10;  ///< times the work where cells cost differently
 
 }  // namespace
 
@@ -25,11 +22,12 @@ struct VisibilityGraphSearch::Later {
 };
 
 VisibilityGraphSearch::VisibilityGraphSearch(const CollisionChecker& space,
-                                             std::vector<TurnPoint> turn_points)
-    : space_(space), turn_points_(std::move(turn_points)) {
-  constexpr std::size_t most_remembered = 4000;  // 16 MB of cached sights
-  if (turn_points_.size() <= most_remembered) sights_.resize(turn_points_.size() * turn_points_.size());
-}
+                                             std::vector<TurnPoint> turn_points,
+                                             const TurnSearchLimits& limits)
+    : space_(space),
+      turn_points_(std::move(turn_points)),
+      limits_(limits),
+      two_way_(space_, turn_points_, limits_) {}
 
 TurnPath VisibilityGraphSearch::find(std::span<const Vec2> known, const EndHeadings& headings,
                                      const PathCost& cost) {
@@ -37,16 +35,27 @@ TurnPath VisibilityGraphSearch::find(std::span<const Vec2> known, const EndHeadi
   headings_ = headings;
   start_ = known.front();
   goal_ = known.back();
-  const double known_cost = cost.path(known, headings);
-  limit_ = known_cost * (1.0 - negligible);
+  limit_ = cost.path(known, headings) * (1.0 - negligible_saving);
   labels_.clear();
   open_.clear();
-  gather_candidates(known);
+  work_ = 0;
+  if (!gather_candidates(known)) return two_way_.find(known, headings, cost);
+  TurnPath found = search(known);
+  if (!cost.counts_turns() || cost.counts_cells()) return found;
+  // A path with turns on open ground may be faster once it is refined.
+  TurnPath other = two_way_.find(known, headings, cost);
+  found.expanded += other.expanded;
+  found.others = std::move(other.others);
+  found.others.push_back(std::move(other.points));
+  return found;
+}
 
-  labels_.push_back({.heading_rad = headings.start_rad.value_or(0.0), .candidate = none});
+TurnPath VisibilityGraphSearch::search(std::span<const Vec2> known) {
+  labels_.push_back({.heading_rad = headings_.start_rad.value_or(0.0), .candidate = none});
   expand(0);
   std::size_t expanded = 1;
-  while (!open_.empty()) {
+  const std::size_t most_work = (cost_->counts_cells() ? more_for_cells : 1) * limits_.work;
+  while (!open_.empty() && work_ < most_work) {
     Open next = open_.front();
     std::ranges::pop_heap(open_, Later{});
     open_.pop_back();
@@ -55,20 +64,56 @@ TurnPath VisibilityGraphSearch::find(std::span<const Vec2> known, const EndHeadi
     Candidate& at = candidates_[next.candidate];
     labels_.push_back({next.cost, next.heading_rad, next.candidate, next.parent, at.newest_label});
     at.newest_label = label;
-    if (next.candidate == goal_candidate) return {points_to(label), next.total, expanded};
+    if (next.candidate == goal_candidate)
+      return {.points = points_to(label),
+              .cost = next.cost + least_rest(at, next.heading_rad),
+              .expanded = expanded};
     expand(label);
     ++expanded;
   }
-  return {{known.begin(), known.end()}, known_cost, expanded};
+  if (std::optional<TurnPath> found = best_waiting()) {
+    found->expanded = expanded;
+    return *found;
+  }
+  return {
+      .points = {known.begin(), known.end()}, .cost = cost_->path(known, headings_), .expanded = expanded};
 }
 
-void VisibilityGraphSearch::gather_candidates(std::span<const Vec2> known) {
+/// After the work is used up: the best of the paths that wait for a look at their last leg.
+std::optional<TurnPath> VisibilityGraphSearch::best_waiting() {
+  std::vector<Open> last;
+  for (const Open& open : open_)
+    if (open.candidate == goal_candidate) last.push_back(open);
+  std::ranges::sort(last, [](const Open& a, const Open& b) { return Later{}(b, a); });
+  constexpr std::size_t most = 20;
+  if (last.size() > most) last.resize(most);
+  for (Open& open : last) {
+    open_
+        .clear();  // goes_on() puts a leg back that costs more: its path is then no better than the known one
+    if (!goes_on(open)) continue;
+    const auto label = static_cast<std::uint32_t>(labels_.size());
+    labels_.push_back({open.cost, open.heading_rad, open.candidate, open.parent, none});
+    return TurnPath{.points = points_to(label),
+                    .cost = open.cost + least_rest(candidates_[goal_candidate], open.heading_rad)};
+  }
+  return std::nullopt;
+}
+
+/// False when there are too many.
+bool VisibilityGraphSearch::gather_candidates(std::span<const Vec2> known) {
+  constexpr std::size_t most_looked_at = 6;  // times as many: a longer list is not worth the look
+  if (turn_points_.size() > most_looked_at * limits_.complete) return false;
   candidates_.clear();
   add_candidate(goal_, none);
   for (const Vec2& point : known.subspan(1, known.size() - 2)) add_candidate(point, none);
   for (std::uint32_t i = 0; i < turn_points_.size(); ++i) {
     if (turn_points_[i].tight || cost_->counts_turns()) add_candidate(turn_points_[i].position, i);
   }
+  if (candidates_.size() > limits_.complete) return false;
+  legs_.resize(std::max(legs_.size(), candidates_.size() + 1));
+  for (std::vector<Leg>& legs : legs_) legs.clear();
+  sights_.assign((candidates_.size() + 1) * (candidates_.size() + 1), Sight::unknown);
+  return true;
 }
 
 /// Skips a point when even the straight path through it reaches the upper bound.
@@ -92,7 +137,7 @@ void VisibilityGraphSearch::add_candidate(const Vec2& position, std::uint32_t tu
 
 void VisibilityGraphSearch::expand(std::uint32_t label) {
   const Label& from = labels_[label];
-  from_ = {.position = position_of(from)};
+  from_ = {.position = position_of(from), .candidate = from.candidate};
   if (from.candidate != none) {
     const Candidate& at = candidates_[from.candidate];
     from_.turn_point = at.turn_point;
@@ -100,22 +145,41 @@ void VisibilityGraphSearch::expand(std::uint32_t label) {
     from_.to_corner = at.corner - at.position;
     from_.corner_side = cross(from_.arrival, from_.to_corner);
   }
-  for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
-    if (i != labels_[label].candidate) consider(label, i);
-  }
+  const std::vector<Leg>& legs = legs_from(from.candidate);
+  work_ += legs.size();
+  for (const Leg& leg : legs) consider(label, leg);
 }
 
-void VisibilityGraphSearch::consider(std::uint32_t label, std::uint32_t candidate) {
+/// Listed when a candidate is expanded first.
+const std::vector<VisibilityGraphSearch::Leg>& VisibilityGraphSearch::legs_from(std::uint32_t candidate) {
+  std::vector<Leg>& legs = legs_[place_of(candidate)];
+  if (!legs.empty()) return legs;
+  const Vec2& position = candidate == none ? start_ : candidates_[candidate].position;
+  for (std::uint32_t to = 0; to < candidates_.size(); ++to) {
+    const Vec2 way = candidates_[to].position - position;
+    const double length_cells = way.norm();
+    if (to == candidate || way.isZero(0.0)) continue;
+    legs.push_back({.cost = cost_->at_least(length_cells),
+                    .heading_rad = cost_->counts_turns() ? heading_of(way) : 0.0,
+                    .to = to});
+  }
+  constexpr std::size_t units = 4;
+  work_ += units * candidates_.size();
+  return legs;
+}
+
+void VisibilityGraphSearch::consider(std::uint32_t label, const Leg& leg) {
   const Label& from = labels_[label];
-  const Candidate& to = candidates_[candidate];
+  const Candidate& to = candidates_[leg.to];
   const bool at_start = from.candidate == none;
-  const Vec2 way = to.position - from_.position;
-  if (!turns_around_its_corner(way) || known_sight(from_.turn_point, to.turn_point) == Sight::blocked) return;
-  const double cost = from.cost + cost_->at_least(way.norm());
-  if (cost + to.least_to_goal >= limit_ || way.isZero(0.0)) return;
-  Open open{.total = cost + to.least_to_goal, .cost = cost, .candidate = candidate, .parent = label};
+  const double cost = from.cost + leg.cost;
+  if (cost + to.least_to_goal >= limit_) return;
+  if (!turns_around_its_corner(to.position - from_.position) ||
+      sight(from.candidate, leg.to) == Sight::blocked)
+    return;
+  Open open{.total = cost + to.least_to_goal, .cost = cost, .candidate = leg.to, .parent = label};
   if (cost_->counts_turns()) {
-    open.heading_rad = heading_of(way);
+    open.heading_rad = leg.heading_rad;
     if (!at_start || headings_.start_rad) open.cost += cost_->turn(from.heading_rad, open.heading_rad);
     open.total = open.cost + least_rest(to, open.heading_rad);
     if (open.total >= limit_) return;
@@ -159,36 +223,39 @@ double VisibilityGraphSearch::least_rest(const Candidate& candidate, double head
 bool VisibilityGraphSearch::goes_on(Open& open) {
   if (open.looked_at) return true;
   const Label& parent = labels_[open.parent];
+  if (!sees(parent.candidate, open.candidate)) return false;
+  if (!cost_->counts_cells()) return true;
   const Vec2& from = position_of(parent);
   const Vec2& to = candidates_[open.candidate].position;
-  const std::uint32_t from_turn_point =
-      parent.candidate == none ? none : candidates_[parent.candidate].turn_point;
-  if (!sees(from_turn_point, candidates_[open.candidate].turn_point, from, to)) return false;
-  if (!cost_->counts_cells()) return true;
-  const double more = cost_->leg(from, to) - cost_->at_least((to - from).norm());
+  const double length_cells = (to - from).norm();
+  work_ += static_cast<std::size_t>(length_cells);
+  const double more = cost_->leg(from, to) - cost_->at_least(length_cells);
   if (more <= 0.0) return true;
   open.looked_at = true;
   open.cost += more;
   open.total += more;
-  if (open.total < limit_) push(open);
+  const double least = open.cost + least_rest(candidates_[open.candidate], open.heading_rad);  // not inflated
+  if (least < limit_) push(open);
   return false;
 }
 
-VisibilityGraphSearch::Sight VisibilityGraphSearch::known_sight(std::uint32_t from_turn_point,
-                                                                std::uint32_t to_turn_point) const {
-  if (from_turn_point == none || to_turn_point == none || sights_.empty()) return Sight::unknown;
-  const auto [low, high] = std::minmax(from_turn_point, to_turn_point);
-  return sights_[low * turn_points_.size() + high];
+VisibilityGraphSearch::Sight& VisibilityGraphSearch::sight(std::uint32_t from, std::uint32_t to) {
+  const std::size_t a = place_of(from);
+  const std::size_t b = place_of(to);
+  return sights_[std::min(a, b) * (candidates_.size() + 1) + std::max(a, b)];
 }
 
-/// Lines of sight between turn points are cached, as they depend only on the map.
-bool VisibilityGraphSearch::sees(std::uint32_t from_turn_point, std::uint32_t to_turn_point, const Vec2& from,
-                                 const Vec2& to) {
-  if (from_turn_point == none || to_turn_point == none || sights_.empty()) return space_.along(from, to);
-  const auto [low, high] = std::minmax(from_turn_point, to_turn_point);
-  Sight& sight = sights_[low * turn_points_.size() + high];
-  if (sight == Sight::unknown) sight = space_.along(from, to) ? Sight::clear : Sight::blocked;
-  return sight == Sight::clear;
+/// Each line of sight is checked once.
+bool VisibilityGraphSearch::sees(std::uint32_t from, std::uint32_t to) {
+  Sight& known = sight(from, to);
+  if (known == Sight::unknown) {
+    const Vec2& begin = from == none ? start_ : candidates_[from].position;
+    const Vec2& end = candidates_[to].position;
+    constexpr std::size_t units = 30;
+    work_ += units + static_cast<std::size_t>((end - begin).norm());
+    known = space_.along(begin, end) ? Sight::clear : Sight::blocked;
+  }
+  return known == Sight::clear;
 }
 
 std::vector<Vec2> VisibilityGraphSearch::points_to(std::uint32_t label) const {

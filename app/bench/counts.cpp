@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/bench/hard_scene.hpp"
 #include "app/bench/truth.hpp"
 #include "app/common/parallel.hpp"
 
@@ -27,6 +26,7 @@ bool is_in_full_view(const TrueMarker& marker, double pitch_px, const BenchView&
 void add(const FrameCounts& part, FrameCounts& whole) {
   whole.frames += part.frames;
   whole.markers += part.markers;
+  whole.read += part.read;
   whole.right += part.right;
   whole.wrong += part.wrong;
   whole.frames_with_wrong += part.frames_with_wrong;
@@ -34,17 +34,17 @@ void add(const FrameCounts& part, FrameCounts& whole) {
 }
 
 /// The frames of one scene.
-FrameCounts count_scene(HardFrames kind, BenchMethod& method, int frames, Random random) {
-  const HardScene scene = some_hard_scene(kind, random);
+FrameCounts count_scene(const SceneSource& source, BenchMethod& method, int frames, Random random) {
+  const HardScene scene = source.scene(random);
   const CameraModel camera = bench_camera();
   ImageFormer former(scene.registry, camera, scene.light, random.bits());
   for (const PrintedSquare& patch : scene.sun) former.add(patch);
-  method.install(scene.registry, former);
+  method.install(scene.registry, camera, former);
   const double pitch_px = camera.fx_px * marker_pitch_m / scene.ceiling_m;
 
   FrameCounts counts;
   for (int i = 0; i < frames; ++i) {
-    const BenchView view = some_hard_view(kind, scene, random);
+    const BenchView view = source.view(scene, random);
     former.cover(view.covers);
     const cv::Mat gray =
         former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(i));
@@ -56,8 +56,11 @@ FrameCounts count_scene(HardFrames kind, BenchMethod& method, int frames, Random
     counts.right += count.right;
     counts.wrong += count.wrong;
     counts.frames_with_wrong += count.wrong > 0 ? 1 : 0;
-    counts.markers += static_cast<int>(std::ranges::count_if(
-        truth, [&](const TrueMarker& marker) { return is_in_full_view(marker, pitch_px, view, camera); }));
+    for (const TrueMarker& marker : truth) {
+      if (!is_in_full_view(marker, pitch_px, view, camera)) continue;
+      ++counts.markers;
+      counts.read += is_read(marker, readings) ? 1 : 0;
+    }
     for (const ReadMarker& reading : readings)
       if (reading.probability) counts.stated.push_back({*reading.probability, is_right(reading, truth)});
   }
@@ -66,21 +69,28 @@ FrameCounts count_scene(HardFrames kind, BenchMethod& method, int frames, Random
 
 }  // namespace
 
-FrameCounts count_frames(HardFrames kind, const MethodChoice& choice, int frames, std::uint64_t seed,
-                         const std::function<void(int frames)>& done) {
+FrameCounts count_frames(const SceneSource& source, const MethodChoice& choice, int frames,
+                         const Random& random, const std::function<void(int frames)>& done) {
   const int scenes = (frames + frames_per_scene - 1) / frames_per_scene;
   std::vector<FrameCounts> parts(static_cast<std::size_t>(scenes));
   in_parallel(scenes, [&](int i) {
     const std::unique_ptr<BenchMethod> method = choice.make();
     const int count = std::min(frames_per_scene, frames - i * frames_per_scene);
-    const auto stream = static_cast<std::uint64_t>(i);
-    const Random random = Random(seed).stream(static_cast<std::uint64_t>(kind)).stream(stream);
-    parts[static_cast<std::size_t>(i)] = count_scene(kind, *method, count, random);
+    const Random of_scene = random.stream(static_cast<std::uint64_t>(i));
+    parts[static_cast<std::size_t>(i)] = count_scene(source, *method, count, of_scene);
     done(count);
   });
   FrameCounts counts;
   for (const FrameCounts& part : parts) add(part, counts);
   return counts;
+}
+
+FrameCounts count_frames(HardFrames kind, const MethodChoice& choice, int frames, std::uint64_t seed,
+                         const std::function<void(int frames)>& done) {
+  const SceneSource source{
+      .scene = [kind](Random& random) { return some_hard_scene(kind, random); },
+      .view = [kind](const HardScene& scene, Random& random) { return some_hard_view(kind, scene, random); }};
+  return count_frames(source, choice, frames, Random(seed).stream(static_cast<std::uint64_t>(kind)), done);
 }
 
 }  // namespace lodestar

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "app/bench/hard_scene.hpp"
 #include "app/bench/method.hpp"
 #include "app/bench/reliability.hpp"
 
@@ -11,22 +12,22 @@ namespace lodestar {
 struct FrameCounts {
   int frames = 0;
   int markers = 0;  ///< fully in view and not occluded, over all frames
-  int right = 0;    ///< readings
+  int read = 0;     ///< of these
+  int right = 0;    ///< readings, also of markers partly in view
   int wrong = 0;    ///< readings without a true marker
   int frames_with_wrong = 0;
   std::vector<StatedOutcome> stated;  ///< of all readings with a stated probability
 };
 
-enum class HardFrames {
-  /// Several markers with any IDs, in light from good to poor, blurred or sharp, among tubes, lamps, glints
-  /// and patches of sun, from 1.5 to 4 m, tilted by up to 10 degrees; half of them with a sheet that may
-  /// occlude a marker.
-  adverse,
-  /// The same without any marker.
-  empty,
-  /// One marker whose O, X or Y is occluded wholly or in part, or cut by the image border.
-  direction_dot_lost,
+/// Where frames come from: scenes of some frames each, and views of a scene.
+struct SceneSource {
+  std::function<HardScene(Random& random)> scene;
+  std::function<BenchView(const HardScene& scene, Random& random)> view;
 };
+
+/// Frames of any source, `random` decides which.
+FrameCounts count_frames(const SceneSource& source, const MethodChoice& choice, int frames,
+                         const Random& random, const std::function<void(int frames)>& done);
 
 /// Runs on all cores; the counts depend on the seed only. `done` is called with the number of frames done,
 /// from any thread.

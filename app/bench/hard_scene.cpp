@@ -17,23 +17,6 @@ double some_angle(Random& random) {
   return random.uniform(-std::numbers::pi, std::numbers::pi);
 }
 
-/// Markers on a grid with random distinct IDs, shifts and yaws.
-MarkerRegistry some_markers(int aside, double spacing_m, double ceiling_m, Random& random) {
-  MarkerRegistry registry;
-  constexpr int id_step = 797;  // coprime to 4096: no ID comes twice
-  const auto first_id = static_cast<int>(random.below(marker_id_count));
-  for (int i = 0; i < aside * aside; ++i) {
-    const int row = i / aside;
-    const Vec2 place(i % aside - 0.5 * (aside - 1), row - 0.5 * (aside - 1));
-    const Vec2 shift(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
-    const Vec2 at = spacing_m * place + shift;
-    registry.markers.push_back({.id = (first_id + i * id_step) % marker_id_count,
-                                .position_m = {at.x(), at.y(), ceiling_m},
-                                .yaw_rad = some_angle(random)});
-  }
-  return registry;
-}
-
 /// A patch of sunlight on the ceiling, as bright as a dot or brighter.
 PrintedSquare some_patch_of_sun(const HardScene& scene, Random& random) {
   PrintedSquare patch{
@@ -66,6 +49,24 @@ Eigen::Isometry3d camera_that_sees(const Vec3& point, const Vec2& at_px, const E
   return map_from_camera;
 }
 
+/// Any heading, and a tilt of up to 10 degrees.
+Eigen::Matrix3d some_tilt(Random& random) {
+  constexpr double most_tilt = radians(10.0);
+  const Eigen::Matrix3d tilt =
+      rotation_from({random.uniform(-most_tilt, most_tilt) / std::numbers::sqrt2,
+                     random.uniform(-most_tilt, most_tilt) / std::numbers::sqrt2, 0.0});
+  return rotation_from({0.0, 0.0, some_angle(random)}) * tilt;
+}
+
+BenchView view_of_ceiling(const HardScene& scene, const Eigen::Matrix3d& rotation, Random& random) {
+  const Vec3 looked_at(random.uniform(-scene.reach_m, scene.reach_m),
+                       random.uniform(-scene.reach_m, scene.reach_m), scene.ceiling_m);
+  const CameraModel camera = bench_camera();
+  BenchView view;
+  view.map_from_camera = camera_that_sees(looked_at, {camera.cx_px, camera.cy_px}, rotation, scene.ceiling_m);
+  return view;
+}
+
 /// A direction dot occluded wholly or in part by a sheet, or cut by the image border, within 1.5 dot radii of
 /// its centre.
 BenchView view_without_a_direction_dot(const HardScene& scene, const Eigen::Matrix3d& rotation,
@@ -96,6 +97,22 @@ BenchView view_without_a_direction_dot(const HardScene& scene, const Eigen::Matr
 
 }  // namespace
 
+MarkerRegistry some_markers(int aside, double spacing_m, double ceiling_m, Random& random) {
+  MarkerRegistry registry;
+  constexpr int id_step = 797;  // coprime to 4096: no ID comes twice
+  const auto first_id = static_cast<int>(random.below(marker_id_count));
+  for (int i = 0; i < aside * aside; ++i) {
+    const int row = i / aside;
+    const Vec2 place(i % aside - 0.5 * (aside - 1), row - 0.5 * (aside - 1));
+    const Vec2 shift(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+    const Vec2 at = spacing_m * place + shift;
+    registry.markers.push_back({.id = (first_id + i * id_step) % marker_id_count,
+                                .position_m = {at.x(), at.y(), ceiling_m},
+                                .yaw_rad = some_angle(random)});
+  }
+  return registry;
+}
+
 HardScene some_hard_scene(HardFrames kind, Random& random) {
   HardScene scene;
   scene.ceiling_m = random.uniform(1.5, 4.0);
@@ -115,19 +132,15 @@ HardScene some_hard_scene(HardFrames kind, Random& random) {
   return scene;
 }
 
+BenchView some_tilted_view(const HardScene& scene, Random& random) {
+  return view_of_ceiling(scene, some_tilt(random), random);
+}
+
 BenchView some_hard_view(HardFrames kind, const HardScene& scene, Random& random) {
-  constexpr double most_tilt = radians(10.0);
-  const Eigen::Matrix3d tilt =
-      rotation_from({random.uniform(-most_tilt, most_tilt) / std::numbers::sqrt2,
-                     random.uniform(-most_tilt, most_tilt) / std::numbers::sqrt2, 0.0});
-  const Eigen::Matrix3d rotation = rotation_from({0.0, 0.0, some_angle(random)}) * tilt;
+  const Eigen::Matrix3d rotation = some_tilt(random);
   if (kind == HardFrames::direction_dot_lost) return view_without_a_direction_dot(scene, rotation, random);
 
-  const Vec3 looked_at(random.uniform(-scene.reach_m, scene.reach_m),
-                       random.uniform(-scene.reach_m, scene.reach_m), scene.ceiling_m);
-  const CameraModel camera = bench_camera();
-  BenchView view;
-  view.map_from_camera = camera_that_sees(looked_at, {camera.cx_px, camera.cy_px}, rotation, scene.ceiling_m);
+  BenchView view = view_of_ceiling(scene, rotation, random);
   if (kind == HardFrames::adverse && random.below(2) == 0) {
     const RegisteredMarker& marker = scene.registry.markers[random.below(scene.registry.markers.size())];
     const Vec3 off(random.uniform(-0.12, 0.12), random.uniform(-0.12, 0.12), 0.0);

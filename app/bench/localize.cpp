@@ -136,12 +136,12 @@ const SweepPlan& plan_of(const std::string& name) {
 ScenePoint measure(const BenchScene& scene, const MethodChoice& choice, int trials, std::uint64_t seed) {
   const Random random(seed);
   const MarkerRegistry registry = bench_registry(scene, random.stream(markers_of_scene));
-  const CameraModel camera = bench_camera();
+  const CameraModel camera = camera_of(scene);
   Random views = random.stream(views_of_scene);
   ImageFormer ours(registry, camera, light_of(scene), random.stream(ceiling_of_scene).bits());
   ImageFormer former = ours;
   const std::unique_ptr<BenchMethod> method = choice.make();
-  method->install(registry, former);
+  method->install(registry, camera, former);
 
   ScenePoint point;
   Score upright;

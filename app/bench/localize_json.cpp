@@ -46,6 +46,7 @@ Json counts_json(const FrameCounts& counts) {
   }
   return {{"frames", counts.frames},
           {"markers_in_full_view", counts.markers},
+          {"read_in_full_view", counts.read},
           {"read_right", counts.right},
           {"read_wrong", counts.wrong},
           {"frames_with_wrong", counts.frames_with_wrong},
@@ -88,6 +89,8 @@ Json bench_localize_json(const BenchLocalizeResult& result) {
                                           {"empty", counts_json(counts.empty)},
                                           {"direction_dot_lost", counts_json(counts.direction_dot_lost)}};
   }
+  json["megapixel"] = point_json(result.megapixel);
+  for (const CeilingCounts& row : result.ceilings) json["ceilings"][row.name] = counts_json(row.counts);
   json["consistency"] = Json::array();
   for (const Consistency& one : result.consistency) {
     json["consistency"].push_back({{"conditions", one.conditions},

@@ -1,5 +1,6 @@
 #include "app/bench/localize_report.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -57,6 +58,12 @@ Table scene_table(const BenchLocalizeResult& result, const std::string& title,
   return table;
 }
 
+Table megapixel_table(const BenchLocalizeResult& result) {
+  Table table = points_table("Three markers in 1280 x 1024 pixels");
+  table.rows.push_back(point_row(result.methods.front().name, result.megapixel));
+  return table;
+}
+
 Table tried_table(const BenchLocalizeResult& result) {
   Table table = points_table("Settings of the peers, 0.5 m off axis: the best of each is kept");
   for (const TriedSettings& tried : result.tried)
@@ -76,6 +83,19 @@ Table counts_table(const BenchLocalizeResult& result) {
                           fmt::format("{}", counts.adverse.wrong), fmt::format("{}", counts.empty.wrong),
                           fmt::format("{}", counts.direction_dot_lost.right),
                           fmt::format("{}", counts.direction_dot_lost.wrong)});
+  }
+  return table;
+}
+
+Table ceilings_table(const BenchLocalizeResult& result) {
+  Table table{"Markers read by kind of ceiling, all bright but the last three",
+              {"", "frames", "markers in full view", "read", "wrong IDs"},
+              {}};
+  for (const CeilingCounts& row : result.ceilings) {
+    const double share = 100.0 * row.counts.read / std::max(row.counts.markers, 1);
+    table.rows.push_back({row.name, fmt::format("{}", row.counts.frames),
+                          fmt::format("{}", row.counts.markers), fmt::format("{:.2f} %", share),
+                          fmt::format("{}", row.counts.wrong)});
   }
   return table;
 }
@@ -122,7 +142,9 @@ std::vector<Table> tables_of(const BenchLocalizeResult& result) {
                             scene_table(result, "One marker above the camera", result.centred),
                             scene_table(result, "One marker 0.7 m aside", result.off_axis),
                             scene_table(result, "Three markers in view", result.three),
+                            megapixel_table(result),
                             counts_table(result),
+                            ceilings_table(result),
                             reliability_table(result),
                             consistency_table(result)};
   if (!result.tried.empty()) tables.push_back(tried_table(result));

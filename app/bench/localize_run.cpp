@@ -36,7 +36,8 @@ class Work {
     const auto methods = static_cast<double>(1 + options.peers.size());
     double points = 3.0 * methods + 4.0 * static_cast<double>(options.peers.size());
     for (const std::string& sweep : options.sweeps) points += methods * static_cast<double>(points_of(sweep));
-    return points * options.trials + 3.0 * methods * options.frames +
+    const auto rows = static_cast<double>(ceiling_rows());
+    return points * options.trials + (3.0 * methods + rows) * options.frames +
            static_cast<double>(consistency_conditions()) * consistency_frames(options);
   }
 
@@ -78,6 +79,9 @@ void measure_points(BenchLocalizeResult& result, Work& work) {
     result.three.push_back(measure(three, method, frames, seed));
     work.did(3.0 * trials);
   }
+  BenchScene megapixel = three;
+  megapixel.megapixel = true;
+  result.megapixel = measure(megapixel, result.methods.front(), trials, seed);
 }
 
 void count_hard_frames(BenchLocalizeResult& result, Work& work) {
@@ -90,6 +94,13 @@ void count_hard_frames(BenchLocalizeResult& result, Work& work) {
     result.counts.push_back({method.name, count(HardFrames::adverse), count(HardFrames::empty),
                              count(HardFrames::direction_dot_lost)});
   }
+}
+
+/// Of ours only: a peer's black square would hide the structure that is in question.
+void count_on_ceilings(BenchLocalizeResult& result, Work& work) {
+  const BenchLocalizeOptions& options = result.options;
+  result.ceilings = count_ceilings(result.methods.front(), options.frames, options.seed,
+                                   [&](int frames) { work.did(frames); });
 }
 
 /// Table 1's experiment with `frames` frames, in batches that show every ID.
@@ -129,6 +140,8 @@ void judge(BenchLocalizeResult& result) {
   };
   at_most("3 markers: detect, decode and pose over cv::threshold", ratio(three.median_us, three.threshold_us),
           4.0, "x");
+  at_most("3 markers in 1280 x 1024 pixels: the same",
+          ratio(result.megapixel.median_us, result.megapixel.threshold_us), 4.0, "x");
   at_least("centred: frames with a pose", 100.0 * centred.upright.poses / centred.markers, 99.5, "%");
   at_most("centred: lateral RMS", mm_per_m * centred.upright.lateral_m, 0.05, "mm");
   at_most("centred: lateral RMS over the bound",
@@ -149,6 +162,11 @@ void judge(BenchLocalizeResult& result) {
   at_most("hard frames: wrong IDs", counts.adverse.wrong, 0.0, "");
   at_most("frames without markers: markers", counts.empty.wrong, 0.0, "");
   at_most("direction dot hidden or cut: wrong IDs", counts.direction_dot_lost.wrong, 0.0, "");
+  for (const CeilingCounts& row : result.ceilings) {
+    at_least(row.name + ": markers read", 100.0 * row.counts.read / std::max(row.counts.markers, 1),
+             row.dots_touch ? 90.0 : 99.5, "%");
+    at_most(row.name + ": wrong IDs", row.counts.wrong, 0.0, "");
+  }
 }
 
 }  // namespace
@@ -165,6 +183,7 @@ BenchLocalizeResult bench_localize(const BenchLocalizeOptions& options,
     result.sweeps.push_back(run_sweep(name, result.methods, options.trials, options.seed, done));
   }
   count_hard_frames(result, work);
+  count_on_ceilings(result, work);
   result.consistency = measure_consistency(consistency_frames(options), options.seed,
                                            [&work](int frames) { work.did(frames); });
   judge(result);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/bench/ceilings.hpp"
 #include "app/bench/consistency.hpp"
 #include "app/bench/counts.hpp"
 #include "app/bench/localize.hpp"
@@ -41,6 +42,8 @@ struct BenchLocalizeResult {
   std::vector<ScenePoint> off_axis;   ///< by method: the same 0.7 m aside
   std::vector<ScenePoint> three;      ///< by method: three markers in view
   std::vector<MethodCounts> counts;
+  std::vector<CeilingCounts> ceilings;   ///< ours, kind by kind
+  ScenePoint megapixel;                  ///< ours: three markers in an image of 1280 x 1024 pixels
   std::vector<Consistency> consistency;  ///< of our poses
   std::vector<Target> targets;
   std::vector<Sweep> sweeps;

@@ -1,6 +1,5 @@
 #include "app/bench/method.hpp"
 
-#include "app/bench/scene.hpp"
 #include "app/bench/square_tags.hpp"
 #include "app/common/stopwatch.hpp"
 #include "localization/detection/marker_detector.hpp"
@@ -19,9 +18,9 @@ std::vector<ReadMarker> readings_of(std::span<const DetectedMarker> markers) {
 
 class Lodestar final : public BenchMethod {
  public:
-  void install(const MarkerRegistry& registry, ImageFormer& /*former*/) override {
+  void install(const MarkerRegistry& registry, const CameraModel& camera, ImageFormer& /*former*/) override {
     detector_ = MarkerDetector(expecting(registry));
-    fixer_.emplace(registry, bench_camera());
+    fixer_.emplace(registry, camera);
   }
 
   [[nodiscard]] int id_at(const MarkerRegistry& registry, std::size_t i) const override {

@@ -35,7 +35,7 @@ class BenchMethod {
 
   /// Replaces the registry's markers on the ceiling by the method's own, at the same poses, and prepares it
   /// to expect them.
-  virtual void install(const MarkerRegistry& registry, ImageFormer& former) = 0;
+  virtual void install(const MarkerRegistry& registry, const CameraModel& camera, ImageFormer& former) = 0;
 
   /// The ID at the pose of the registry's i-th marker.
   [[nodiscard]] virtual int id_at(const MarkerRegistry& registry, std::size_t i) const = 0;

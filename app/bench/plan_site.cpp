@@ -5,50 +5,21 @@
 #include <memory>
 #include <optional>
 
+#include "app/bench/plan_queries.hpp"
 #include "app/common/stopwatch.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "maps/median.hpp"
-#include "maps/random.hpp"
 #include "planning/jump_search.hpp"
 
 namespace lodestar {
 namespace {
-
-struct Query {
-  Vec2 start_m;
-  Vec2 goal_m;
-};
 
 struct Answer {
   double microseconds = 0.0;
   std::optional<Path> path;
 };
 
-/// A uniformly random point of the map, not only cell centres.
-Vec2 random_place(const OccupancyMap& map, Random& random) {
-  const Vec2 in_grid(random.uniform(0.0, map.columns), random.uniform(0.0, map.rows));
-  return map.map_from_grid * Vec2(in_grid * map.resolution_m);
-}
-
-std::vector<Query> random_queries(const OccupancyMap& map, const CollisionChecker& space,
-                                  const SiteBenchOptions& options) {
-  constexpr int most_tries = 100000;
-  Random random(options.seed);
-  std::vector<Query> queries;
-  for (int i = 0; i < most_tries && static_cast<int>(queries.size()) < options.queries; ++i) {
-    const Query query{random_place(map, random), random_place(map, random)};
-    const Cell start = map.cell_at(query.start_m);
-    const Cell goal = map.cell_at(query.goal_m);
-    if (!space.at(start) || !space.at(goal) || space.region(start) != space.region(goal)) continue;
-    const Vec2 start_in_grid = inverse(map.map_from_grid) * query.start_m / map.resolution_m;
-    const Vec2 goal_in_grid = inverse(map.map_from_grid) * query.goal_m / map.resolution_m;
-    if (!space.along(start_in_grid, start_in_grid) || !space.along(goal_in_grid, goal_in_grid)) continue;
-    if ((query.goal_m - query.start_m).norm() >= options.least_distance_m) queries.push_back(query);
-  }
-  return queries;
-}
-
-Answer answer(const GridPlanner& planner, const Query& query) {
+Answer answer(const GridPlanner& planner, const PlanQuery& query) {
   PlanResult result = PlanFailure::no_path;
   Answer answer;
   answer.microseconds = microseconds_of([&] { result = planner.plan(query.start_m, query.goal_m); });
@@ -116,15 +87,16 @@ SiteBenchResult bench_site(const Site& site, const SiteBenchOptions& options) {
     planners.push_back(std::make_unique<GridPlanner>(map, planning));
   }
 
-  const std::vector<Query> queries = random_queries(map, space, options);
+  const std::vector<PlanQuery> queries =
+      random_queries(space, options.queries, options.least_distance_m, options.seed);
   std::vector<Collected> collected(planners.size());
   std::vector<double> grid_times;
-  for (const Query& query : queries) {
+  for (const PlanQuery& query : queries) {
     const Cell start = map.cell_at(query.start_m);
     const Cell goal = map.cell_at(query.goal_m);
     grid_times.push_back(microseconds_of([&] { (void)grid.find(start, goal); }));
   }
-  for (const Query& query : queries) {
+  for (const PlanQuery& query : queries) {
     std::vector<Answer> answers;
     for (const auto& planner : planners) answers.push_back(answer(*planner, query));
     collect(answers, planning.limits, collected);

@@ -53,6 +53,18 @@ CameraModel bench_camera() {
   return paper_camera();
 }
 
+CameraModel camera_of(const BenchScene& scene) {
+  CameraModel camera = bench_camera();
+  if (!scene.megapixel) return camera;
+  camera.width_px = 1280;
+  camera.height_px = 1024;
+  camera.fx_px *= 2.0;
+  camera.fy_px *= 2.0;
+  camera.cx_px = 639.5;
+  camera.cy_px = 511.5;
+  return camera;
+}
+
 MarkerRegistry bench_registry(const BenchScene& scene, Random random) {
   MarkerRegistry registry;
   for (int group = 0; group < groups_aside * groups_aside; ++group) {

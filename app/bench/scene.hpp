@@ -19,11 +19,15 @@ struct BenchScene {
   double covered = 0.0;       ///< share of the marker's side that is occluded, from a random side
   double off_axis_m = 0.0;    ///< distance of the marker from the optical axis, along the image's rows
   double texture_gray = 6.0;  ///< amplitude of the ceiling's texture
+  bool megapixel = false;     ///< 1280 x 1024 pixels of half the size in place of the paper's 640 x 480
   int markers = 1;            ///< in view: 1, or 3 in a triangle
 };
 
 /// The paper's.
 CameraModel bench_camera();
+
+/// The paper's, or one with the same lens and four times as many pixels.
+CameraModel camera_of(const BenchScene& scene);
 
 /// The centre of a marker's grid in the marker frame, and its outer side length, between the outer edges of
 /// its dots.

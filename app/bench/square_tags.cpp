@@ -49,7 +49,7 @@ std::array<Vec3, 4> tag_corners() {
   return {Vec3(-h, h, 0.0), Vec3(h, h, 0.0), Vec3(h, -h, 0.0), Vec3(-h, -h, 0.0)};
 }
 
-void SquareTags::install(const MarkerRegistry& registry, ImageFormer& former) {
+void SquareTags::install(const MarkerRegistry& registry, const CameraModel& /*camera*/, ImageFormer& former) {
   former.take_markers_down();
   for (std::size_t i = 0; i < registry.markers.size(); ++i) {
     const TagPattern tag = pattern(id_at(registry, i));

@@ -31,7 +31,7 @@ std::array<Vec3, 4> tag_corners();
 
 class SquareTags : public BenchMethod {
  public:
-  void install(const MarkerRegistry& registry, ImageFormer& former) override;
+  void install(const MarkerRegistry& registry, const CameraModel& camera, ImageFormer& former) override;
   [[nodiscard]] int id_at(const MarkerRegistry& /*registry*/, std::size_t i) const override {
     return static_cast<int>(i);
   }

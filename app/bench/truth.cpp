@@ -5,6 +5,14 @@
 #include "app/bench/scene.hpp"
 
 namespace lodestar {
+namespace {
+
+bool is_of(const ReadMarker& reading, const TrueMarker& marker) {
+  constexpr double near_px = 5.0;  // half a pitch from 3 m
+  return marker.id == reading.id && (marker.center_px - reading.center_px).norm() < near_px;
+}
+
+}  // namespace
 
 std::vector<TrueMarker> markers_in_view(const BenchMethod& method, const MarkerRegistry& registry,
                                         const Eigen::Isometry3d& map_from_camera, const CameraModel& camera) {
@@ -20,10 +28,11 @@ std::vector<TrueMarker> markers_in_view(const BenchMethod& method, const MarkerR
 }
 
 bool is_right(const ReadMarker& reading, const std::vector<TrueMarker>& truth) {
-  constexpr double near_px = 5.0;  // half a pitch from 3 m
-  return std::ranges::any_of(truth, [&](const TrueMarker& marker) {
-    return marker.id == reading.id && (marker.center_px - reading.center_px).norm() < near_px;
-  });
+  return std::ranges::any_of(truth, [&](const TrueMarker& marker) { return is_of(reading, marker); });
+}
+
+bool is_read(const TrueMarker& marker, const std::vector<ReadMarker>& readings) {
+  return std::ranges::any_of(readings, [&](const ReadMarker& reading) { return is_of(reading, marker); });
 }
 
 ReadingCount judged(const std::vector<ReadMarker>& readings, const std::vector<TrueMarker>& truth) {

@@ -24,6 +24,9 @@ struct ReadingCount {
 /// A reading is right when a true marker of that ID has its centre within 5 px.
 bool is_right(const ReadMarker& reading, const std::vector<TrueMarker>& truth);
 
+/// Is one of the readings right about this marker?
+bool is_read(const TrueMarker& marker, const std::vector<ReadMarker>& readings);
+
 ReadingCount judged(const std::vector<ReadMarker>& readings, const std::vector<TrueMarker>& truth);
 
 }  // namespace lodestar

@@ -1,10 +1,14 @@
 #include "app/campaign/campaign.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <mutex>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_site.hpp"
@@ -19,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum MissionPurpose : std::uint64_t { building = 1, faults };
+enum MissionPurpose : std::uint64_t { building = 1, faults, registry_errors };
 
 std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
   std::map<std::uint64_t, MissionOutcome> outcomes;
@@ -38,6 +42,31 @@ std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
   }
   return outcomes;
 }
+
+/// Holds the file of outcomes against other campaigns, which would mix their lines with ours.
+class SoleWriter {
+ public:
+  /// Makes the file unless it is to be resumed.
+  SoleWriter(const fs::path& file, bool resume) {
+    constexpr mode_t readable_by_all = 0644;
+    const int flags = O_RDWR | O_CREAT | O_CLOEXEC | (resume ? 0 : O_EXCL);
+    descriptor_ = ::open(file.c_str(), flags, readable_by_all);
+    if (descriptor_ < 0 && errno == EEXIST) {
+      throw InputError(file, 0, "the outcomes of an earlier campaign",
+                       "--resume to continue it, or another folder with -o");
+    }
+    if (descriptor_ < 0) throw InputError(file, 0, "a file that cannot be written", "one that can");
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    ::close(descriptor_);
+    throw InputError(file, 0, "another campaign that writes there now", "another folder with -o");
+  }
+  ~SoleWriter() { ::close(descriptor_); }
+  SoleWriter(const SoleWriter&) = delete;
+  SoleWriter& operator=(const SoleWriter&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
 
 /// Time from the start of the fault to the first notice or refused fix of the navigator.
 std::optional<double> noticed_after_s(const RunRecord& record) {
@@ -75,6 +104,21 @@ std::optional<double> stopped_within_m(const RunRecord& record) {
   return longest;
 }
 
+/// Half of the missions drive under a registry that is not quite true, as if measured by tape or laser; in
+/// half of those it says how well it was measured.
+void spoil_registry(CampaignMission& mission, Random random) {
+  if (random.uniform() < 0.5) return;
+  Disturbances& by = mission.replay.disturbances;
+  by.misplaced_m = random.uniform(0.001, 0.01);
+  by.misturned_rad = radians(random.uniform(0.1, 1.0));
+  by.tilted_rad = radians(random.uniform(0.0, 1.0));
+  constexpr double print_sigma = 0.002;
+  by.print_scale = 1.0 + print_sigma * random.normal();
+  if (random.uniform() < 0.5) return;
+  for (RegisteredMarker& marker : mission.site.registry.markers)
+    marker.sigma = MarkerSigma{by.misplaced_m, by.misturned_rad};
+}
+
 }  // namespace
 
 std::vector<int> campaign_ids() {
@@ -90,6 +134,7 @@ CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>
                     .seed = number,
                     .goals = mission.site.goals,
                     .faults = random_faults(random.stream(faults).bits())};
+  spoil_registry(mission, random.stream(registry_errors));
   return mission;
 }
 
@@ -114,7 +159,7 @@ nlohmann::ordered_json as_json(const MissionOutcome& outcome) {
   return {{"mission", outcome.mission},
           {"faults", outcome.faults},
           {"arrived", outcome.arrived},
-          {"error_m", outcome.error_m},
+          {"error_m", optional(outcome.arrived ? std::optional(outcome.error_m) : std::nullopt)},
           {"failure", outcome.failure},
           {"contacts", outcome.contacts},
           {"driven_s", outcome.driven_s},
@@ -130,7 +175,7 @@ MissionOutcome outcome_from(const nlohmann::json& json) {
   return {.mission = json.at("mission").get_ref<const nlohmann::json::number_unsigned_t&>(),
           .faults = json.at("faults"),
           .arrived = json.at("arrived"),
-          .error_m = json.at("error_m"),
+          .error_m = optional("error_m").value_or(0.0),
           .failure = json.at("failure"),
           .contacts = static_cast<int>(whole_number(json.at("contacts"), most_contacts)),
           .driven_s = json.at("driven_s"),
@@ -143,29 +188,38 @@ std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const Ca
   std::error_code error;
   fs::create_directories(folder, error);
   const fs::path file = folder / "missions.jsonl";
+  const SoleWriter sole_writer(file, options.resume);
   auto known = options.resume ? outcomes_in(file) : std::map<std::uint64_t, MissionOutcome>();
-  std::ofstream log(file, options.resume ? std::ios::app : std::ios::trunc);
-  if (!log) throw InputError(file, 0, "a file that cannot be written", "one that can");
+  std::ofstream log(file, std::ios::app);
 
   const std::vector<int> ids = campaign_ids();
-  std::vector<MissionOutcome> outcomes(static_cast<std::size_t>(options.missions));
+  std::vector<std::optional<MissionOutcome>> outcomes(static_cast<std::size_t>(options.missions));
+  const auto is_over = [&] { return options.goes_on && !options.goes_on(); };
   std::mutex mutex;
   int finished = 0;
   in_parallel(options.missions, [&](int i) {
     const std::uint64_t number = options.first + static_cast<std::uint64_t>(i);
-    MissionOutcome& outcome = outcomes[static_cast<std::size_t>(i)];
+    std::optional<MissionOutcome>& outcome = outcomes[static_cast<std::size_t>(i)];
     const auto before = known.find(number);
     if (before != known.end()) {
       outcome = before->second;
     } else {
-      const CampaignMission mission = mission_of(robot_and_cameras, ids, number);
-      outcome = outcome_of(number, simulate_drive(mission.site, mission.replay));
+      if (is_over()) return;
+      CampaignMission mission = mission_of(robot_and_cameras, ids, number);
+      mission.replay.goes_on = options.goes_on;
+      const RunRecord record = simulate_drive(mission.site, mission.replay);
+      if (is_over()) return;  // perhaps in the middle of this mission
+      outcome = outcome_of(number, record);
     }
     const std::lock_guard lock(mutex);
-    if (before == known.end()) log << as_json(outcome).dump() << "\n" << std::flush;
+    if (before == known.end()) log << as_json(*outcome).dump() << "\n" << std::flush;
+    if (!log) throw InputError(file, 0, "a file that cannot be written", "one that can");
     done(static_cast<double>(++finished) / options.missions);
   });
-  return outcomes;
+  std::vector<MissionOutcome> whole;
+  for (std::optional<MissionOutcome>& outcome : outcomes)
+    if (outcome) whole.push_back(std::move(*outcome));
+  return whole;
 }
 
 }  // namespace lodestar

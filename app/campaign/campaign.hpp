@@ -45,12 +45,14 @@ MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record);
 struct CampaignOptions {
   std::uint64_t first = 1;  ///< number of the first mission
   int missions = 100;
-  bool resume = false;  ///< skip the missions that missions.jsonl already has
+  bool resume = false;                 ///< skip the missions that missions.jsonl already has
+  std::function<bool()> goes_on = {};  ///< asked before and after each mission; false: no more begin
 };
 
 /// Runs the missions on all cores. Each outcome is appended to `folder`/missions.jsonl at once, so that an
 /// interrupted campaign can be resumed. `done` is called after each, from any thread, with the completed
-/// share. Returns the outcomes by ascending number. Throws InputError when the folder cannot be written.
+/// share. Returns the outcomes that there are by ascending number. Throws InputError when the folder cannot
+/// be written, when it has outcomes that are not to be resumed, or when another campaign writes there.
 std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const CampaignOptions& options,
                                          const std::filesystem::path& folder,
                                          const std::function<void(double)>& done);

@@ -175,6 +175,7 @@ std::vector<Command> bench_commands(CLI::App& lodestar) {
   paper_command->add_flag("--json", arguments->json, "As JSON");
   return {{paper_command, [arguments] { return paper(*arguments); }},
           bench_localize_command(*bench),
+          bench_survey_command(*bench),
           bench_plan_command(*bench)};
 }
 

@@ -5,8 +5,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/plan_maps.hpp"
 #include "app/bench/plan_scenario.hpp"
 #include "app/bench/plan_site.hpp"
+#include "app/commands/bench_plan_map.hpp"
 #include "app/commands/planner_options.hpp"
 #include "maps/input_error.hpp"
 #include "maps/median.hpp"
@@ -19,6 +21,9 @@ struct BenchPlanArguments {
   std::string scenario;
   std::string site;
   std::vector<std::string> planners;
+  std::string generated;
+  double radius_m = 0.25;
+  double beside_s = 0.0;
   SiteBenchOptions bench;
   bool json = false;
 };
@@ -93,30 +98,68 @@ ExitCode bench_planners(BenchPlanArguments arguments) {
   return done;
 }
 
+/// One planner, `fastest` unless another is given.
+ExitCode bench_map(const BenchPlanArguments& arguments) {
+  BenchPlanMapArguments wanted{.map = arguments.map,
+                               .generated = arguments.generated,
+                               .json = arguments.json,
+                               .beside_s = arguments.beside_s};
+  if (arguments.planners.size() > 1)
+    throw InputError("bench plan: found several --planner, wanted one for a single map");
+  wanted.bench.queries = arguments.bench.queries;
+  wanted.bench.seed = arguments.bench.seed;
+  wanted.bench.planner.radius_m = arguments.radius_m;
+  wanted.bench.planner.sampling = arguments.bench.sampling;
+  wanted.bench.planner.kind =
+      arguments.planners.empty() ? PlannerKind::fastest : planner_kind(arguments.planners.front()).value();
+  bench_on_map(wanted);
+  return done;
+}
+
 }  // namespace
 
 Command bench_plan_command(CLI::App& bench) {
   const auto arguments = std::make_shared<BenchPlanArguments>();
   CLI::App* command = bench.add_subcommand(
-      "plan", "Planners on a MovingAI scenario, exit 1 unless all is optimal; or side by side on a site");
-  CLI::Option* map = command->add_option("--map", arguments->map, "MovingAI map");
+      "plan",
+      "Planners on a MovingAI scenario, exit 1 unless all is optimal; on any map; or side by side on a site");
+  CLI::Option* map = command->add_option(
+      "--map", arguments->map, "MovingAI map with --scen, else map_server YAML: random queries over it");
   CLI::Option* scenario = command->add_option("--scen", arguments->scenario, "MovingAI scenario");
   CLI::Option* site =
       command->add_option("--site", arguments->site, "Site folder: random queries over its map");
-  map->needs(scenario)->excludes(site);
+  CLI::Option* generated =
+      command->add_option("--generated", arguments->generated, "A map drawn from the seed instead");
+  generated->check(CLI::IsMember(generated_map_names()))->excludes(map)->excludes(site)->excludes(scenario);
+  map->excludes(site);
   scenario->needs(map)->excludes(site);
-  command->add_option("--queries", arguments->bench.queries, "Random queries over the site")
+  command->add_option("--queries", arguments->bench.queries, "Random queries over the map")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--seed", arguments->bench.seed, "Seed of the queries")->capture_default_str();
+  command->add_option("--seed", arguments->bench.seed, "Seed of the queries, and of a generated map")
+      ->capture_default_str();
+  command->add_option("--radius", arguments->radius_m, "Robot radius in metres; a site has its own")
+      ->check(CLI::Range(0.0, 10.0))
+      ->excludes(site)
+      ->excludes(scenario)
+      ->capture_default_str();
+  command
+      ->add_option("--beside-loop", arguments->beside_s,
+                   "Plan beside a control loop of 20 ms for so many seconds, and print its periods")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->excludes(site)
+      ->excludes(scenario);
   add_sampling_options(*command, arguments->bench.sampling);
-  command->add_option("--planner", arguments->planners, "Only these planners; default: all")
+  command
+      ->add_option("--planner", arguments->planners, "Only these planners; default: all, on one map fastest")
       ->check(CLI::IsMember(planner_names()));
-  command->add_flag("--json", arguments->json, "The site's table as JSON");
+  command->add_flag("--json", arguments->json, "The table of a site or a map as JSON");
   return {command, [arguments] {
             if (!arguments->site.empty()) return bench_planners(*arguments);
-            if (!arguments->map.empty()) return bench_scenario(*arguments);
-            throw InputError("bench plan: found neither, wanted --map and --scen, or --site");
+            if (!arguments->scenario.empty()) return bench_scenario(*arguments);
+            if (!arguments->map.empty() || !arguments->generated.empty()) return bench_map(*arguments);
+            throw InputError(
+                "bench plan: found none, wanted --map and --scen, --map alone, --generated, or --site");
           }};
 }
 

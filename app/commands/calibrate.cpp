@@ -10,8 +10,10 @@
 #include "app/site/robot_mount.hpp"
 #include "app/site/site.hpp"
 #include "maps/atomic_file.hpp"
+#include "maps/camera_file.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 
 namespace lodestar {
 namespace {
@@ -24,6 +26,16 @@ struct CameraArguments {
   std::vector<std::string> images;
 };
 
+/// What other programs keep in the camera file that is replaced; nothing when there is none, or it cannot be
+/// read.
+std::string other_keys_in(const std::filesystem::path& file) {
+  try {
+    return is_file(file) ? read_camera_file(file).other_keys : "";
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
 ExitCode calibrate_camera_from_images(const CameraArguments& arguments) {
   const CameraSet set = read_camera_set(arguments.images, arguments.board);
   const CameraCalibration calibration =
@@ -35,7 +47,7 @@ ExitCode calibrate_camera_from_images(const CameraArguments& arguments) {
   }
   if (!calibration.flaws.empty()) return job_failed;
   const std::filesystem::path output(arguments.output);
-  save_camera(calibration.fit->camera, output.stem().string(), output);
+  save_camera(calibration.fit->camera, output.stem().string(), output, other_keys_in(output));
   fmt::print(stderr, "lodestar: wrote {}\n", arguments.output);
   return done;
 }

@@ -8,6 +8,7 @@
 #include "app/campaign/campaign_report.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/recorded_run.hpp"
+#include "app/common/interruption.hpp"
 #include "app/common/progress.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
@@ -51,7 +52,8 @@ ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const fs::
   record.repeat = repeat_command(outcome);
   const RunFolderEnd end = recorded.finish(record);
   if (!end.loss.empty()) throw InputError(end.loss);
-  fmt::print("{}\nrun folder: {}\n", as_json(outcome).dump(2), recorded.folder().string());
+  fmt::print("{}\n", as_json(outcome).dump(2));
+  fmt::print(stderr, "run folder: {}\n", recorded.folder().string());
   return verdict({outcome});
 }
 
@@ -59,12 +61,16 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
   const Site site =
       load_site(arguments.site.empty() ? fs::path(LODESTAR_SITES_DIR) / "lab" : fs::path(arguments.site));
   if (arguments.mission) return run_one(site, *arguments.mission, arguments.output);
+  const Interruption interruption;
   std::vector<MissionOutcome> outcomes;
   {
     Progress progress("campaign", arguments.quiet);
-    outcomes = run_campaign(
-        site, {.first = arguments.first, .missions = arguments.missions, .resume = arguments.resume},
-        arguments.output, [&progress](double share) { progress.show(share); });
+    outcomes = run_campaign(site,
+                            {.first = arguments.first,
+                             .missions = arguments.missions,
+                             .resume = arguments.resume,
+                             .goes_on = [] { return !Interruption::asked(); }},
+                            arguments.output, [&progress](double share) { progress.show(share); });
   }
   const nlohmann::ordered_json report = campaign_json(outcomes);
   write_file_atomically(fs::path(arguments.output) / "campaign.json", report.dump(2) + "\n");
@@ -76,6 +82,11 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
              all["missions"].get<int>(), all["arrivals"].get<int>(), all["safe_stops"].get<int>(),
              all["contacts"].get<int>(), all["silently_wrong"].get<int>(),
              (fs::path(arguments.output) / "campaign.html").string());
+  if (outcomes.size() < static_cast<std::size_t>(arguments.missions)) {
+    fmt::print(stderr, "lodestar: interrupted after {} of {} missions; --resume continues\n", outcomes.size(),
+               arguments.missions);
+    return job_failed;
+  }
   return verdict(outcomes);
 }
 

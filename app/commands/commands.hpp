@@ -15,12 +15,15 @@ std::vector<Command> plan_commands(CLI::App& lodestar);
 std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
 std::vector<Command> marker_file_commands(CLI::App& markers);  ///< convert, print: subcommands of `markers`
+Command marker_trust_command(CLI::App& markers);
 std::vector<Command> serve_commands(CLI::App& lodestar);
 std::vector<Command> soak_commands(CLI::App& lodestar);
 std::vector<Command> calibrate_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
 Command bench_localize_command(CLI::App& bench);
+Command bench_survey_command(CLI::App& bench);
 std::vector<Command> run_commands(CLI::App& lodestar);
+std::vector<Command> survey_commands(CLI::App& lodestar);
 std::vector<Command> doctor_commands(CLI::App& lodestar);
 
 }  // namespace lodestar

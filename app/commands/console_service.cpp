@@ -1,10 +1,9 @@
 #include "app/commands/console_service.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include "app/common/log.hpp"
+#include "app/common/low_priority.hpp"
 #include "app/viewers/foxglove_view.hpp"
 #include "drivers/system/clock.hpp"
 
@@ -22,33 +21,42 @@ std::vector<SocketProtocol> protocols_of(const std::vector<std::unique_ptr<LiveC
 
 }  // namespace
 
-ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* link)
+ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* link, const LiveSurvey* survey)
     : documents_(options.site, options.runs), link_(link) {
-  channels_.push_back(std::make_unique<LiveView>(documents_.site(), link, options.live));
+  channels_.push_back(std::make_unique<LiveView>(documents_.site(), link, survey, options.live));
   channels_.push_back(std::make_unique<FoxgloveView>(documents_.site()));
   documents_.on_saved_markers([this](const MarkerRegistry& saved) {
     log_info(fmt::format("{} markers were saved through the console", saved.markers.size()));
     for (const auto& channel : channels_) channel->take_markers(saved);
   });
   server_ = std::make_unique<HttpServer>(
-      HttpServerOptions{.access = options.access},
+      HttpServerOptions{.access = options.access, .takes_long = DocumentApi::takes_long},
       [this](const HttpRequest& request) { return documents_.answer(request); }, protocols_of(channels_));
 }
 
 void ConsoleService::serve_a_turn() {
-  server_->run_for(turn);
+  attempt([this] { server_->run_for(turn); });
   const std::optional<RobotState> fresh = link_ != nullptr ? link_->newest() : std::nullopt;
   const Stamp now = monotonic_now();
-  for (const auto& channel : channels_) channel->pump(now, fresh ? &*fresh : nullptr);
+  for (const auto& channel : channels_) attempt([&] { channel->pump(now, fresh ? &*fresh : nullptr); });
   const bool watched =
       std::ranges::any_of(channels_, [](const auto& channel) { return channel->is_watched(); });
   if (watched && link_ != nullptr) link_->want_state();
 }
 
+void ConsoleService::attempt(const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const std::exception& error) {
+    if (last_error_ == error.what()) return;
+    last_error_ = error.what();
+    log_warning(fmt::format("console: {}", last_error_));
+  }
+}
+
 ConsoleThread::ConsoleThread(ConsoleService& service)
     : thread_([this, &service] {
-        constexpr int niceness = 10;
-        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness);  // of this thread alone, on Linux
+        lower_priority_of_this_thread();
         while (!ended_) service.serve_a_turn();
       }) {}
 

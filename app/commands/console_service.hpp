@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -21,20 +22,25 @@ struct ConsoleServiceOptions {
 /// The console service: the document API and the live channels.
 class ConsoleService {
  public:
-  /// `link`: the robot to show; null when there is none. Throws InputError for an unusable site or address.
-  ConsoleService(const ConsoleServiceOptions& options, LiveLink* link);
+  /// `link`: the robot to show, `survey`: the one under way; null when there is none. Throws InputError for
+  /// an unusable site or address.
+  ConsoleService(const ConsoleServiceOptions& options, LiveLink* link, const LiveSurvey* survey = nullptr);
 
   [[nodiscard]] unsigned short port() const { return server_->port(); }
 
-  /// One turn of about 50 ms: serves all clients, then sends them what is new.
+  /// One turn of about 50 ms: serves all clients, then sends them what is new. An exception costs its step of
+  /// the turn and is logged; it never ends the program, which may be driving a robot.
   void serve_a_turn();
 
  private:
+  void attempt(const std::function<void()>& step);
+
   DocumentApi documents_;
   LiveLink* link_;
   std::vector<std::unique_ptr<LiveChannel>>
       channels_;  ///< declared before the server, whose sessions refer to them
   std::unique_ptr<HttpServer> server_;
+  std::string last_error_;  ///< logged once, not in every turn
 };
 
 /// Serves on a thread of its own, with lower priority than the control loop, for the lifetime of this object.

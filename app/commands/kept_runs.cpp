@@ -6,13 +6,11 @@
 #include "maps/input_error.hpp"
 
 namespace lodestar {
-namespace {
 
-void warn(const std::string& loss) {
+void KeptRuns::warn(const std::string& loss) {
+  has_loss_ = true;
   log_warning("the run is not recorded as a whole: " + loss);
 }
-
-}  // namespace
 
 KeptRuns::KeptRuns(std::filesystem::path first, bool replaces_first, const Site& site, std::string camera,
                    RunFolderOptions options)
@@ -21,12 +19,13 @@ KeptRuns::KeptRuns(std::filesystem::path first, bool replaces_first, const Site&
       site_(site),
       camera_(std::move(camera)),
       options_(std::move(options)),
-      writer_({.most_waiting = 4, .tell = warn}, [](const Ended& ended) {
-        const RunFolderEnd end = ended.run->finish(ended.record);
-        if (!end.loss.empty()) warn(end.loss);
-        if (end.has_report) log_info("run folder: " + ended.run->folder().string());
-      }) {
-  options_.tell = warn;
+      writer_({.most_waiting = 4, .tell = [this](const std::string& loss) { warn(loss); }},
+              [this](const Ended& ended) {
+                const RunFolderEnd end = ended.run->finish(ended.record);
+                if (!end.loss.empty()) warn(end.loss);
+                if (end.has_report) log_info("run folder: " + ended.run->folder().string());
+              }) {
+  options_.tell = [this](const std::string& loss) { warn(loss); };
 }
 
 DriveWatcher KeptRuns::watcher() {
@@ -69,6 +68,11 @@ void KeptRuns::keep(RunRecord record) {
   ++count_;
   watcher_ = {};
   if (run_) writer_.put({std::exchange(run_, nullptr), std::move(record)});
+}
+
+bool KeptRuns::finish() {
+  (void)writer_.finish();
+  return !has_loss_;
 }
 
 }  // namespace lodestar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -26,6 +27,10 @@ class KeptRuns {
   /// no further drive is recorded.
   void keep(RunRecord record);
 
+  /// Call after the last drive: waits until all folders are complete. False when one of them, or a part of
+  /// it, is missing.
+  [[nodiscard]] bool finish();
+
   /// Number of drives that have ended.
   [[nodiscard]] int count() const { return count_; }
 
@@ -35,6 +40,7 @@ class KeptRuns {
     RunRecord record;
   };
 
+  void warn(const std::string& loss);
   [[nodiscard]] std::filesystem::path next_folder() const;
   void begin();
 
@@ -43,8 +49,9 @@ class KeptRuns {
   const Site& site_;
   std::string camera_;
   RunFolderOptions options_;
-  std::unique_ptr<RecordedRun> run_;  ///< of the present drive, if it is recorded
-  DriveWatcher watcher_;              ///< of run_
+  std::atomic<bool> has_loss_ = false;  // outlives run_, which tells of losses
+  std::unique_ptr<RecordedRun> run_;    ///< of the present drive, if it is recorded
+  DriveWatcher watcher_;                ///< of run_
   bool has_begun_ = false;
   int count_ = 0;
   BackgroundWriter<Ended> writer_;

@@ -241,6 +241,7 @@ std::vector<Command> markers_commands(CLI::App& lodestar) {
                                 {generate_command, [generated] { return generate(*generated); }},
                                 {check_command, [arguments] { return check(*arguments); }}};
   for (Command& command : marker_file_commands(*markers)) commands.push_back(std::move(command));
+  commands.push_back(marker_trust_command(*markers));
   return commands;
 }
 

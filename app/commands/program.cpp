@@ -1,6 +1,7 @@
 #include "app/commands/program.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fmt/core.h>
@@ -18,9 +19,10 @@ namespace {
 
 std::vector<Command> all_commands(CLI::App& app) {
   std::vector<Command> all;
-  for (const auto make : {replay_commands, campaign_commands, soak_commands, localize_commands,
-                          detect_commands, plan_commands, map_commands, markers_commands, calibrate_commands,
-                          bench_commands, base_commands, run_commands, doctor_commands, serve_commands}) {
+  for (const auto make :
+       {replay_commands, campaign_commands, soak_commands, localize_commands, detect_commands, plan_commands,
+        map_commands, markers_commands, calibrate_commands, survey_commands, bench_commands, base_commands,
+        run_commands, doctor_commands, serve_commands}) {
     for (Command& command : make(app)) all.push_back(std::move(command));
   }
   return all;
@@ -77,6 +79,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int program(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond a limit to files, writing fails as on a full disk
   const int exit_code = run_program(argc, argv);
   const bool is_printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (is_printed) return exit_code;

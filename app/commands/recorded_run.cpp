@@ -31,7 +31,9 @@ RecordedRun::RecordedRun(std::filesystem::path folder, const Site& site, const s
       can_log_(folder_ / "can.log", {.interface = options.interface,
                                      .can_wait = options.can_wait,
                                      .tell = once(options.tell),
-                                     .disk = options.disk}) {}
+                                     .disk = options.disk}),
+      sighting_log_(folder_, site.robot, site.cameras.at(camera),
+                    {.can_wait = options.can_wait, .tell = once(options.tell), .disk = options.disk}) {}
 
 std::function<void(const std::string&)> RecordedRun::once(std::function<void(const std::string&)> tell) {
   if (!tell) return {};
@@ -41,7 +43,11 @@ std::function<void(const std::string&)> RecordedRun::once(std::function<void(con
 }
 
 DriveWatcher RecordedRun::watcher() {
-  return {.step = [this](const DriveMoment& moment) { mcap_.watch(moment); },
+  return {.step =
+              [this](const DriveMoment& moment) {
+                mcap_.watch(moment);
+                sighting_log_.take(moment.input);
+              },
           .can_frame = [this](const StampedCanFrame& frame) { can_log_.take(frame); }};
 }
 
@@ -53,6 +59,7 @@ RunFolderEnd RecordedRun::finish(const RunRecord& record) {
   mcap_.add_truth(record);
   remember(can_log_.finish());
   remember(mcap_.finish());
+  remember(sighting_log_.finish());
   remember(lost_pictures(record));
   try {
     if (disk_.is_full && disk_.is_full()) throw InputError("the disk is full");

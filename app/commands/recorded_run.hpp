@@ -7,6 +7,7 @@
 
 #include "app/common/background_writer.hpp"
 #include "app/recording/can_log.hpp"
+#include "app/recording/sighting_log.hpp"
 #include "app/site/site.hpp"
 #include "app/viewers/run_mcap.hpp"
 
@@ -26,11 +27,11 @@ struct RunFolderEnd {
   std::string loss;         ///< what is missing and why; empty when nothing is
 };
 
-/// The run folder of one drive, real or simulated: run.mcap and can.log grow while the robot drives and are
-/// readable as far as they go when the program dies; all else is written at the end.
+/// The run folder of one drive, real or simulated: run.mcap, can.log, dots.csv and wheels.csv grow while the
+/// robot drives and are readable as far as they go when the program dies; all else is written at the end.
 class RecordedRun {
  public:
-  /// Makes the folder and both files. Throws InputError when one of them cannot be made.
+  /// Makes the folder and these files. Throws InputError when one of them cannot be made.
   RecordedRun(std::filesystem::path folder, const Site& site, const std::string& camera,
               const RunFolderOptions& options);
 
@@ -51,6 +52,7 @@ class RecordedRun {
   std::atomic<bool> has_told_ = false;
   RunMcap mcap_;
   CanLog can_log_;
+  SightingLog sighting_log_;
 };
 
 }  // namespace lodestar

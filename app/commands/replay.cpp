@@ -7,6 +7,9 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/console_options.hpp"
 #include "app/commands/console_service.hpp"
+#include "app/commands/disturbance_options.hpp"
+#include "app/commands/driven_survey.hpp"
+#include "app/commands/explored_replay.hpp"
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/commands/planner_options.hpp"
@@ -16,6 +19,7 @@
 #include "app/common/progress.hpp"
 #include "app/live/operator_session.hpp"
 #include "app/navigation/navigation_setup.hpp"
+#include "app/report/run_folder.hpp"
 #include "app/simulate/fault_files.hpp"
 #include "app/simulate/run_table.hpp"
 #include "app/simulate/simulated_drive.hpp"
@@ -38,13 +42,16 @@ struct ReplayArguments {
   std::vector<std::string> goals;
   std::optional<double> pictures_hz;
   UncertaintyConstraintOptions uncertainty_constraint;
-  Disturbances disturbances;
+  DisturbanceArguments disturbances;
   std::string faults;
   bool realtime = false;
   bool quiet = false;
   bool json = false;
+  std::string state;
   std::string output;
   bool serve = false;
+  bool survey = false;
+  bool explore = false;
   ConsoleServiceOptions console;
 };
 
@@ -60,7 +67,7 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
                                 .goals = site.goals,
                                 .planner = planner_kind(arguments.planner).value(),
                                 .uncertainty_constraint = std::nullopt,
-                                .disturbances = arguments.disturbances,
+                                .disturbances = disturbances_of(arguments.disturbances),
                                 .disk = std::make_shared<SimulatedDisk>(),
                                 .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                                 .realtime = arguments.realtime};
@@ -74,20 +81,15 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
                                            visibility_options(site.robot), site.robot.radius_m);
     options.uncertainty_constraint = uncertainty_constraint(view, arguments.uncertainty_constraint);
   }
+  if (!arguments.state.empty()) {
+    StateFile file = load_state(arguments.state, state_owner(site, options.camera));
+    if (!file.warning.empty()) fmt::print(stderr, "lodestar: warning: {}\n", file.warning);
+    options.learned = std::move(file.state);
+  }
   if (arguments.goals.empty()) return options;
   options.goals.clear();
   for (const std::string& text : arguments.goals) options.goals.push_back(parse_goal("--goal", text));
   return options;
-}
-
-std::string disturbance_flags(const Disturbances& disturbances) {
-  std::string flags;
-  if (disturbances.lost_frames) flags += fmt::format(" --lose-frames {}", *disturbances.lost_frames);
-  if (disturbances.unequal_wheels) flags += fmt::format(" --unequal-wheels {}", *disturbances.unequal_wheels);
-  if (disturbances.removed_markers > 0.0)
-    flags += fmt::format(" --remove-markers {}", disturbances.removed_markers);
-  if (disturbances.plain_ceiling) flags += " --plain-ceiling";
-  return flags;
 }
 
 /// The command line that reproduces the run, byte for byte.
@@ -102,15 +104,18 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
   }
   if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
-  return command + disturbance_flags(options.disturbances);
+  return command + words_of(arguments.disturbances);
 }
 
 nlohmann::ordered_json as_json(const RunSummary& run) {
+  const auto optional = [](const std::optional<double>& value, double scale) {
+    return value ? nlohmann::ordered_json(scale * *value) : nlohmann::ordered_json(nullptr);
+  };
   return {{"seed", run.seed},
           {"goals", run.goals},
           {"arrivals", run.arrivals},
-          {"worst_position_m", run.worst_position_m},
-          {"worst_heading_deg", degrees(run.worst_heading_rad)},
+          {"worst_position_m", optional(run.worst_position_m, 1.0)},
+          {"worst_heading_deg", optional(run.worst_heading_rad, degrees(1.0))},
           {"path_p95_m", run.path_p95_m},
           {"contacts", run.contacts},
           {"drive_s", run.drive_s},
@@ -129,8 +134,10 @@ double cpu_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-ExitCode replay_many(const Site& site, const SimulatedDriveOptions& options,
-                     const ReplayArguments& arguments) {
+ExitCode replay_many(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
+  if (!arguments.output.empty()) make_run_folder(arguments.output);
+  const Interruption interruption;
+  options.goes_on = [] { return !Interruption::asked(); };
   const double begun_s = cpu_seconds();
   std::vector<RunSummary> runs;
   {
@@ -147,8 +154,11 @@ ExitCode replay_many(const Site& site, const SimulatedDriveOptions& options,
     print_run_table(runs, cpu_seconds() - begun_s);
   }
   if (!arguments.output.empty()) {
-    fs::create_directories(arguments.output);
     write_file_atomically(fs::path(arguments.output) / "runs.json", report.dump(2) + "\n");
+  }
+  if (runs.size() < static_cast<std::size_t>(arguments.runs)) {
+    fmt::print(stderr, "lodestar: interrupted after {} of {} runs\n", runs.size(), arguments.runs);
+    return job_failed;
   }
   return std::ranges::all_of(runs, succeeded) ? done : job_failed;
 }
@@ -165,6 +175,8 @@ DiskState disk_state(const SimulatedDisk& disk) {
 ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
   RecordedRun recorded(output_folder(site, arguments), site, options.camera,
                        {.can_wait = true, .disk = disk_state(*options.disk)});
+  const Interruption interruption;
+  options.goes_on = [] { return !Interruption::asked(); };
   RunRecord record;
   {
     Progress progress("replay", arguments.quiet);
@@ -172,6 +184,8 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
     options.watch = recorded.watcher();
     record = simulate_drive(site, options);
   }
+  if (!arguments.state.empty() && record.learned)
+    save_state(*record.learned, state_owner(site, options.camera), arguments.state);
   record.repeat = repeat_command(arguments, options);
   const RunFolderEnd end = recorded.finish(record);
   if (!end.loss.empty())
@@ -186,6 +200,11 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
                end.has_report ? recorded.folder().string() : "not written");
   }
   fmt::print(stderr, "{:.1f} s driven in {:.1f} s\n", summary.drive_s, summary.wall_s);
+  if (arguments.survey) tell_next_step(site, recorded.folder());
+  if (Interruption::asked() && !record.arrived()) {
+    fmt::print(stderr, "lodestar: interrupted; the run folder has the drive up to here\n");
+    return job_failed;
+  }
   return succeeded(summary) && end.loss.empty() ? done : job_failed;
 }
 
@@ -196,11 +215,16 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
   ConsoleServiceOptions console = arguments.console;
   console.site = site.folder;
   console.runs = fs::absolute(folder).parent_path();
+  std::optional<DrivenSurvey> survey;
+  if (arguments.survey) {
+    survey.emplace(folder, site, options.camera, DrivenSurveyOptions{.can_wait = true});
+    options.on_input = [&survey](const SensorInput& input) { survey->take(input); };
+  }
   LiveLink link;
-  ConsoleService service(console, &link);
+  ConsoleService service(console, &link, survey ? survey->live() : nullptr);
   OperatorSession session(link, log_info);
   KeptRuns runs(folder, true, site, options.camera, {.disk = disk_state(*options.disk)});
-  options.watch = runs.watcher();
+  if (!survey) options.watch = runs.watcher();
   bool all_arrived = true;
 
   const Interruption interruption;
@@ -210,16 +234,19 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
       site, options, session, [] { return !Interruption::asked(); },
       [&](RunRecord record) {
         all_arrived = all_arrived && record.arrived();
+        if (survey) return;
         if (runs.count() == 0) record.repeat = repeat_command(arguments, options);
         runs.keep(std::move(record));
       });
-  return all_arrived ? done : job_failed;
+  const bool is_recorded = runs.finish() && (!survey || survey->finish());
+  return all_arrived && is_recorded ? done : job_failed;
 }
 
 ExitCode replay_command(const ReplayArguments& arguments) {
   const Site site = load_site(arguments.site.empty() ? default_site() : fs::path(arguments.site));
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const SimulatedDriveOptions options = replay_options(arguments, site);
+  if (arguments.explore) return replay_exploring(site, options, output_folder(site, arguments));
   if (arguments.serve) return replay_served(site, options, arguments);
   return arguments.runs > 1 ? replay_many(site, options, arguments) : replay_once(site, options, arguments);
 }
@@ -238,8 +265,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                    "Number of runs, with this seed and the following ones, as a table")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--camera", arguments->camera, "wide or paper; default: the site's")
-      ->check(CLI::IsMember({"wide", "paper"}));
+  command->add_option("--camera", arguments->camera, "One of the site's cameras; default: the one it names");
   command
       ->add_option("--planner", arguments->planner,
                    "fastest, anyangle, astar, rrtstar, informedrrtstar, bitstar, abitstar, prmstar")
@@ -255,28 +281,29 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                    "Camera pictures per second to keep in the run folder; default: 2 with --serve, else none")
       ->check(CLI::Range(0.0, 100.0));
   add_uncertainty_constraint_options(*command, arguments->uncertainty_constraint);
-  const auto share = CLI::Range(0.0, 1.0);
-  command
-      ->add_option("--lose-frames", arguments->disturbances.lost_frames, "Share of frames that never arrive")
-      ->check(share);
-  command
-      ->add_option(
-          "--unequal-wheels", arguments->disturbances.unequal_wheels,
-          "Share by which the left wheel rolls farther than the right one for the same encoder reading")
-      ->check(CLI::Range(-0.2, 0.2));
-  command
-      ->add_option("--remove-markers", arguments->disturbances.removed_markers,
-                   "Share of markers missing from the ceiling, drawn from the seed; those nearest to start "
-                   "and goals stay")
-      ->check(share);
-  command->add_flag("--plain-ceiling", arguments->disturbances.plain_ceiling,
-                    "Nothing on the ceiling but markers: no joints, stains or lamps");
+  add_disturbance_options(*command, arguments->disturbances);
   command->add_option("--faults", arguments->faults,
                       "Faults to inject: a file, or a name in the fault library such as wheel-slip");
+  command
+      ->add_option("--state", arguments->state,
+                   "File with what earlier drives have learned of wheels, dots and displaced markers; read "
+                   "before the drive and written after it")
+      ->excludes(command->get_option("--runs"));
   command->add_flag("--realtime", arguments->realtime, "Simulate no faster than real time");
   CLI::Option* serve = command->add_flag(
       "--serve", arguments->serve, "Serve the console in a browser, and wait for goals from it until Ctrl-C");
-  serve->excludes(command->get_option("--runs"));
+  serve->excludes(command->get_option("--runs"))->excludes(command->get_option("--state"));
+  command->add_flag("--survey", arguments->survey,
+                    "The drive is a survey: says how to make a registry of it; with --serve one log for all "
+                    "that is driven, "
+                    "by hand or by goals, and the console shows how it stands");
+  command
+      ->add_flag("--explore", arguments->explore,
+                 "With --survey: the robot knows no marker, and drives by itself until it has surveyed all")
+      ->needs(command->get_option("--survey"))
+      ->excludes(serve)
+      ->excludes(command->get_option("--runs"))
+      ->excludes(command->get_option("--goal"));
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
   command->add_flag("--quiet", arguments->quiet, "No progress bar");

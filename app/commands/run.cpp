@@ -9,6 +9,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/console_options.hpp"
 #include "app/commands/console_service.hpp"
+#include "app/commands/driven_survey.hpp"
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/common/interruption.hpp"
@@ -16,6 +17,7 @@
 #include "app/drive/camera_setup.hpp"
 #include "app/drive/operator_input.hpp"
 #include "app/live/operator_session.hpp"
+#include "app/placement/exploration.hpp"
 #include "app/site/arguments.hpp"
 #include "app/site/base_setup.hpp"
 #include "drivers/base/guard.hpp"
@@ -34,6 +36,8 @@ struct RunArguments {
   std::string output;
   double pictures_hz = 2.0;
   bool serve = false;
+  bool survey = false;
+  bool explore = false;
   std::string runs = "runs";
   ConsoleServiceOptions console;
 };
@@ -52,15 +56,16 @@ OperatorWish wish_of(OperatorInput& input) {
   return *word == OperatorWord::resume ? OperatorWish::resume : OperatorWish::stop;
 }
 
-/// The console of a driving robot, and the run folders of its drives.
+/// The console of a driving robot, and the run folders of its drives. A survey has one log for all of them.
 class ServedRun {
  public:
   ServedRun(const Site& site, const std::string& interface, const RunArguments& arguments,
-            RunOptions& options)
-      : service_(console_options(site, arguments), &link_),
+            RunOptions& options, const DrivenSurvey* survey)
+      : surveys_(survey != nullptr),
+        service_(console_options(site, arguments), &link_, surveys_ ? survey->live() : nullptr),
         runs_(arguments.output.empty() ? fs::path(arguments.runs) / site.name : fs::path(arguments.output),
               !arguments.output.empty(), site, options.camera, {.interface = interface}) {
-    options.watch = runs_.watcher();
+    if (!surveys_) options.watch = runs_.watcher();
     options.session = &session_;
     options.hold_on_base_fault = true;
     options.keep = [this](RunRecord record) { keep(std::move(record)); };
@@ -71,9 +76,10 @@ class ServedRun {
   void keep(RunRecord record) {
     if (record.goals.empty()) return;
     all_arrived_ = all_arrived_ && record.arrived();
-    runs_.keep(std::move(record));
+    if (!surveys_) runs_.keep(std::move(record));
   }
-  [[nodiscard]] bool all_arrived() const { return all_arrived_; }
+  /// Call at the end: all drives arrived, and their run folders are whole.
+  [[nodiscard]] bool succeeded() { return runs_.finish() && all_arrived_; }
 
  private:
   static ConsoleServiceOptions console_options(const Site& site, const RunArguments& arguments) {
@@ -85,6 +91,7 @@ class ServedRun {
     return options;
   }
 
+  bool surveys_ = false;
   LiveLink link_;
   OperatorSession session_{link_};
   ConsoleService service_;
@@ -108,6 +115,37 @@ struct DriveParts {
   Camera& camera;
 };
 
+/// Drives to the goals, if any, and goes on looking until it is told to stop.
+ExitCode drive_surveying(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
+                         const RunArguments& arguments) {
+  std::optional<PlacedStart> start;
+  if (arguments.explore) start = PlacedStart{.map_from_base = parts.site.start};
+  DrivenSurvey survey(run_folder(arguments, parts.site), parts.site, options.camera, {.start = start});
+  auto explored = ExplorationState::done;
+  std::optional<Exploration> exploration;
+  if (start) {
+    exploration.emplace(parts.site, options.camera, *start);
+    options.conduct = [&](const MissionStep& step, Mission& mission) {
+      explored = exploration->conduct(step, mission, survey.live()->newest().get());
+      return explored == ExplorationState::under_way;
+    };
+  }
+  options.on_input = [&survey](const SensorInput& input) { survey.take(input); };
+  bool all_arrived = true;
+  if (arguments.serve) {
+    ServedRun served(parts.site, parts.interface, arguments, options, &survey);
+    served.keep(run(parts.site, parts.bus, std::move(protocol), parts.camera, options));
+    all_arrived = served.succeeded();
+  } else {
+    options.until_stopped = arguments.goals.empty() && !exploration;
+    const RunRecord record = run(parts.site, parts.bus, std::move(protocol), parts.camera, options);
+    print_goals(record);
+    all_arrived = record.goals.empty() || record.arrived();
+  }
+  const bool is_recorded = survey.finish();
+  return all_arrived && is_recorded && explored == ExplorationState::done ? done : job_failed;
+}
+
 ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
                     const RunArguments& arguments) {
   KeptRuns runs(run_folder(arguments, parts.site), true, parts.site, options.camera,
@@ -117,20 +155,23 @@ ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> proto
   print_goals(record);
   const bool has_arrived = record.arrived();
   runs.keep(std::move(record));
-  return has_arrived ? done : job_failed;
+  const bool is_recorded = runs.finish();
+  return has_arrived && is_recorded ? done : job_failed;
 }
 
 /// Drives with the console, until it is told to stop.
 ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
                       const RunArguments& arguments) {
-  ServedRun served(parts.site, parts.interface, arguments, options);
+  ServedRun served(parts.site, parts.interface, arguments, options, nullptr);
   served.keep(run(parts.site, parts.bus, std::move(protocol), parts.camera, options));
-  return served.all_arrived() ? done : job_failed;
+  return served.succeeded() ? done : job_failed;
 }
 
 ExitCode run_command(const RunArguments& arguments) {
-  if (arguments.goals.empty() && !arguments.serve) throw InputError("found neither --goal nor --serve");
-  const Site site = load_site(arguments.site);
+  if (arguments.goals.empty() && !arguments.serve && !arguments.survey)
+    throw InputError("found neither --goal, --serve nor --survey");
+  Site site = load_site(arguments.site);
+  if (arguments.explore) site.registry = {};
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const BaseConnection connection = connection_of(site, arguments.interface);
   OperatorInput input;
@@ -150,6 +191,7 @@ ExitCode run_command(const RunArguments& arguments) {
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   const Interruption interruption;
   const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};
+  if (arguments.survey) return drive_surveying(parts, std::move(protocol), options, arguments);
   return arguments.serve ? drive_served(parts, std::move(protocol), options, arguments)
                          : drive_once(parts, std::move(protocol), options, arguments);
 }
@@ -158,16 +200,27 @@ ExitCode run_command(const RunArguments& arguments) {
 
 std::vector<Command> run_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command = lodestar.add_subcommand(
-      "run",
-      "Drive a site's robot to its goals in turn; exit 1 unless it arrives. After a fault it waits for the "
-      "line 'resume' (or 'stop') on standard input, if that is open");
+  CLI::App* command = lodestar.add_subcommand("run",
+                                              "Drive a site's robot to its goals in turn; exit 1 unless it "
+                                              "arrives and is recorded. After a fault it waits for the "
+                                              "line 'resume' (or 'stop') on standard input, if that is open");
   command->add_option("site", arguments->site, "Site folder")->required();
   command->add_option("--goal", arguments->goals, "X,Y[,DEG] in metres and degrees; repeat for more")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--serve", arguments->serve,
                     "Serve the console in a browser, and wait for goals from it until stopped");
+  command->add_flag(
+      "--survey", arguments->survey,
+      "Keep what a survey needs of all that the robot sees, and show it in the console: driven by "
+      "hand there (with --serve), by goals, or by the base's own remote control until stopped");
+  command
+      ->add_flag(
+          "--explore", arguments->explore,
+          "With --survey: put at the site's start, under a marker, the robot drives by itself over the free "
+          "floor of the map until it has surveyed every marker there")
+      ->needs(command->get_option("--survey"))
+      ->excludes(command->get_option("--goal"));
   command->add_option("--runs", arguments->runs, "With --serve: folder for run folders, unless -o names one")
       ->capture_default_str();
   add_console_options(*command, arguments->console.access);

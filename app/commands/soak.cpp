@@ -12,6 +12,7 @@
 #include "app/common/stopwatch.hpp"
 #include "app/console/document_api.hpp"
 #include "app/net/http_server.hpp"
+#include "app/report/run_folder.hpp"
 #include "app/simulate/simulated_drive.hpp"
 #include "maps/atomic_file.hpp"
 
@@ -42,7 +43,7 @@ class BackgroundConsole {
  public:
   BackgroundConsole(const fs::path& site, const fs::path& runs, unsigned short port)
       : documents_(site, runs),
-        server_({.access = {.bind = "127.0.0.1", .port = port}},
+        server_({.access = {.bind = "127.0.0.1", .port = port}, .takes_long = DocumentApi::takes_long},
                 [this](const HttpRequest& request) { return documents_.answer(request); }),
         thread_([this] {
           while (!stopping_) server_.run_for(std::chrono::milliseconds(100));
@@ -107,7 +108,7 @@ ExitCode soak(const SoakArguments& arguments) {
   const fs::path folder =
       arguments.site.empty() ? fs::path(LODESTAR_SITES_DIR) / "lab" : fs::path(arguments.site);
   const Site site = load_site(folder);
-  fs::create_directories(arguments.output);
+  make_run_folder(arguments.output);
   const BackgroundConsole console(folder, arguments.output, arguments.port);
   fmt::print("http://127.0.0.1:{}/\n", console.port());
   std::fflush(stdout);
@@ -120,8 +121,11 @@ ExitCode soak(const SoakArguments& arguments) {
   SoakResult result;
   while (watch.seconds() < wanted_s && !Interruption::asked()) {
     SimulatedDriveOptions options = mission(site, arguments, result);
-    options.seed = static_cast<std::uint64_t>(++result.missions);
+    options.goes_on = [] { return !Interruption::asked(); };
+    options.seed = static_cast<std::uint64_t>(result.missions + 1);
     const RunRecord record = simulate_drive(site, options);
+    if (Interruption::asked()) break;  // perhaps in the middle of this drive
+    ++result.missions;
     if (!record.arrived() || record.contacts > 0) {
       ++result.failed;
       log_warning(
@@ -133,6 +137,11 @@ ExitCode soak(const SoakArguments& arguments) {
                           as_json(result, watch.seconds() / seconds_per_minute).dump(2) + "\n");
   }
   fmt::print("{}\n", as_json(result, watch.seconds() / seconds_per_minute).dump(2));
+  if (watch.seconds() < wanted_s) {
+    fmt::print(stderr, "lodestar: interrupted after {:.1f} of {:g} minutes\n",
+               watch.seconds() / seconds_per_minute, arguments.minutes);
+    return job_failed;
+  }
   constexpr double most_growth_percent = 1.0;
   constexpr int descriptors_of_clients = 32;  // connected clients
   const bool is_fine = result.failed == 0 && growth_percent(result) < most_growth_percent &&

@@ -129,7 +129,7 @@ DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::fi
       runs_(runs_folder),
       coverage_(site_) {}
 
-HttpResponse DocumentApi::answer(const HttpRequest& request) {
+HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   const std::string& target = request.target;
   if (request.method == "PUT" && target == "/api/markers") return save_markers(request);
   if (request.method == "PUT" && target == "/api/routes") return save_routes(request);
@@ -150,6 +150,10 @@ HttpResponse DocumentApi::answer(const HttpRequest& request) {
     return {.status = 304, .etag = response->etag};
   }
   return *response;
+}
+
+bool DocumentApi::takes_long(const HttpRequest& head) {
+  return head.method == "POST" && head.target.starts_with("/api/markers/");
 }
 
 HttpResponse DocumentApi::site_document() const {
@@ -267,10 +271,11 @@ HttpResponse DocumentApi::runs(const std::string& target) const {
 HttpResponse DocumentApi::post(const HttpRequest& request) const {
   try {
     if (request.target == "/api/markers/check") {
-      return {.body = coverage_.issues(registry_from_json(request.body)).dump()};
+      return {.body = coverage_.issues(registry_from_json(request.body), request.cancelled).dump()};
     }
     if (request.target == "/api/markers/deviations") {
-      return {.body = coverage_.deviations(site_, registry_from_json(request.body)).dump()};
+      return {.body =
+                  coverage_.deviations(site_, registry_from_json(request.body), request.cancelled).dump()};
     }
     const json body = parse_json(request.body);
     if (request.target == "/api/markers/export") return exported(body);

@@ -37,7 +37,11 @@ class DocumentApi {
   /// Throws InputError for an unusable site. `runs_folder` need not exist.
   DocumentApi(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder);
 
-  HttpResponse answer(const HttpRequest& request);
+  [[nodiscard]] HttpResponse answer(const HttpRequest& request) const;
+
+  /// Drafts are checked, converted and printed, which takes seconds for thousands of markers. May be answered
+  /// beside other requests: it reads only what does not change.
+  [[nodiscard]] static bool takes_long(const HttpRequest& head);
 
   /// Called with the markers each time a client has saved them.
   void on_saved_markers(std::function<void(const MarkerRegistry&)> tell) { on_saved_ = std::move(tell); }

@@ -73,7 +73,8 @@ ordered_json state_json(const RobotState& state) {
                    {"stop", state.stop ? ordered_json(to_string(*state.stop)) : ordered_json(nullptr)},
                    {"base", to_string(state.base)},
                    {"base_ready", state.base == BaseState::ready},
-                   {"fault", state.fault ? ordered_json(to_string(*state.fault)) : ordered_json(nullptr)},
+                   {"fault", state.fault ? ordered_json(in_words(*state.fault, state.fault_details))
+                                         : ordered_json(nullptr)},
                    {"battery_v", or_null(state.battery_v)},
                    {"markers", state.markers},
                    {"confidence", short_number(state.confidence)},
@@ -105,6 +106,10 @@ std::vector<Goal> goals_from_json(const json& goals) {
   std::vector<Goal> read;
   for (const json& goal : goals) read.push_back(goal_from_json(goal));
   return read;
+}
+
+BodyVelocity velocity_from_json(const json& message) {
+  return {number_in(message.at("forward_mps"), 10.0), radians(number_in(message.at("turn_degps"), 1000.0))};
 }
 
 Pose2 pose_from_json(const json& pose) {

@@ -17,6 +17,9 @@ nlohmann::ordered_json points_json(const Path& path);
 /// for more than 100 goals.
 std::vector<Goal> goals_from_json(const nlohmann::json& goals);
 
+/// {"forward_mps": ..., "turn_degps": ...}. Throws InputError for what is no velocity.
+BodyVelocity velocity_from_json(const nlohmann::json& message);
+
 /// Reads [x_m, y_m, yaw_deg]. Throws InputError for anything else.
 Pose2 pose_from_json(const nlohmann::json& pose);
 

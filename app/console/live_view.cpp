@@ -4,6 +4,7 @@
 
 #include "app/common/json_parse.hpp"
 #include "app/console/live_json.hpp"
+#include "app/console/survey_json.hpp"
 #include "drivers/system/clock.hpp"
 #include "maps/input_error.hpp"
 
@@ -13,7 +14,9 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-enum Slot : int { state_slot, path_slot, picture_slot, preview_slot };
+constexpr std::size_t most_previews = 8;  ///< that wait; later ones wait in their clients
+
+enum Slot : int { state_slot, path_slot, picture_slot, preview_slot, survey_slot };
 
 SocketMessage message_of(const ordered_json& content) {
   return text_message(content.dump(-1, ' ', false, json::error_handler_t::replace));
@@ -41,8 +44,15 @@ class LiveView::Session : public SocketSession {
   Client client_;
 };
 
-LiveView::LiveView(const Site& site, LiveLink* link, const LiveViewOptions& options)
-    : link_(link), options_(options), preview_(site), camera_(site.registry), lease_(options.lease) {}
+LiveView::LiveView(const Site& site, LiveLink* link, const LiveSurvey* survey, const LiveViewOptions& options)
+    : link_(link),
+      survey_(survey),
+      registry_(site.registry),
+      options_(options),
+      preview_(site),
+      camera_(site.registry),
+      lease_(options.lease),
+      planner_(most_previews) {}
 
 std::vector<SocketProtocol> LiveView::protocols() {
   return {
@@ -58,9 +68,11 @@ void LiveView::add_client(Client& client) {
                                    {"client", client.number},
                                    {"role", to_string(client.role)},
                                    {"robot", link_ != nullptr},
+                                   {"survey", survey_ != nullptr},
                                    {"lease_s", seconds(options_.lease)}}));
   if (path_message_.bytes) client.outbox->offer(path_slot, path_message_);
   if (state_.bytes) client.outbox->offer(state_slot, state_);
+  if (survey_message_.bytes) client.outbox->offer(survey_slot, survey_message_);
 }
 
 void LiveView::remove_client(const Client& client) {
@@ -121,6 +133,8 @@ std::optional<std::string> LiveView::give_order(const Client& client, const std:
     order.what = ClearFaultOrder{};
   } else if (type == "place") {
     order.what = PlaceOrder{pose_from_json(message.at("pose"))};
+  } else if (type == "steer") {
+    order.what = SteerOrder{velocity_from_json(message)};
   } else if (type != "pause") {
     return "found an unknown message type";
   }
@@ -131,7 +145,9 @@ std::optional<std::string> LiveView::give_order(const Client& client, const std:
 void LiveView::pump(Stamp now, const RobotState* fresh) {
   if (fresh != nullptr) show(*fresh, now);
   show_camera(now);
-  answer_previews();
+  show_survey();
+  begin_previews();
+  show_previews();
 }
 
 void LiveView::show(const RobotState& state, Stamp now) {
@@ -165,14 +181,47 @@ void LiveView::show_camera(Stamp now) {
   }
 }
 
-void LiveView::answer_previews() {
+void LiveView::show_survey() {
+  if (survey_ == nullptr) return;
+  const std::shared_ptr<const SurveyProgress> progress = survey_->newest();
+  if (!progress || progress->number == survey_number_) return;
+  survey_number_ = progress->number;
+  survey_message_ = message_of(survey_json(*progress, registry_));
+  for (const Client* const client : clients_) client->outbox->offer(survey_slot, survey_message_);
+}
+
+/// Planning takes seconds on large maps, so the worker does it: each client has at most one preview under
+/// way.
+void LiveView::begin_previews() {
   for (Client* const client : clients_) {
-    const auto goals = std::exchange(client->preview, std::nullopt);
-    if (!goals) continue;
-    ordered_json answer = estimate_ ? preview_.plan(estimate_->map_from_base, *goals)
-                                    : ordered_json{{"why", "the robot does not know where it is"}};
+    if (!client->preview || client->answer.valid()) continue;
+    const auto answer = std::make_shared<std::promise<ordered_json>>();
+    const auto plan = [this, answer, goals = *client->preview, robot = estimate_](const std::stop_token&) {
+      answer->set_value(preview_of(goals, robot));
+    };
+    if (!planner_.give(plan)) return;
+    client->answer = answer->get_future();
+    client->preview.reset();
+  }
+}
+
+/// Answers to goals that the client has changed since are dropped.
+void LiveView::show_previews() {
+  for (Client* const client : clients_) {
+    if (!client->answer.valid() || client->answer.wait_for(Duration{}) != std::future_status::ready) continue;
+    ordered_json answer = client->answer.get();
     answer["type"] = "preview";
-    client->outbox->offer(preview_slot, message_of(answer));
+    if (!client->preview) client->outbox->offer(preview_slot, message_of(answer));
+  }
+}
+
+ordered_json LiveView::preview_of(const std::vector<Goal>& goals,
+                                  const std::optional<PoseEstimate>& robot) const {
+  if (!robot) return {{"why", "the robot does not know where it is"}};
+  try {
+    return preview_.plan(robot->map_from_base, goals);
+  } catch (const std::exception& error) {
+    return {{"why", error.what()}};
   }
 }
 

@@ -1,15 +1,18 @@
 #pragma once
 
+#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/common/worker.hpp"
 #include "app/console/camera_picture.hpp"
 #include "app/console/lease.hpp"
 #include "app/console/path_preview.hpp"
 #include "app/live/live_channel.hpp"
 #include "app/live/live_link.hpp"
+#include "app/placement/live_survey.hpp"
 
 namespace lodestar {
 
@@ -22,22 +25,26 @@ struct LiveViewOptions {
 /// CameraPicture).
 ///
 /// Server to client: `hello` first (role, client number, whether a robot is connected), then `state`, `path`
-/// when it changes, `preview`, and `refused` with the reason in words. Client to server: {"type": ...}
+/// when it changes, `survey` (survey_json.hpp) when there is a new estimate, `preview`, and `refused` with
+/// the reason in words. Client to server: {"type": ...}
 ///   stop                                  from anyone who may view
 ///   camera   {on}                         pictures on or off
 ///   preview  {goals}                      plans without driving; needs the role drive, as do all below
 ///   take, hold, release                   the control lease: one driver at a time, who must keep renewing it
-///   go {goals}, pause, resume, clear_fault, place {pose}      only from the client that has the lease
+///   go {goals}, pause, resume, clear_fault, place {pose}, steer {forward_mps, turn_degps}      only from the
+///   client that has the lease
 class LiveView : public LiveChannel {
  public:
-  /// `link`: null when no robot is connected. Both must outlive this.
-  LiveView(const Site& site, LiveLink* link, const LiveViewOptions& options = {});
+  /// `link`: null when no robot is connected. `survey`: the one under way; null when there is none. All must
+  /// outlive this.
+  LiveView(const Site& site, LiveLink* link, const LiveSurvey* survey = nullptr,
+           const LiveViewOptions& options = {});
 
   [[nodiscard]] std::vector<SocketProtocol> protocols() override;
   [[nodiscard]] bool is_watched() const override { return !clients_.empty(); }
   void pump(Stamp now, const RobotState* fresh) override;
-  /// Ignored: the page reads the markers itself.
-  void take_markers(const MarkerRegistry& /*saved*/) override {}
+  /// Only what a survey is compared with: the page reads the markers itself.
+  void take_markers(const MarkerRegistry& saved) override { registry_ = saved; }
 
  private:
   class Session;
@@ -46,7 +53,8 @@ class LiveView : public LiveChannel {
     Role role = Role::view;
     Outbox* outbox = nullptr;
     bool wants_camera = false;
-    std::optional<std::vector<Goal>> preview;  ///< requested since the last pump
+    std::optional<std::vector<Goal>> preview;    ///< requested, not begun yet
+    std::future<nlohmann::ordered_json> answer;  ///< to the preview under way
   };
 
   void add_client(Client& client);
@@ -60,9 +68,15 @@ class LiveView : public LiveChannel {
   void show(const RobotState& state, Stamp now);
   void show_path(const std::shared_ptr<const Path>& path);
   void show_camera(Stamp now);
-  void answer_previews();
+  void show_survey();
+  void begin_previews();
+  void show_previews();
+  [[nodiscard]] nlohmann::ordered_json preview_of(const std::vector<Goal>& goals,
+                                                  const std::optional<PoseEstimate>& robot) const;
 
   LiveLink* link_;
+  const LiveSurvey* survey_;
+  MarkerRegistry registry_;
   LiveViewOptions options_;
   PathPreview preview_;
   CameraPicture camera_;
@@ -75,6 +89,9 @@ class LiveView : public LiveChannel {
   SocketMessage state_;  ///< the newest, for clients that connect later
   std::shared_ptr<const Path> path_;
   SocketMessage path_message_;
+  std::uint64_t survey_number_ = 0;
+  SocketMessage survey_message_;
+  Worker planner_;  ///< of previews; ends before what it reads
 };
 
 }  // namespace lodestar

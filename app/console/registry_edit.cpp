@@ -50,10 +50,20 @@ bool is_one_a_line(const std::vector<std::string>& lines, const MarkerRegistry& 
   return !registry.markers.empty();
 }
 
+/// What a survey knows of a marker holds for as long as nobody moves it.
+MarkerRegistry with_sigmas_of(const MarkerRegistry& before, MarkerRegistry after) {
+  for (RegisteredMarker& marker : after.markers) {
+    const RegisteredMarker* const old = before.find(marker.id);
+    if (old != nullptr && same(*old, marker)) marker.sigma = old->sigma;
+  }
+  return after;
+}
+
 }  // namespace
 
 std::string edited_registry_text(const std::string& text, const MarkerRegistry& before,
-                                 const MarkerRegistry& after) {
+                                 const MarkerRegistry& edited_registry) {
+  const MarkerRegistry after = with_sigmas_of(before, edited_registry);
   const std::vector<std::string> old_lines = lines_of(text);
   const bool alignment_stays = same(before.map_from_registry, after.map_from_registry);
   if (!alignment_stays || after.markers.empty() || !is_one_a_line(old_lines, before)) {

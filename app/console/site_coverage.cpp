@@ -32,16 +32,19 @@ SiteCoverage::SiteCoverage(const Site& site) : floor_(covered_floor(site)) {
   if (site.octomap_file) sight_lines_.emplace(*site.octomap_file);
 }
 
-ordered_json SiteCoverage::issues(const MarkerRegistry& draft) const {
+ordered_json SiteCoverage::issues(const MarkerRegistry& draft, const std::stop_token& cancelled) const {
   ordered_json issues = ordered_json::array();
-  for (const RegistryIssue& issue : check_coverage(draft, floor_)) issues.push_back(issue_json(issue));
+  for (const RegistryIssue& issue : check_coverage(draft, floor_, cancelled))
+    issues.push_back(issue_json(issue));
   return issues;
 }
 
-ordered_json SiteCoverage::deviations(const Site& site, const MarkerRegistry& registry) const {
+ordered_json SiteCoverage::deviations(const Site& site, const MarkerRegistry& registry,
+                                      const std::stop_token& cancelled) const {
   constexpr double apart_m = 0.25;
   const OccupancyMap& map = site.map.map;
   VisibilityOptions options = visibility_options(site.robot);
+  options.cancelled = cancelled;
   options.stride = std::max(1, static_cast<int>(std::lround(apart_m / map.resolution_m)));
   const Visibility seen = visibility_of(map, registry, site.cameras.at(site.default_camera),
                                         sight_lines_ ? &*sight_lines_ : nullptr, options);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stop_token>
 
 #include "app/placement/coverage.hpp"
 #include "app/site/site.hpp"
@@ -18,7 +19,8 @@ nlohmann::ordered_json routes_json(const std::vector<Path>& routes);
 /// free.
 nlohmann::ordered_json coverage_json(const Site& site, const CoveredFloor& floor);
 
-/// The floor that markers are to cover, and the occlusions where the site has an OctoMap.
+/// The floor that markers are to cover, and the occlusions where the site has an OctoMap. What is cancelled
+/// ends early, with what it has: nobody waits for it any more.
 class SiteCoverage {
  public:
   explicit SiteCoverage(const Site& site);
@@ -26,12 +28,14 @@ class SiteCoverage {
   [[nodiscard]] const CoveredFloor& floor() const { return floor_; }
 
   /// All errors and warnings of a draft, as `lodestar markers check --site` reports them.
-  [[nodiscard]] nlohmann::ordered_json issues(const MarkerRegistry& draft) const;
+  [[nodiscard]] nlohmann::ordered_json issues(const MarkerRegistry& draft,
+                                              const std::stop_token& cancelled = {}) const;
 
   /// Expected standard deviation of a single fix, as `lodestar map visibility` computes it, at every
   /// `stride`-th cell: {stride, columns, sigma_mm: [...]}, null where some heading sees no marker or the
   /// robot cannot be.
-  [[nodiscard]] nlohmann::ordered_json deviations(const Site& site, const MarkerRegistry& registry) const;
+  [[nodiscard]] nlohmann::ordered_json deviations(const Site& site, const MarkerRegistry& registry,
+                                                  const std::stop_token& cancelled = {}) const;
 
  private:
   CoveredFloor floor_;

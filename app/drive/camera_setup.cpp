@@ -6,6 +6,20 @@
 #include "maps/input_error.hpp"
 
 namespace lodestar {
+namespace {
+
+V4l2CameraOptions v4l2_options(const CameraModel& model, const CameraSettings& settings) {
+  V4l2CameraOptions options{.width_px = model.width_px, .height_px = model.height_px};
+  if (settings.exposure_s) options.exposure = from_seconds(*settings.exposure_s);
+  options.gain = settings.gain;
+  options.rate_hz = settings.rate_hz;
+  options.latency = from_seconds(settings.latency_s);
+  if (settings.stamped_at_start)
+    options.stamped_at = *settings.stamped_at_start ? StampedAt::exposure_start : StampedAt::arrival;
+  return options;
+}
+
+}  // namespace
 
 std::unique_ptr<Camera> open_camera(const Site& site, const BaseConnection& base, std::uint64_t seed) {
   const CameraModel& model = site.cameras.at(site.default_camera);
@@ -15,7 +29,7 @@ std::unique_ptr<Camera> open_camera(const Site& site, const BaseConnection& base
     return open_camera_stand_in(base.interface, site.registry, model, site.robot.base_from_camera, seed);
   }
   if (site.camera.starts_with(device)) {
-    return open_v4l2_camera(site.camera.substr(device.size()), model.width_px, model.height_px);
+    return open_v4l2_camera(site.camera.substr(device.size()), v4l2_options(model, site.camera_settings));
   }
   if (site.camera.starts_with(video)) {
     return std::make_unique<VideoCamera>(site.folder / site.camera.substr(video.size()));

@@ -27,6 +27,10 @@ struct RunOptions {
   std::function<OperatorWish()> operator_wish;             ///< asked at every step
   std::function<void(Severity, const std::string&)> tell;  ///< reports events, in words
   DriveWatcher watch;                                      ///< called during each drive
+  std::function<void(const SensorInput&)> on_input;        ///< hears of all input, in drives and between
+  /// Decides after each step what the mission does next; false ends the run.
+  std::function<bool(const MissionStep&, Mission&)> conduct;
+  bool until_stopped = false;  ///< goes on after the goals until told to stop
   /// The console's operator session, if any: after the goals the robot waits for more from it, until
   /// `operator_wish` says stop.
   OperatorSession* session = nullptr;

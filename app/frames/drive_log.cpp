@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "app/frames/csv_numbers.hpp"
 #include "maps/input_error.hpp"
 #include "maps/path_kind.hpp"
 
@@ -17,15 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double far_future_s = 9e9;
-
-std::optional<double> finite_number(const char* begin, const char* end) {
-  double value = 0.0;
-  const auto [rest, error] = std::from_chars(begin, end, value);
-  const bool usable = error == std::errc() && rest == end && std::isfinite(value);
-  return usable ? std::optional(value) : std::nullopt;
-}
-
 bool is_image_name(const fs::path& file) {
   constexpr std::array endings{".png", ".pgm", ".bmp", ".jpg", ".jpeg", ".tif", ".tiff"};
   return std::ranges::find(endings, file.extension().string()) != endings.end();
@@ -33,8 +23,8 @@ bool is_image_name(const fs::path& file) {
 
 LoggedImage logged_image(const fs::path& file) {
   const std::string stem = file.stem().string();
-  const std::optional<double> stamp_s = finite_number(stem.data(), stem.data() + stem.size());
-  if (!stamp_s || *stamp_s < 0.0 || *stamp_s > far_future_s) {
+  const std::optional<double> stamp_s = finite_number(stem);
+  if (!stamp_s || *stamp_s < 0.0 || !is_stamp(*stamp_s)) {
     throw InputError(file, 0, "an image named '" + stem + "'", "a name that is its stamp in seconds");
   }
   return {Stamp(from_seconds(*stamp_s)), file};
@@ -53,21 +43,14 @@ std::vector<LoggedImage> logged_images(const fs::path& folder) {
 
 /// `stamp,left,right`; nothing for any other row.
 std::optional<WheelTravel> wheel_row(const std::string& line) {
-  std::array<double, 3> numbers{};
-  const char* at = line.data();
-  const char* const end = at + line.size();
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const char* const stop = i + 1 < numbers.size() ? std::find(at, end, ',') : end;
-    const std::optional<double> number = finite_number(at, stop);
-    if (!number || (i + 1 < numbers.size() && stop == end)) return std::nullopt;
-    numbers[i] = *number;
-    at = stop == end ? end : stop + 1;
-  }
-  if (std::abs(numbers[0]) > far_future_s) return std::nullopt;
-  return WheelTravel{Stamp(from_seconds(numbers[0])), numbers[1], numbers[2]};
+  const auto numbers = csv_numbers<3>(line);
+  if (!numbers || !is_stamp((*numbers)[0])) return std::nullopt;
+  return WheelTravel{Stamp(from_seconds((*numbers)[0])), (*numbers)[1], (*numbers)[2]};
 }
 
-std::vector<WheelTravel> read_wheels(const fs::path& file) {
+}  // namespace
+
+std::vector<WheelTravel> load_wheels(const fs::path& file) {
   std::ifstream stream(file);
   if (!stream) throw InputError(file, 0, "no file that can be read", "the wheels' travel");
   const std::string header = "stamp_s,left_m,right_m";
@@ -81,6 +64,7 @@ std::vector<WheelTravel> read_wheels(const fs::path& file) {
       continue;
     }
     const std::optional<WheelTravel> row = wheel_row(line);
+    if (!row && stream.eof() && !wheels.empty()) break;  // a drive that was cut off leaves half a line
     if (!row) throw InputError(file, number, "'" + line + "'", "three numbers: stamp_s,left_m,right_m");
     if (!wheels.empty() && row->stamp <= wheels.back().stamp) {
       throw InputError(file, number, fmt::format("a stamp of {} s", seconds(row->stamp)),
@@ -91,8 +75,6 @@ std::vector<WheelTravel> read_wheels(const fs::path& file) {
   if (wheels.empty()) throw InputError(file, 0, "no readings", "rows of stamp_s,left_m,right_m");
   return wheels;
 }
-
-}  // namespace
 
 std::optional<WheelTravel> DriveLog::travel_at(Stamp stamp) const {
   const auto after = std::ranges::lower_bound(wheels, stamp, {}, &WheelTravel::stamp);
@@ -106,7 +88,7 @@ std::optional<WheelTravel> DriveLog::travel_at(Stamp stamp) const {
 }
 
 DriveLog load_drive_log(const fs::path& folder) {
-  return {.images = logged_images(folder), .wheels = read_wheels(folder / "wheels.csv")};
+  return {.images = logged_images(folder), .wheels = load_wheels(folder / "wheels.csv")};
 }
 
 cv::Mat read_logged_image(const fs::path& file, const CameraModel& camera) {

@@ -32,6 +32,9 @@ struct DriveLog {
 /// unknown header, a row that is not three finite numbers or whose stamp does not increase.
 DriveLog load_drive_log(const std::filesystem::path& folder);
 
+/// Only its wheels.csv; throws as load_drive_log().
+std::vector<WheelTravel> load_wheels(const std::filesystem::path& file);
+
 /// The image as 8-bit gray. Throws InputError when it cannot be decoded, or is not of the camera's size.
 cv::Mat read_logged_image(const std::filesystem::path& file, const CameraModel& camera);
 

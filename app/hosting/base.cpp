@@ -22,6 +22,7 @@ struct BaseArguments {
   bool dbc = false;
   std::uint64_t seed = 1;
   std::vector<std::string> faults;
+  double watchdog_s = 0.0;
 };
 
 /// Seconds, not negative; nothing when the text is no such number.
@@ -60,12 +61,18 @@ HostedBaseOptions options_from(const BaseArguments& arguments) {
   options.protocol = protocol_of(arguments);
   options.world = arguments.world;
   options.seed = arguments.seed;
+  if (arguments.watchdog_s > 0.0) {
+    if (options.protocol != HostedProtocol::odrive)
+      throw InputError("--watchdog: found protocol agilex, wanted odrive: only its axes have one");
+    options.watchdog = from_seconds(arguments.watchdog_s);
+  }
   for (const std::string& text : arguments.faults) options.faults.push_back(parse_fault(text));
   if (arguments.site.empty()) return options;
   const Site site = load_site(arguments.site);
   options.start = site.start;
   options.map = site.map.map;
   options.robot_radius_m = site.robot.radius_m;
+  options.robot_footprint = site.robot.footprint;
   options.base.track_width_m = site.robot.track_width_m;
   return options;
 }
@@ -103,6 +110,11 @@ std::vector<Command> base_commands(CLI::App& lodestar) {
   command->add_option("--world", arguments->world,
                       "The CAN interface of the navigator, when the base is at the other end of a cable");
   command->add_option("--seed", arguments->seed, "Seed of its wheel noise")->capture_default_str();
+  command
+      ->add_option("--watchdog", arguments->watchdog_s,
+                   "Seconds without a message after which an ODrive's axes go idle with an error; 0: never")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str();
   command
       ->add_option(
           "--fault", arguments->faults,

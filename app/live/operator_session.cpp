@@ -19,9 +19,14 @@ std::string in_words(const std::vector<Goal>& goals) {
 
 /// What keeps the robot from moving, or "ready to drive".
 std::string condition_of(const SensorInput& input, const NavigationStep& step) {
-  if (input.base.state != BaseState::ready) return "base: " + in_words(input.base.state, input.base.fault);
+  if (input.base.state != BaseState::ready) {
+    return "base: " + in_words(input.base.state, input.base.fault, input.base.details);
+  }
   return step.stop ? fmt::format("must not move: {}", to_string(*step.stop)) : "ready to drive";
 }
+
+/// Clients renew the order every 100 ms.
+constexpr Duration steering_holds = std::chrono::milliseconds(400);
 
 }  // namespace
 
@@ -71,6 +76,13 @@ void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& bas
     const bool done = mission.finished() && mission.place_robot(pose);
     say_by(fmt::format("set pose to ({:.2f}, {:.2f}, {:.0f}°){}", pose.position_m.x(), pose.position_m.y(),
                        degrees(pose.yaw_rad), done ? "" : ": not now"));
+  } else if (const auto* steer = std::get_if<SteerOrder>(&order.what)) {
+    if (!mission.finished()) {  // the present drive ends first
+      if (mission.phase() != MissionPhase::stopping) mission.stop();
+      return;
+    }
+    if (mission.phase() != MissionPhase::by_hand) say_by("drive by hand");
+    mission.steer(steer->wanted, now + steering_holds);
   }
 }
 
@@ -105,6 +117,7 @@ void OperatorSession::publish(const SensorInput& input, const MissionStep& step,
                    .path = path_,
                    .base = input.base.state,
                    .fault = input.base.fault,
+                   .fault_details = input.base.details,
                    .distrusted = navigation.distrusted,
                    .frame = last_frame_,
                    .error_m = error_m ? error_m() : std::nullopt,

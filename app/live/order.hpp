@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/site/goal.hpp"
+#include "maps/motion.hpp"
 
 // Orders of operators at the console. Their permission has been checked before.
 namespace lodestar {
@@ -20,10 +21,14 @@ struct ClearFaultOrder {};
 struct PlaceOrder {
   Pose2 map_from_base;
 };
+/// Moves by hand: holds for a moment only, so that a client that falls silent lets the robot come to rest.
+struct SteerOrder {
+  BodyVelocity wanted;
+};
 
 struct Order {
   std::string by;  ///< who, in words
-  std::variant<GoOrder, PauseOrder, ResumeOrder, ClearFaultOrder, PlaceOrder> what;
+  std::variant<GoOrder, PauseOrder, ResumeOrder, ClearFaultOrder, PlaceOrder, SteerOrder> what;
 };
 
 }  // namespace lodestar

@@ -35,6 +35,7 @@ struct RobotState {
   std::shared_ptr<const Path> path;
   BaseState base = BaseState::waiting_for_base;
   std::optional<BaseFault> fault;
+  std::string fault_details;
   std::optional<double> battery_v;
 
   std::vector<int> markers;        ///< of the newest fix

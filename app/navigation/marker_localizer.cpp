@@ -25,6 +25,20 @@ std::optional<FixAttempt> most_expected(const std::vector<FixAttempt>& fixes,
   return best;
 }
 
+/// Has the robot driven since a frame agreed with the estimate? A view that changes while the wheels stand is
+/// that of a robot which was lifted, or of a ceiling at which somebody works now: it accuses no marker,
+/// unless others in the same frame agree.
+bool has_rolled(const LocalizationState& known) {
+  constexpr double least_m = 0.01;  // wheels that rolled less have not moved the robot
+  return known.integrity.rolled_since_agreement_m() > least_m;
+}
+
+bool agrees(const std::optional<FixAttempt>& used, const LocalizationState& known) {
+  if (!used) return false;
+  const std::optional<FixExpectation> expected = known.filter.expectation(used->planar);
+  return expected && expected->agrees;
+}
+
 /// Fuses the fix, and passes the outcome on to marker trust and integrity monitor.
 void fuse(FixAttempt& used, LocalizationState& known) {
   const std::optional<FixExpectation> expected = known.filter.expectation(used.planar);
@@ -93,16 +107,30 @@ std::optional<StopReason> with_integrity_alarms(const std::optional<StopReason>&
 
 MarkerLocalizer::MarkerLocalizer(const MarkerRegistry& registry, const CameraModel& camera,
                                  const Eigen::Isometry3d& base_from_camera, const DetectorOptions& detector,
-                                 const PoseFixOptions& fix, const PoseFilterOptions& filter)
+                                 const PoseFixOptions& fix, const PoseFilterOptions& filter,
+                                 const VarianceFactor& learned)
     : registry_(registry),
+      camera_(camera),
       base_from_camera_(base_from_camera),
       fix_options_(fix),
       tracker_(registry, camera, detector),
-      fixer_(registry, camera),
+      fixer_(registry, camera, learned),
       filter_options_(filter) {
+  look_at_ceiling_of(registry);
+}
+
+void MarkerLocalizer::look_at_ceiling_of(const MarkerRegistry& registry) {
   const std::optional<double> height_m = ceiling_height_m(registry);
-  if (height_m && fix.prior.tilt_sigma_rad)
-    ceiling_.emplace(camera, base_from_camera, *height_m, *fix.prior.tilt_sigma_rad);
+  if (height_m && fix_options_.prior.tilt_sigma_rad)
+    ceiling_.emplace(camera_, base_from_camera_, *height_m, *fix_options_.prior.tilt_sigma_rad);
+}
+
+/// The ceiling's keyframe stays: its height changes by a survey's millimetres.
+void MarkerLocalizer::use_registry(const MarkerRegistry& registry) {
+  registry_ = registry;
+  tracker_.use_registry(registry);
+  fixer_ = PoseFixer(registry, camera_, fixer_.variance_factor());
+  if (!ceiling_) look_at_ceiling_of(registry);
 }
 
 std::optional<FixAttempt> MarkerLocalizer::see(const Frame& frame, Stamp now, LocalizationState& known) {
@@ -148,7 +176,9 @@ std::optional<FixAttempt> MarkerLocalizer::look(const Frame& frame, Localization
   std::vector<FixAttempt> doubted = used && markers.size() == 1 && used->fix.ids.size() == 1
                                         ? std::vector<FixAttempt>{*used}
                                         : fixes_by_each(frame, markers);
-  for (const FixAttempt& single : doubted) judge(single, known);
+  const bool may_accuse = has_rolled(known) || agrees(used ? used : most_expected(doubted, known), known);
+  for (const FixAttempt& single : doubted)
+    if (may_accuse) judge(single, known);
 
   if (!used) used = most_expected(doubted, known);
   if (used) fuse(*used, known);

@@ -46,7 +46,14 @@ class MarkerLocalizer {
  public:
   MarkerLocalizer(const MarkerRegistry& registry, const CameraModel& camera,
                   const Eigen::Isometry3d& base_from_camera, const DetectorOptions& detector,
-                  const PoseFixOptions& fix, const PoseFilterOptions& filter);
+                  const PoseFixOptions& fix, const PoseFilterOptions& filter,
+                  const VarianceFactor& learned = {});
+
+  /// Goes by these markers from now on; keeps what it has learned.
+  void use_registry(const MarkerRegistry& registry);
+
+  /// Of the camera's dots, as learned so far.
+  [[nodiscard]] const VarianceFactor& variance_factor() const { return fixer_.variance_factor(); }
 
   /// Processes a frame that has just arrived. Nothing when it gave no pose fix; visual odometry and marker
   /// trust may have been updated even so. When wheel slip has corrupted the belief, it is restarted.
@@ -62,7 +69,10 @@ class MarkerLocalizer {
   std::optional<FixAttempt> look(const Frame& frame, LocalizationState& known);
   void judge(const FixAttempt& single, LocalizationState& known) const;
 
+  void look_at_ceiling_of(const MarkerRegistry& registry);
+
   MarkerRegistry registry_;
+  CameraModel camera_;
   Eigen::Isometry3d base_from_camera_;
   PoseFixOptions fix_options_;
   MarkerTracker tracker_;

@@ -1,26 +1,17 @@
 #include "app/navigation/mission.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 
 #include "control/travel_time.hpp"
 
 namespace lodestar {
-namespace {
-
-bool at_rest(const BaseFeedback& base) {
-  constexpr double still_mps = 0.003;
-  constexpr double still_radps = 0.01;
-  return base.measured && std::abs(base.measured->forward_mps) <= still_mps &&
-         std::abs(base.measured->turn_radps) <= still_radps;
-}
-
-}  // namespace
 
 std::string_view to_string(MissionPhase phase) {
   switch (phase) {
     case MissionPhase::idle:
       return "waiting for a goal";
+    case MissionPhase::by_hand:
+      return "driven by hand";
     case MissionPhase::starting:
       return "about to start";
     case MissionPhase::driving:
@@ -45,7 +36,9 @@ Mission::Mission(const KnownWorld& world, const NavigationOptions& navigation, s
       drive_options_(navigation.drive) {}
 
 MissionStep Mission::step(const SensorInput& input) {
+  wheels_.take(input.base.travel);
   NavigationStep step = navigation_.step(input);
+  rest_.add(input.now, input.base.measured, step.estimate);
   const MissionEvent event = finished() ? MissionEvent::none : advance(input, step);
   last_step_ = input.now;
   return {.navigation = std::move(step), .event = event};
@@ -63,9 +56,14 @@ void Mission::start(std::vector<Goal> goals) {
   path_ = {};
   state_ = Starting{};
   paused_ = false;
+  steered_until_.reset();
 }
 
 void Mission::stop() {
+  if (phase() == MissionPhase::by_hand) {
+    navigation_.cancel();
+    steered_until_.reset();
+  }
   if (finished()) return;
   navigation_.look_for_markers(false);
   navigation_.cancel();
@@ -84,8 +82,14 @@ void Mission::resume() {
   paused_ = false;
 }
 
+void Mission::steer(const BodyVelocity& wanted, Stamp until) {
+  navigation_.steer(wanted, until);
+  steered_until_ = until;
+}
+
 MissionPhase Mission::phase() const {
-  if (finished()) return MissionPhase::idle;
+  if (finished())
+    return steered_until_ && last_step_ <= *steered_until_ ? MissionPhase::by_hand : MissionPhase::idle;
   if (paused_) return MissionPhase::paused;
   if (std::holds_alternative<Starting>(state_)) return MissionPhase::starting;
   if (std::holds_alternative<Driving>(state_)) return MissionPhase::driving;
@@ -94,8 +98,11 @@ MissionPhase Mission::phase() const {
   return MissionPhase::stopping;
 }
 
-MissionEvent Mission::advance(Stopping, const SensorInput& input, const NavigationStep&) {
-  if (input.base.state == BaseState::ready && !at_rest(input.base)) return MissionEvent::none;
+MissionEvent Mission::advance(Stopping state, const SensorInput& input, const NavigationStep&) {
+  if (!state.since) state.since = input.now;
+  state_ = state;
+  const bool waits = input.now - *state.since < options_.max_unrest;
+  if (input.base.state == BaseState::ready && !at_rest() && waits) return MissionEvent::none;
   goals_.resize(current_ + 1);
   return fail(input.now, "stopped by the operator");
 }
@@ -109,13 +116,12 @@ MissionEvent Mission::advance(Starting state, const SensorInput& input, const Na
   }
   if (!state.since) state.since = input.now;
   state_ = state;
-  const bool may_start = !step.stop && input.base.state == BaseState::ready && at_rest(input.base);
+  const bool may_start = !step.stop && input.base.state == BaseState::ready && at_rest();
   if (!may_start) return wait_to_start(state, input, step);
   navigation_.look_for_markers(false);
-  const Driving driving{.ends = input.now + options_.max_time_more, .stopped_since = std::nullopt};
-  state_ = driving;
-  const std::optional<RouteUpdate> route = navigation_.go_to(goals_[current_]);
-  return route ? apply_route(driving, input, step, *route) : MissionEvent::none;
+  navigation_.go_to(goals_[current_]);
+  state_ = Driving{.ends = input.now + options_.max_time_more, .stopped_since = std::nullopt};
+  return MissionEvent::none;
 }
 
 MissionEvent Mission::wait_to_start(const Starting& state, const SensorInput& input,
@@ -124,10 +130,11 @@ MissionEvent Mission::wait_to_start(const Starting& state, const SensorInput& in
   navigation_.look_for_markers(is_ready);
   if (input.now - *state.since < options_.max_wait_for_start) return MissionEvent::none;
   if (!is_ready) {
-    return fail(input.now, fmt::format("the base is not ready: {}",
-                                       to_string(input.base.fault.value_or(BaseFault::feedback_lost))));
+    const BaseFault missing = input.base.fault.value_or(BaseFault::feedback_lost);
+    return fail(input.now, fmt::format("the base is not ready: {}", in_words(missing, input.base.details)));
   }
-  return fail(input.now, fmt::format("cannot start: {}", step.stop ? to_string(*step.stop) : "not at rest"));
+  return fail(input.now, fmt::format("cannot start: {}", step.stop ? std::string(to_string(*step.stop))
+                                                                   : "not at rest, " + rest_.why_not()));
 }
 
 MissionEvent Mission::apply_route(Driving state, const SensorInput& input, const NavigationStep& step,
@@ -176,8 +183,9 @@ MissionEvent Mission::advance(Held, const SensorInput& input, const NavigationSt
 MissionEvent Mission::hold(const SensorInput& input) {
   const bool is_hopeless = input.base.fault == BaseFault::guard_lost;
   if (!options_.hold_on_base_fault || is_hopeless) {
-    return fail(input.now, fmt::format("the base was stopped: {}",
-                                       input.base.fault ? to_string(*input.base.fault) : "no cause known"));
+    const std::string why =
+        input.base.fault ? in_words(*input.base.fault, input.base.details) : "no cause known";
+    return fail(input.now, fmt::format("the base was stopped: {}", why));
   }
   navigation_.halt();
   state_ = input.base.state == BaseState::ready ? State(Starting{}) : State(Held{});
@@ -187,22 +195,30 @@ MissionEvent Mission::hold(const SensorInput& input) {
 /// Wheel odometry alone does not prove arrival: the wheels may have slipped.
 MissionEvent Mission::advance(Settling state, const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
-  if (!state.still_since || !at_rest(input.base)) state.still_since = input.now;
-  state_ = state;
+  if (!state.since) state.since = input.now;
+  if (!state.still_since || !at_rest()) state.still_since = input.now;
   const Duration settled = input.now - *state.still_since;
-  if (settled < options_.settle) return MissionEvent::none;
+  if (settled >= options_.settle) state.since = input.now;
+  state_ = state;
+  if (settled < options_.settle) {
+    if (input.now - *state.since < options_.max_unrest) return MissionEvent::none;
+    return fail(input.now, fmt::format("does not come to rest at the goal: {}", rest_.why_not()));
+  }
   if (step.stop || step.rolled_unseen_m > options_.max_rolled_unseen_m) {
     if (settled < options_.max_stop) return MissionEvent::none;
     return fail(input.now, fmt::format("cannot see that it has arrived: {}",
                                        step.stop ? to_string(*step.stop) : "no marker is in view"));
   }
   const double distance_m = (step.estimate->map_from_base.position_m - goals_[current_].position_m).norm();
-  if (distance_m > options_.max_distance_at_arrival_m) {
-    if (++attempt_ >= options_.attempts) return fail(input.now, "does not come near enough to the goal");
-    state_ = Starting{};
-    return MissionEvent::none;
+  if (distance_m <= drive_options_.arrival_distance_m) return end_goal(input.now, MissionEvent::goal_arrived);
+  if (++attempt_ >= options_.attempts) {
+    return fail(
+        input.now,
+        fmt::format("not reached: {:.1f} mm from the goal after {} attempts, arrival is within {:.1f} mm",
+                    1e3 * distance_m, attempt_, 1e3 * drive_options_.arrival_distance_m));
   }
-  return end_goal(input.now, MissionEvent::goal_arrived);
+  state_ = Starting{};
+  return MissionEvent::none;
 }
 
 MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {

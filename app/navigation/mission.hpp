@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "app/navigation/navigation.hpp"
+#include "app/navigation/rest.hpp"
+#include "app/navigation/wheel_rest.hpp"
 
 namespace lodestar {
 
@@ -12,17 +14,18 @@ struct MissionOptions {
   Duration max_wait_for_start = std::chrono::seconds(25);  ///< for a first pose and a ready base
   Duration max_stop = std::chrono::seconds(20);            ///< a safety stop that lasts longer fails the goal
   Duration settle = std::chrono::milliseconds(400);        ///< time at rest before arrival is reported
-  /// Arrival needs a frame that confirmed the estimate within this travel, and a position this near the goal.
+  Duration max_unrest = std::chrono::seconds(10);          ///< a robot not at rest by then fails the goal
+  /// Arrival needs a frame that confirmed the estimate within this travel, and the robot's own epsilon of
+  /// Eq. (19).
   double max_rolled_unseen_m = 0.2;
-  double max_distance_at_arrival_m = 0.05;
-  int attempts = 3;                 ///< to come that near
+  int attempts = 3;                 ///< to come within epsilon
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
   /// A drive longer than max_time_factor times the ideal time plus max_time_more fails: the robot is stuck.
   double max_time_factor = 4.0;
   Duration max_time_more = std::chrono::seconds(60);
 };
 
-enum class MissionPhase { idle, starting, driving, settling, waiting_for_base, paused, stopping };
+enum class MissionPhase { idle, by_hand, starting, driving, settling, waiting_for_base, paused, stopping };
 /// Text for the operator.
 std::string_view to_string(MissionPhase phase);
 
@@ -49,15 +52,20 @@ class Mission {
   void pause();
   void resume();
   [[nodiscard]] bool paused() const { return paused_; }
+  /// Moves by hand at this velocity until then, as Navigation::steer() does; call only when finished().
+  void steer(const BodyVelocity& wanted, Stamp until);
   /// Sets the initial pose, as Navigation::place_robot() does.
-  [[nodiscard]] bool place_robot(const Pose2& map_from_base) {
-    return navigation_.place_robot(map_from_base);
+  [[nodiscard]] bool place_robot(const Pose2& map_from_base, const PlacingSigma& sigma = {}) {
+    return navigation_.place_robot(map_from_base, sigma);
   }
 
   [[nodiscard]] MissionPhase phase() const;
   [[nodiscard]] const std::vector<Goal>& goals() const { return goals_; }
   /// Sets a new map; the present path is replaced if need be.
-  void map_changed(const OccupancyMap& map) { navigation_.map_changed(map); }
+  void map_changed(OccupancyMap map) { navigation_.map_changed(std::move(map)); }
+
+  /// Goes by these markers from now on.
+  void registry_changed(const MarkerRegistry& registry) { navigation_.registry_changed(registry); }
 
   [[nodiscard]] bool finished() const { return current_ >= goals_.size(); }
   [[nodiscard]] std::size_t current() const { return current_; }
@@ -65,6 +73,8 @@ class Mission {
   [[nodiscard]] const Path& path() const { return path_; }
   /// Ideal driving time of that path, without stops, speed limits and settling.
   [[nodiscard]] double ideal_s() const { return ideal_s_; }
+  /// What the robot has learned so far, to begin with after a restart.
+  [[nodiscard]] std::optional<LearnedState> learned() const { return navigation_.learned(); }
   /// Why the last goal failed, as text.
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
@@ -79,14 +89,18 @@ class Mission {
   };
   /// At the goal; reports arrival after a time at rest with the pose confirmed.
   struct Settling {
+    std::optional<Stamp> since;  ///< arrival at the goal, or the last rest there
     std::optional<Stamp> still_since;
   };
   /// Holds the goal while the base has a fault.
   struct Held {};
   /// Cancelled by the operator: brakes to rest, then the goal fails.
-  struct Stopping {};
+  struct Stopping {
+    std::optional<Stamp> since;
+  };
   using State = std::variant<Starting, Driving, Settling, Held, Stopping>;
 
+  [[nodiscard]] bool at_rest() const { return rest_.at_rest() || wheels_.holds(); }
   MissionEvent advance(const SensorInput& input, const NavigationStep& step);
   MissionEvent advance(Starting state, const SensorInput& input, const NavigationStep& step);
   MissionEvent advance(Driving state, const SensorInput& input, const NavigationStep& step);
@@ -106,9 +120,12 @@ class Mission {
   State state_ = Starting{};
   std::size_t current_ = 0;
   DriveOptions drive_options_;
+  RestDetector rest_;
   int attempt_ = 0;      ///< at the present goal
   bool paused_ = false;  ///< by the operator, in any of these states
+  WheelRest wheels_;
   Stamp last_step_;
+  std::optional<Stamp> steered_until_;
   Path path_;
   double ideal_s_ = 0.0;
   std::string failure_;

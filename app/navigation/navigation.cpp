@@ -15,6 +15,16 @@ void report(const LocalizationState& known, Stamp now, NavigationStep& step) {
   step.wheel_scales = known.filter.wheel_scales();
 }
 
+PoseFilterOptions filter_options(const NavigationOptions& options) {
+  PoseFilterOptions filter = options.filter;
+  if (options.learned) filter.learned_scales = options.learned->wheel_scales;
+  return filter;
+}
+
+VarianceFactor variance_factor(const NavigationOptions& options) {
+  return options.learned ? options.learned->variance_factor : VarianceFactor();
+}
+
 }  // namespace
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
@@ -22,13 +32,25 @@ Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options
       behaviour_options_{.drive = options.drive,
                          .spin = options.spin,
                          .backtrack = options.backtrack,
+                         .steering = options.steering,
                          .left_path_m = options.route.left_path_m},
       localizer_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix,
-                 options.filter),
-      planner_(world.map, {.planner = options.planner, .route = options.route, .drive = options.drive}),
-      known_{PoseFilter(options.filter), MarkerTrust(options.trust), CameraWatch(options.camera),
+                 filter_options(options), variance_factor(options)),
+      planner_(world.map, {.planner = options.planner, .route = options.route, .drive = options.drive},
+               options.plan_arrival),
+      known_{PoseFilter(filter_options(options)), MarkerTrust(options.trust), CameraWatch(options.camera),
              IntegrityMonitor(options.integrity)},
-      behaviour_{Standing{}, Backtrack(options.backtrack)} {}
+      behaviour_{Standing{}, Backtrack(options.backtrack)} {
+  if (!options.learned) return;
+  for (const DistrustedMarker& marker : options.learned->distrusted) known_.trust.distrust(marker);
+}
+
+std::optional<LearnedState> Navigation::learned() const {
+  if (!estimate_) return std::nullopt;
+  return LearnedState{.wheel_scales = known_.filter.scales(),
+                      .variance_factor = localizer_.variance_factor(),
+                      .distrusted = known_.trust.distrusted()};
+}
 
 NavigationStep Navigation::step(const SensorInput& input) {
   // Localize. Travel comes first: a frame was exposed before the newest wheel reading, and the filter
@@ -42,7 +64,8 @@ NavigationStep Navigation::step(const SensorInput& input) {
   step.estimate = known.filter.estimate();
 
   // Judge.
-  const Facts facts = judge(input, step, known);
+  const bool map_changed = planner_.begin_step(behaviour_.places.blind_places_m());
+  const Facts facts = judge(input, step, known, map_changed);
 
   // Decide.
   const Behaviour about =
@@ -59,15 +82,14 @@ NavigationStep Navigation::step(const SensorInput& input) {
   known_ = std::move(known);
   behaviour_ = after.behaviour;
   if (!is_under_way(behaviour_.state)) wish_ = Wish::go_on;
-  map_changed_ = false;
   estimate_ = step.estimate;
   turned_rad_ = facts.turned_rad;
   last_step_ = input.now;
   return step;
 }
 
-Facts Navigation::judge(const SensorInput& input, const NavigationStep& step,
-                        const LocalizationState& known) const {
+Facts Navigation::judge(const SensorInput& input, const NavigationStep& step, const LocalizationState& known,
+                        bool map_changed) const {
   const auto reason_within = [&](const SafetyStopOptions& limits) {
     return with_integrity_alarms(reason_to_stop(input.now, step.estimate, limits), known, input.now);
   };
@@ -82,8 +104,10 @@ Facts Navigation::judge(const SensorInput& input, const NavigationStep& step,
               .stop = reason_within(options_.safety),
               .stop_on_backtrack = reason_within(options_.backtrack.limits),
               .wish = wish_,
+              .steering = steering_ && input.now <= steering_->until ? std::optional(steering_->wanted)
+                                                                     : std::nullopt,
               .may_look_around = may_look_around_,
-              .map_changed = map_changed_};
+              .map_changed = map_changed};
   judge_room(facts, known.integrity.is_contradicted());
   return facts;
 }
@@ -102,7 +126,7 @@ void Navigation::judge_room(Facts& facts, bool is_contradicted) const {
   };
   if (!facts.stop) {
     const SafetyMargin spare = margin_for_uncertainty(facts.estimate->covariance);
-    const double room_m = planner_.forward_clearance().room_m(facts.estimate->map_from_base.position_m);
+    const double room_m = planner_.forward_clearance().room_m(facts.estimate->map_from_base);
     facts.limit = limit_with(spare, options_.safety);
     if (spare.here_m > 0.0 && room_m < spare.here_m) facts.limit.forward_mps = 0.0;
     if (is_stuck(facts.limit))
@@ -114,45 +138,50 @@ void Navigation::judge_room(Facts& facts, bool is_contradicted) const {
         limit_with(margin_on_the_way_back(facts.estimate->covariance), options_.backtrack.limits);
 }
 
-/// Answers all plan requests within the step; the planner must be quick.
+/// Asks for the plan that is wanted, and takes it when it arrives. One that is not wanted any more is
+/// dropped.
 Behaviour Navigation::planned(Behaviour behaviour, const std::optional<PoseEstimate>& estimate,
                               std::optional<RouteUpdate>& update) {
-  while (estimate) {
+  for (;;) {
     const std::optional<PlanRequest> request = plan_wanted(behaviour.state);
-    if (!request) break;
-    TripPlanner::Planned plan = planner_.plan(*request, *trip_of(behaviour.state), estimate->map_from_base,
-                                              behaviour.places.blind_places_m());
-    if (plan.update) update = std::move(plan.update);
-    behaviour = answered(std::move(behaviour), plan.answer);
+    if (!request || !estimate) {
+      planner_.drop();
+      return behaviour;
+    }
+    if (!planner_.awaits(*request)) {
+      const std::span<const Vec2> blind_m = behaviour.places.blind_places_m();
+      planner_.ask({.request = *request,
+                    .trip = *trip_of(behaviour.state),
+                    .map_from_base = estimate->map_from_base,
+                    .blind_m = {blind_m.begin(), blind_m.end()}});
+    }
+    std::optional<TripPlan> plan = planner_.take();
+    if (!plan) return behaviour;
+    if (plan->update) update = std::move(plan->update);
+    behaviour = answered(std::move(behaviour), plan->answer);
   }
-  return behaviour;
 }
 
-std::optional<RouteUpdate> Navigation::go_to(const Goal& goal) {
-  std::optional<RouteUpdate> update;
+/// A plan that is on its way is of the goal before, even where the two are equal.
+void Navigation::go_to(const Goal& goal) {
   wish_ = Wish::go_on;
+  steering_.reset();
+  planner_.drop();
   behaviour_ = sent_to(std::move(behaviour_), goal.position_m, goal.heading_rad, behaviour_options_);
-  behaviour_ = planned(std::move(behaviour_), estimate_, update);
-  return update;
 }
 
-void Navigation::map_changed(const OccupancyMap& map) {
-  planner_.map_changed(map, behaviour_.places.blind_places_m());
-  map_changed_ = true;
-}
-
-bool Navigation::place_robot(const Pose2& map_from_base) {
-  constexpr double position_sigma_m = 0.25;
-  constexpr double heading_sigma_rad = radians(10.0);
+bool Navigation::place_robot(const Pose2& map_from_base, const PlacingSigma& sigma) {
   if (!last_step_) return false;
   PlanarFix said{.stamp = *last_step_, .map_from_base = map_from_base, .covariance = Eigen::Matrix3d::Zero()};
-  said.covariance.diagonal() = Vec3(position_sigma_m, position_sigma_m, heading_sigma_rad).array().square();
+  said.covariance.diagonal() = Vec3(sigma.position_m, sigma.position_m, sigma.heading_rad).array().square();
   known_.integrity = IntegrityMonitor(options_.integrity);
+  known_.trust.estimate_moved();
   return known_.filter.start_at(said);
 }
 
 void Navigation::halt() {
   wish_ = Wish::halt;
+  steering_.reset();
   may_look_around_ = false;
 }
 
@@ -165,6 +194,7 @@ void Navigation::resume() {
 }
 
 void Navigation::cancel() {
+  steering_.reset();
   if (wish_ != Wish::halt) wish_ = Wish::cancel;
 }
 

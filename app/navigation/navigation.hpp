@@ -3,8 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "app/navigation/background_planner.hpp"
+#include "app/navigation/learned_state.hpp"
 #include "app/navigation/marker_localizer.hpp"
-#include "app/navigation/trip_planner.hpp"
 #include "app/site/goal.hpp"
 #include "control/behaviour.hpp"
 #include "drivers/base/base_driver.hpp"
@@ -30,11 +31,14 @@ struct NavigationOptions {
   IntegrityOptions integrity;
   GridPlannerOptions planner;
   RouteOptions route;
+  PlanArrivalOptions plan_arrival;
   DriveOptions drive;
   SafetyStopOptions safety;
   CautionOptions caution;
   SpinOptions spin;
   BacktrackOptions backtrack;
+  SteeringOptions steering;
+  std::optional<LearnedState> learned;  ///< in an earlier drive
 };
 
 /// All data since the last step. Time arrives with the data.
@@ -42,6 +46,12 @@ struct SensorInput {
   Stamp now;
   std::vector<Frame> frames;
   BaseFeedback base;
+};
+
+/// How exactly a person says where the robot is; by default as with a click on the map.
+struct PlacingSigma {
+  double position_m = 0.25;
+  double heading_rad = radians(10.0);
 };
 
 /// Result of one navigation step.
@@ -67,17 +77,23 @@ class Navigation {
   /// One step; call at a steady rate. Without a path to follow, the robot brakes, stands or spins.
   NavigationStep step(const SensorInput& input);
 
-  /// Plans a path from the robot to the goal and follows it from the next step on; with no path, the robot
-  /// stands. Returns nothing while the robot still moves or its pose is unknown: it then comes to rest and
-  /// localizes first, and a later step's `reroute` has the result.
-  std::optional<RouteUpdate> go_to(const Goal& goal);
+  /// Plans a path from the robot to the goal and follows it; with no path, the robot stands. A later step's
+  /// `reroute` has the result: the robot comes to rest and localizes first, and a plan takes some steps.
+  void go_to(const Goal& goal);
 
-  /// Sets a new map. When it blocks the path or makes another clearly faster, the robot brakes to rest and
-  /// replans from there.
-  void map_changed(const OccupancyMap& map);
+  /// Sets a new map, in use some steps later. When it blocks the path or makes another clearly faster, the
+  /// robot brakes to rest and replans from there.
+  void map_changed(OccupancyMap map) { planner_.use_map(std::move(map)); }
+
+  /// Goes by these markers from now on: a survey under way knows more of them, and better.
+  void registry_changed(const MarkerRegistry& registry) { localizer_.use_registry(registry); }
 
   /// Drops the path: the next command is zero.
   void halt();
+
+  /// Moves by hand at this velocity, while the robot is on no trip; call again before the order ends, or it
+  /// brakes to rest. Slow (SteeringOptions), and where the pose is known only as far as the map is free.
+  void steer(const BodyVelocity& wanted, Stamp until) { steering_ = Steering{wanted, until}; }
 
   /// Allows the robot, while it follows no path and its pose is lost, to spin to look for a marker.
   void look_for_markers(bool wanted) { may_look_around_ = wanted; }
@@ -90,15 +106,17 @@ class Navigation {
   /// Brakes to rest within the limits and drops the path.
   void cancel();
 
-  /// Sets the initial pose (sigma 0.25 m, 10 degrees), which marker fixes then refine. False before the first
-  /// wheel reading.
-  [[nodiscard]] bool place_robot(const Pose2& map_from_base);
+  /// Sets the initial pose, which marker fixes then refine. False before the first wheel reading.
+  [[nodiscard]] bool place_robot(const Pose2& map_from_base, const PlacingSigma& sigma = {});
+
+  /// What has been learned so far, in this drive and those before it. Nothing while the pose is unknown.
+  [[nodiscard]] std::optional<LearnedState> learned() const;
 
   [[nodiscard]] bool arrived() const { return std::holds_alternative<Arrived>(behaviour_.state); }
 
  private:
   [[nodiscard]] Facts judge(const SensorInput& input, const NavigationStep& step,
-                            const LocalizationState& known) const;
+                            const LocalizationState& known, bool map_changed) const;
   void judge_room(Facts& facts, bool is_contradicted) const;
   Behaviour planned(Behaviour behaviour, const std::optional<PoseEstimate>& estimate,
                     std::optional<RouteUpdate>& update);
@@ -106,13 +124,17 @@ class Navigation {
   NavigationOptions options_;
   BehaviourOptions behaviour_options_;
   MarkerLocalizer localizer_;
-  TripPlanner planner_;
+  BackgroundPlanner planner_;
   LocalizationState known_;
   Behaviour behaviour_;
   Wish wish_ = Wish::go_on;
   bool may_look_around_ = false;
-  bool map_changed_ = false;  ///< since the last step
-  double turned_rad_ = 0.0;   ///< by the wheels, since start-up
+  struct Steering {
+    BodyVelocity wanted;
+    Stamp until;
+  };
+  std::optional<Steering> steering_;
+  double turned_rad_ = 0.0;  ///< by the wheels, since start-up
   std::optional<PoseEstimate> estimate_;
   std::optional<Stamp> last_step_;
 };

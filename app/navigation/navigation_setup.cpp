@@ -22,6 +22,19 @@ KnownWorld known_world(const Site& site, const std::string& camera) {
           .base_from_camera = site.robot.base_from_camera};
 }
 
+StateOwner state_owner(const Site& site, const std::string& camera) {
+  const PoseFilterOptions filter = navigation_options(site.robot).filter;
+  return {.robot = site.robot.name,
+          .track_width_m = filter.track_width_m,
+          .wheel_step_m = filter.wheel_step_m,
+          .registry = fingerprint_of(site.registry),
+          .camera = fingerprint_of(site.cameras.at(camera))};
+}
+
+std::filesystem::path state_file(const Site& site) {
+  return site.folder / "state.yaml";
+}
+
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
   options.fix.prior = pose_prior(robot);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "app/navigation/navigation.hpp"
 #include "app/site/site.hpp"
 
@@ -7,6 +9,12 @@ namespace lodestar {
 
 /// The world model of a site's robot, with one of the site's cameras.
 KnownWorld known_world(const Site& site, const std::string& camera);
+
+/// Whom a state learned on this site, with one of its cameras, belongs to.
+StateOwner state_owner(const Site& site, const std::string& camera);
+
+/// Where a robot keeps what it learns on the site.
+std::filesystem::path state_file(const Site& site);
 
 /// Prior of the camera's tilt and height, from the flat floor and the calibrated mount.
 PosePrior pose_prior(const Robot& robot);

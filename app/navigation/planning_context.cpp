@@ -1,6 +1,7 @@
 #include "app/navigation/planning_context.hpp"
 
 #include <array>
+#include <utility>
 
 #include "control/corner.hpp"
 
@@ -16,9 +17,9 @@ std::span<const double> margins_m(Margins margins) {
   return margins == Margins::wide ? std::span<const double>(wide_margins_m) : usual_margins_m;
 }
 
-PlanningContext::PlanningContext(const OccupancyMap& known, const GridPlannerOptions& options,
-                                 Margins margins)
-    : map(known), planner(map, options, margins_m(margins)), forward_clearance(map, options.radius_m) {}
+PlanningContext::PlanningContext(std::shared_ptr<const ObstacleField> known,
+                                 const GridPlannerOptions& options, Margins margins)
+    : field(std::move(known)), planner(field, options, margins_m(margins)) {}
 
 DriveOptions PlanningContext::drive_options(const Path& path, DriveOptions options) const {
   for (std::size_t i = 2; i < path.waypoints_m.size(); ++i) {

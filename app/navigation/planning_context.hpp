@@ -1,9 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "control/drive_options.hpp"
-#include "control/forward_clearance.hpp"
 #include "planning/margin_planner.hpp"
 
 namespace lodestar {
@@ -18,16 +18,16 @@ enum class Margins {
 /// The margins to try, widest first.
 std::span<const double> margins_m(Margins margins);
 
-/// The map with the planner and the clearance built on it; rebuilt for every map.
+/// The planner on a map, with the field that the clearance ahead shares.
 struct PlanningContext {
-  PlanningContext(const OccupancyMap& known, const GridPlannerOptions& options, Margins margins);
+  PlanningContext(std::shared_ptr<const ObstacleField> known, const GridPlannerOptions& options,
+                  Margins margins);
 
   /// For a path on this map: blends corners only when all of them have the clearance for it.
   [[nodiscard]] DriveOptions drive_options(const Path& path, DriveOptions options) const;
 
-  OccupancyMap map;
+  std::shared_ptr<const ObstacleField> field;
   MarginPlanner planner;
-  ForwardClearance forward_clearance;
 };
 
 }  // namespace lodestar

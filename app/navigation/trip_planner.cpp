@@ -4,31 +4,27 @@
 
 namespace lodestar {
 
-TripPlanner::TripPlanner(const OccupancyMap& map, const TripPlannerOptions& options) : options_(options) {
-  rebuild_context(map, {});
-}
-
-void TripPlanner::map_changed(const OccupancyMap& map, std::span<const Vec2> blind_m) {
-  rebuild_context(map, blind_m);
+TripPlanner::TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options)
+    : options_(options) {
+  use_map(std::move(field), {});
 }
 
 /// After the pose was too uncertain, or with blind places, margins are wide. Where no marker was found, the
 /// robot drives again only if every other path is far longer.
-void TripPlanner::rebuild_context(const OccupancyMap& map, std::span<const Vec2> blind_m) {
+void TripPlanner::use_map(std::shared_ptr<const ObstacleField> field, std::span<const Vec2> blind_m) {
   GridPlannerOptions options = options_.planner;
   options.avoided.places_m.assign(blind_m.begin(), blind_m.end());
   const bool is_unsure = prefers_wide_margins_ || !blind_m.empty();
-  context_ =
-      std::make_unique<const PlanningContext>(map, options, is_unsure ? Margins::wide : Margins::usual);
+  context_.emplace(std::move(field), options, is_unsure ? Margins::wide : Margins::usual);
 }
 
-TripPlanner::Planned TripPlanner::plan(const PlanRequest& request, const Trip& trip, const Pose2& pose,
-                                       std::span<const Vec2> blind_m) {
+TripPlan TripPlanner::plan(const TripQuery& query) {
+  const auto& [request, trip, pose, blind_m] = query;
   const bool needs_other_context = trip.prefers_wide_margins != prefers_wide_margins_;
   const bool begins_anew = request.kind == PlanKind::new_goal && needs_other_context;
   if (begins_anew || request.kind == PlanKind::another_way) {
     prefers_wide_margins_ = trip.prefers_wide_margins;
-    rebuild_context(context_->map, blind_m);
+    use_map(context_->field, blind_m);
   }
   switch (request.kind) {
     case PlanKind::review:
@@ -47,18 +43,18 @@ TripPlanner::Planned TripPlanner::plan(const PlanRequest& request, const Trip& t
   return way_back(request.goal_m, trip, pose);
 }
 
-TripPlanner::Planned TripPlanner::review(const RouteUpdate& update) const {
+TripPlan TripPlanner::review(const RouteUpdate& update) const {
   if (update.change == RouteChange::kept) return {PathStaysValid{}, std::nullopt};
   return {PathMustBeReplaced{}, std::nullopt};
 }
 
-TripPlanner::Planned TripPlanner::replan(const RouteUpdate& update) const {
+TripPlan TripPlanner::replan(const RouteUpdate& update) const {
   if (update.change == RouteChange::kept) return {PathStaysValid{}, std::nullopt};
   if (update.change == RouteChange::lost) return {PathNotFound{}, update};
   return {along(update.route), update};
 }
 
-TripPlanner::Planned TripPlanner::another_way(const Trip& trip, const Pose2& pose) const {
+TripPlan TripPlanner::another_way(const Trip& trip, const Pose2& pose) const {
   const std::optional<double>& goal_heading_rad = trip.drive.final_heading_rad();
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal_heading_rad};
   const Vec2 goal_m = trip.drive.path_ahead().waypoints_m.back();
@@ -70,7 +66,7 @@ TripPlanner::Planned TripPlanner::another_way(const Trip& trip, const Pose2& pos
           RouteUpdate{.route = route, .change = RouteChange::more_certain, .failure = std::nullopt}};
 }
 
-TripPlanner::Planned TripPlanner::to_goal(const PlanRequest& request, const Pose2& pose) const {
+TripPlan TripPlanner::to_goal(const PlanRequest& request, const Pose2& pose) const {
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = request.goal_heading_rad};
   const PlanResult result = context_->planner.plan(pose.position_m, request.goal_m, headings);
   RouteUpdate update{.route = {{}, request.goal_heading_rad}, .change = RouteChange::new_goal, .failure = {}};
@@ -83,10 +79,10 @@ TripPlanner::Planned TripPlanner::to_goal(const PlanRequest& request, const Pose
 }
 
 /// Goes back along the present leg first: every other way may be narrower.
-TripPlanner::Planned TripPlanner::way_back(const Vec2& place_m, const Trip& trip, const Pose2& pose) const {
+TripPlan TripPlanner::way_back(const Vec2& place_m, const Trip& trip, const Pose2& pose) const {
   constexpr double beside_leg_m = 0.3;
   const auto along_way = [&](Path path) {
-    return Planned{PathFound{RotateThenDrive(std::move(path), std::nullopt, options_.drive)}, std::nullopt};
+    return TripPlan{PathFound{RotateThenDrive(std::move(path), std::nullopt, options_.drive)}, std::nullopt};
   };
   const std::vector<Vec2> ahead_m = trip.drive.path_ahead().waypoints_m;
   const bool is_on_leg =
@@ -94,7 +90,7 @@ TripPlanner::Planned TripPlanner::way_back(const Vec2& place_m, const Trip& trip
   const Vec2 from_m = is_on_leg ? ahead_m.front() : pose.position_m;
   if (distance_to_path_m({{from_m, pose.position_m}}, place_m) <= beside_leg_m)
     return along_way({{pose.position_m, place_m}});
-  const MarginPlanner planner(context_->map, options_.planner, margins_m(Margins::wide));
+  const MarginPlanner planner(context_->field, options_.planner, margins_m(Margins::wide));
   const PlanResult result = planner.plan(from_m, place_m);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return {PathNotFound{}, std::nullopt};

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "app/navigation/planning_context.hpp"
 #include "control/behaviour.hpp"
@@ -16,35 +17,39 @@ struct TripPlannerOptions {
   DriveOptions drive;
 };
 
+/// A plan request with what its answer depends on besides the map.
+struct TripQuery {
+  PlanRequest request;
+  Trip trip;
+  Pose2 map_from_base;        ///< of the robot when it asks
+  std::vector<Vec2> blind_m;  ///< where it has found no marker
+};
+
+struct TripPlan {
+  PlanAnswer answer;
+  std::optional<RouteUpdate> update;  ///< when another path is followed from now on, or none
+};
+
 /// Answers the plan requests of the behaviour, on the present map.
 class TripPlanner {
  public:
-  TripPlanner(const OccupancyMap& map, const TripPlannerOptions& options);
+  TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options);
 
-  /// `blind_m`: where the robot has found no marker.
-  void map_changed(const OccupancyMap& map, std::span<const Vec2> blind_m);
+  void use_map(std::shared_ptr<const ObstacleField> field, std::span<const Vec2> blind_m);
 
-  struct Planned {
-    PlanAnswer answer;
-    std::optional<RouteUpdate> update;  ///< when another path is followed from now on, or none
-  };
-  Planned plan(const PlanRequest& request, const Trip& trip, const Pose2& pose,
-               std::span<const Vec2> blind_m);
-
-  [[nodiscard]] const ForwardClearance& forward_clearance() const { return context_->forward_clearance; }
+  TripPlan plan(const TripQuery& query);
 
  private:
-  void rebuild_context(const OccupancyMap& map, std::span<const Vec2> blind_m);
-  [[nodiscard]] Planned review(const RouteUpdate& update) const;
-  [[nodiscard]] Planned replan(const RouteUpdate& update) const;
-  [[nodiscard]] Planned another_way(const Trip& trip, const Pose2& pose) const;
-  [[nodiscard]] Planned to_goal(const PlanRequest& request, const Pose2& pose) const;
-  [[nodiscard]] Planned way_back(const Vec2& place_m, const Trip& trip, const Pose2& pose) const;
+  [[nodiscard]] TripPlan review(const RouteUpdate& update) const;
+  [[nodiscard]] TripPlan replan(const RouteUpdate& update) const;
+  [[nodiscard]] TripPlan another_way(const Trip& trip, const Pose2& pose) const;
+  [[nodiscard]] TripPlan to_goal(const PlanRequest& request, const Pose2& pose) const;
+  [[nodiscard]] TripPlan way_back(const Vec2& place_m, const Trip& trip, const Pose2& pose) const;
   [[nodiscard]] RouteUpdate route_from(const PlanRequest& request, const Trip& trip, const Pose2& pose) const;
   [[nodiscard]] PathFound along(const Route& route) const;
 
   TripPlannerOptions options_;
-  std::unique_ptr<const PlanningContext> context_;
+  std::optional<PlanningContext> context_;
   bool prefers_wide_margins_ = false;  ///< as the planning context was built for
 };
 

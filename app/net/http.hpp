@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 
 // The parts of an HTTP request and response that the console uses.
@@ -23,6 +24,7 @@ struct HttpRequest {
   bool wants_socket = false;  ///< requests an upgrade to a WebSocket
   std::string subprotocols;   ///< offered for it, separated by commas
   std::string body;
+  std::stop_token cancelled;  ///< of a request that takes long: nobody waits for the response any more
 };
 
 struct HttpResponse {

@@ -5,82 +5,21 @@
 #include <boost/asio/detached.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <fmt/format.h>
 
+#include "app/common/worker.hpp"
+#include "app/net/beast_http.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
 namespace {
 
 namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
 using asio::ip::tcp;
-using beast::error_code;
-
-using Parser = http::request_parser<http::string_body>;
-using Message = http::response<http::string_body>;
-
-std::string text(beast::string_view view) {
-  return {view.data(), view.size()};
-}
-
-HttpRequest head_of(const Parser& parser) {
-  const auto& fields = parser.get();
-  return {.method = text(fields.method_string()),
-          .target = text(fields.target()),
-          .host = text(fields[http::field::host]),
-          .origin = text(fields[http::field::origin]),
-          .content_type = text(fields[http::field::content_type]),
-          .console_header = text(fields["X-Lodestar"]),
-          .authorization = text(fields[http::field::authorization]),
-          .cookie = text(fields[http::field::cookie]),
-          .if_match = text(fields[http::field::if_match]),
-          .if_none_match = text(fields[http::field::if_none_match]),
-          .wants_socket = websocket::is_upgrade(fields),
-          .subprotocols = text(fields[http::field::sec_websocket_protocol]),
-          .body = {}};
-}
-
-/// Security headers: nothing from other origins, no script but our own file, no framing, whatever text a
-/// document holds.
-void add_safety(Message& message) {
-  message.set("Content-Security-Policy",
-              "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-              "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
-  message.set("X-Content-Type-Options", "nosniff");
-  message.set("X-Frame-Options", "DENY");
-  message.set("Referrer-Policy", "no-referrer");
-  message.set("Cross-Origin-Resource-Policy", "same-origin");
-  message.set(http::field::cache_control, "no-cache");
-}
-
-Message message_of(HttpResponse response, bool keep_alive, bool without_body) {
-  Message message(static_cast<http::status>(response.status), 11);
-  message.set(http::field::content_type, response.content_type);
-  add_safety(message);
-  if (!response.etag.empty()) message.set(http::field::etag, response.etag);
-  if (!response.set_cookie.empty()) message.set(http::field::set_cookie, response.set_cookie);
-  message.keep_alive(keep_alive);
-  if (response.status == 304) return message;
-  const std::size_t size = response.body.size();
-  if (!without_body) message.body() = std::move(response.body);
-  message.content_length(size);
-  return message;
-}
-
-int status_of(error_code error) {
-  if (error == http::error::body_limit) return 413;
-  if (error == http::error::header_limit) return 431;
-  return 400;
-}
 
 /// One client of a subprotocol, shared by the two coroutines that read from it and write to it.
 struct SocketClient {
@@ -133,6 +72,44 @@ asio::awaitable<void> read_all(std::shared_ptr<SocketClient> client) {
   }
 }
 
+/// Counts one more for as long as it lives, whatever ends the coroutine that it stands in.
+class Counted {
+ public:
+  explicit Counted(int& count) : count_(count) { ++count_; }
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  int& count_;
+};
+
+/// A response that the worker makes and a coroutine of the server waits for.
+struct LongAnswer {
+  explicit LongAnswer(const asio::any_io_executor& executor) : done(executor) {}
+
+  HttpResponse response;
+  bool is_done = false;  ///< known to the server's thread alone, which the worker tells by post
+  asio::steady_timer done;
+};
+
+/// Has the client closed its end? Asked of a socket that is readable; a client that has sent its next request
+/// already is still there.
+bool has_left(tcp::socket& socket) {
+  error_code error;
+  char next = 0;
+  return socket.receive(asio::buffer(&next, 1), tcp::socket::message_peek, error) == 0 || error.failed();
+}
+
+/// Cancels the work when the client leaves before it is done.
+void cancel_when_left(tcp::socket& socket, const std::shared_ptr<LongAnswer>& answer,
+                      std::stop_source cancel) {
+  socket.async_wait(tcp::socket::wait_read, [&socket, answer, cancel](error_code error) mutable {
+    if (answer->is_done) return;  // and the socket may be gone
+    if (error || has_left(socket)) cancel.request_stop();
+  });
+}
+
 }  // namespace
 
 class HttpServer::Impl {
@@ -141,7 +118,8 @@ class HttpServer::Impl {
       : options_(options),
         handler_(std::move(handler)),
         protocols_(std::move(protocols)),
-        acceptor_(context_) {
+        acceptor_(context_),
+        worker_(options.most_waiting) {
     AccessRules& access = options_.access;
     if (!is_loopback(access.bind) && !access.asks_for_token()) {
       throw InputError("--bind: found '" + access.bind + "' without a token, wanted --token or 127.0.0.1");
@@ -178,12 +156,11 @@ class HttpServer::Impl {
   }
 
   asio::awaitable<void> serve(tcp::socket socket) {
-    ++connections_;
+    const Counted counted(connections_);
     beast::tcp_stream stream(std::move(socket));
     beast::flat_buffer buffer;
     Next next = Next::another_request;
     while (next == Next::another_request) next = co_await serve_one(stream, buffer);
-    --connections_;
     if (next == Next::upgraded) co_return;
     error_code error;  // ignored: the client may be gone already
     error = stream.socket().shutdown(tcp::socket::shutdown_both, error);
@@ -204,6 +181,10 @@ class HttpServer::Impl {
 
     HttpRequest request = head_of(parser);
     std::optional<HttpResponse> response = rejection(request, options_.access);
+    const bool takes_long = !request.wants_socket && options_.takes_long && options_.takes_long(request);
+    if (!response && takes_long && role_of(request, options_.access) < Role::edit) {
+      response = refusal(403, "found a token to view, wanted one to edit");
+    }
     if (!response && request.wants_socket) {
       response = no_socket(request);
       if (!response) {
@@ -212,13 +193,18 @@ class HttpServer::Impl {
       }
     }
     const bool keep = !response && parser.get().keep_alive();
+    const bool without_body = request.method == "HEAD";
     if (!response) {
       co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
       if (error) co_return co_await complain(stream, error);
       request.body = std::move(parser.get().body());
-      response = answer(request);
+      if (takes_long) {
+        response = co_await long_answer(stream.socket(), std::move(request));
+      } else {
+        response = answer(request);
+      }
     }
-    const bool sent = co_await send(stream, message_of(std::move(*response), keep, request.method == "HEAD"));
+    const bool sent = co_await send(stream, message_of(std::move(*response), keep, without_body));
     co_return keep&& sent ? Next::another_request : Next::end;
   }
 
@@ -248,23 +234,47 @@ class HttpServer::Impl {
     error_code error;
     co_await client->stream.async_accept(upgrade, asio::redirect_error(asio::use_awaitable, error));
     if (error) co_return;
-    ++sockets_;
+    const Counted counted(sockets_);
     client->outbox.on_work([raw = client.get()] { raw->outbox.overflowed() ? raw->leave() : raw->notify(); });
     client->session = protocol.open(*role_of(head, options_.access), client->outbox);
     asio::co_spawn(context_, write_all(client), asio::detached);
     co_await read_all(client);
     client->session.reset();
     client->leave();
-    --sockets_;
   }
 
-  HttpResponse answer(const HttpRequest& request) const {
+  [[nodiscard]] HttpResponse answer(const HttpRequest& request) const {
     try {
       if (request.target == "/api/session") return answer_session(request, options_.access);
       return handler_(request);
     } catch (const std::exception& error) {
       return refusal(500, error.what());
+    } catch (...) {
+      return refusal(500, "an error without words");
     }
+  }
+
+  /// The worker's answer. Clients after this one are served meanwhile, this one's next requests are not.
+  asio::awaitable<HttpResponse> long_answer(tcp::socket& socket, HttpRequest request) {
+    const auto answered = std::make_shared<LongAnswer>(context_.get_executor());
+    const std::optional<std::stop_source> cancel = worker_.give(
+        [this, answered, request = std::move(request)](const std::stop_token& cancelled) mutable {
+          request.cancelled = cancelled;
+          if (!cancelled.stop_requested()) answered->response = answer(request);
+          asio::post(context_, [answered] {
+            answered->is_done = true;
+            answered->done.cancel();
+          });
+        });
+    if (!cancel) co_return refusal(503, "found too much work of others waiting, try again later");
+    cancel_when_left(socket, answered, *cancel);
+    error_code error;
+    while (!answered->is_done) {
+      answered->done.expires_at(asio::steady_timer::time_point::max());
+      co_await answered->done.async_wait(asio::redirect_error(asio::use_awaitable, error));
+    }
+    socket.cancel(error);
+    co_return std::move(answered->response);
   }
 
   /// Answers a malformed request with an error, if the client is still connected, and ends the connection.
@@ -291,6 +301,7 @@ class HttpServer::Impl {
   tcp::acceptor acceptor_;
   int connections_ = 0;
   int sockets_ = 0;
+  Worker worker_;  // ends before the context that it posts to
 };
 
 HttpServer::HttpServer(const HttpServerOptions& options, Handler handler,

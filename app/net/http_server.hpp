@@ -19,11 +19,17 @@ struct HttpServerOptions {
   std::size_t max_socket_message_bytes = 64U << 10U;  ///< received over a WebSocket
   OutboxLimits outbox;
   std::chrono::seconds patience{15};  ///< timeout for a client that neither sends nor reads
+  /// Which requests take long, by their header. They need the role edit, and a thread of their own handles
+  /// them one after the other, so that a stop over a WebSocket never waits for them.
+  std::function<bool(const HttpRequest& head)> takes_long;
+  std::size_t most_waiting = 8;  ///< requests that take long, beside the one under way; 503 beyond that
 };
 
 /// An HTTP/1.1 and WebSocket server on one thread, the caller's. It enforces the access rules and the limits
 /// before the handler or a session sees anything; a handler that throws gives 500 with its message. A
 /// WebSocket request, on any target, gets the subprotocol that it offers. Boost.Beast stays in the .cpp.
+/// The handler of a request that takes long runs beside the server's thread: it may read only what does not
+/// change, and should end early when the request is cancelled, as it is when its client has left.
 class HttpServer {
  public:
   using Handler = std::function<HttpResponse(const HttpRequest&)>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "app/placement/registry_check.hpp"
@@ -43,6 +44,8 @@ std::vector<RegistryIssue> find_gaps(const MarkerRegistry& registry, const Cover
 std::vector<RegistryIssue> find_blind_stretches(const MarkerRegistry& registry, const CoveredFloor& floor);
 
 /// All errors and warnings about the markers of a site: those of check_registry, blind stretches and gaps.
-std::vector<RegistryIssue> check_coverage(const MarkerRegistry& registry, const CoveredFloor& floor);
+/// When cancelled it ends after the step at hand, with what it has.
+std::vector<RegistryIssue> check_coverage(const MarkerRegistry& registry, const CoveredFloor& floor,
+                                          const std::stop_token& cancelled = {});
 
 }  // namespace lodestar

@@ -1,6 +1,7 @@
 #include "app/placement/mount_set.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -32,6 +33,28 @@ PoseFixOptions loose_options(const Robot& robot) {
   options.prior.tilt = rotation_from({robot.camera_mount.roll_rad, robot.camera_mount.pitch_rad, 0.0});
   options.prior.tilt_sigma_rad = radians(loose_deg);
   return options;
+}
+
+/// Frames whose travel is not logged at their exposure are left out.
+void shift_travel(MountSet& set, std::vector<HeadingSample>& headings, const DriveLog& log) {
+  const Duration late = from_seconds(set.time_offset->late_s);
+  std::vector<MountFrame> shifted;
+  for (std::size_t i = 0; i < set.frames.size(); ++i) {
+    const std::optional<WheelTravel> travel = log.travel_at(headings[i].stamp - late);
+    if (!travel) continue;
+    shifted.push_back(std::move(set.frames[i]));
+    shifted.back().left_m = travel->left_m;
+    shifted.back().right_m = travel->right_m;
+  }
+  set.frames = std::move(shifted);
+}
+
+std::string in_words(const TimeOffset& offset) {
+  constexpr double ms_per_s = 1e3;
+  std::string words = fmt::format("{:.1f} ms {}  +- {:.2g}", ms_per_s * std::abs(offset.late_s),
+                                  offset.late_s < 0.0 ? "early" : "late", ms_per_s * offset.sigma_s);
+  if (offset.is_significant() && offset.late_s > 0.0) words += ": add it to latency_ms in site.yaml";
+  return words;
 }
 
 struct Part {
@@ -84,6 +107,7 @@ MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, con
   const PoseFixOptions options = loose_options(robot);
   MarkerDetector detector(expecting(registry));
   MountSet set{.images = log.images.size()};
+  std::vector<HeadingSample> headings;  // of the frames
   for (const LoggedImage& image : log.images) {
     const std::optional<WheelTravel> travel = log.travel_at(image.stamp);
     if (!travel) continue;
@@ -94,7 +118,10 @@ MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, con
                           .map_from_camera = fix->map_from_camera,
                           .left_m = travel->left_m,
                           .right_m = travel->right_m});
+    headings.push_back({image.stamp, flattened(fix->map_from_camera).yaw_rad});
   }
+  set.time_offset = estimate_time_offset(headings, log.wheels, robot.track_width_m);
+  if (set.time_offset && set.time_offset->is_significant()) shift_travel(set, headings, log);
   return set;
 }
 
@@ -110,6 +137,8 @@ std::string text_report(const MountSet& set, const MountCalibration& calibration
                                  set.images, calibration.frames);
   text +=
       fmt::format("{:.1f} turns on the spot, {:.2f} m straight\n", calibration.turns, calibration.straight_m);
+  text += fmt::format("images are stamped {}\n",
+                      set.time_offset ? in_words(*set.time_offset) : "at a time not observable in this log");
   if (calibration.circle)
     text += fmt::format("the camera's circle: radius {:.4f} m\n", calibration.circle->radius_m);
   if (!calibration.estimate) return text;
@@ -135,6 +164,9 @@ nlohmann::ordered_json json_report(const MountSet& set, const MountCalibration& 
                                 {"turns", calibration.turns},
                                 {"straight_m", calibration.straight_m}};
   for (const MountFlaw flaw : calibration.flaws) report["flaws"].push_back(to_string(flaw));
+  if (set.time_offset)
+    report["time_offset"] = {{"late_ms", 1e3 * set.time_offset->late_s},
+                             {"sigma_ms", 1e3 * set.time_offset->sigma_s}};
   if (calibration.circle) report["circle_radius_m"] = calibration.circle->radius_m;
   if (!calibration.estimate) return report;
   const MountEstimate& mount = *calibration.estimate;

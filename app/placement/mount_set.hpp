@@ -2,12 +2,14 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/frames/drive_log.hpp"
 #include "app/site/site.hpp"
 #include "localization/calibration/mount_calibration.hpp"
+#include "localization/calibration/time_offset.hpp"
 
 namespace lodestar {
 
@@ -15,9 +17,12 @@ namespace lodestar {
 struct MountSet {
   std::size_t images = 0;
   std::vector<MountFrame> frames;
+  std::optional<TimeOffset>
+      time_offset;  ///< of the images' stamps against the wheels'; nothing: not observable
 };
 
-/// Reads a log's images one at a time. Throws InputError for an image that cannot be read.
+/// Reads a log's images one at a time. Images that are clearly stamped too late or too early are paired with
+/// the wheels' travel at their exposure. Throws InputError for an image that cannot be read.
 MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, const CameraModel& camera,
                         const Robot& robot);
 

@@ -164,6 +164,7 @@ Visibility visibility_of(const OccupancyMap& map, const MarkerRegistry& registry
   Visibility visibility{.map = map, .cells = std::vector<std::optional<CellView>>(map.cells.size())};
   for (int row = 0; row < map.rows; row += options.stride) {
     for (int column = 0; column < map.columns; column += options.stride) {
+      if (options.cancelled.stop_requested()) return visibility;
       const Cell cell = options.cell_in_stride(map, {column, row});
       if (!is_drivable(map.at(cell)) || distances.distance_m(cell) <= options.robot_radius_m) continue;
       visibility.cells[map.index(cell)] = viewer.view_from(map.center_of(cell));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "app/site/site.hpp"
@@ -17,6 +18,7 @@ struct VisibilityOptions {
   int headings = 8;             ///< evaluated in each cell
   double robot_radius_m = 0.0;  ///< cells nearer to an obstacle are skipped: the robot cannot be there
   double border_px = 8.0;       ///< a marker is seen when all its dots lie farther inside the image
+  std::stop_token cancelled;    ///< ends early, with the cells that it has
   int stride = 1;               ///< one cell is evaluated in the middle of each stride x stride block
 
   /// The cell evaluated for the block that begins at `corner`.

@@ -32,8 +32,9 @@ std::string in_words(const Mission& mission, MissionEvent event) {
   return "";
 }
 
-std::string in_words(BaseState state, const std::optional<BaseFault>& fault) {
-  return fault ? fmt::format("{} ({})", to_string(state), to_string(*fault)) : std::string(to_string(state));
+std::string in_words(BaseState state, const std::optional<BaseFault>& fault, const std::string& details) {
+  if (!fault) return std::string(to_string(state));
+  return fmt::format("{} ({})", to_string(state), in_words(*fault, details));
 }
 
 }  // namespace lodestar

@@ -26,7 +26,7 @@ struct DriveWatcher {
 /// The event of the present goal in words; empty for none.
 std::string in_words(const Mission& mission, MissionEvent event);
 
-/// The base's state, and its fault in brackets.
-std::string in_words(BaseState state, const std::optional<BaseFault>& fault);
+/// The base's state, and its fault in brackets, with its details if they are given.
+std::string in_words(BaseState state, const std::optional<BaseFault>& fault, const std::string& details = {});
 
 }  // namespace lodestar

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/navigation/learned_state.hpp"
 #include "app/site/goal.hpp"
 #include "localization/integrity/marker_trust.hpp"
 #include "maps/marker_registry.hpp"
@@ -71,6 +72,7 @@ struct DriveRecord {
   std::vector<KeptPicture> pictures;         ///< a few a second, where wanted
   int dropped_pictures = 0;                  ///< that were due and found no room, see PictureKeeper
   std::vector<DistrustedMarker> distrusted;  ///< at the end
+  std::optional<LearnedState> learned;       ///< at the end; nothing when the pose was unknown
   std::vector<NoticeRecord> notices;
   int frames = 0;            ///< that arrived from the camera
   double wall_time_s = 0.0;  ///< never written to a file that must repeat byte for byte

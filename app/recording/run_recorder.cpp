@@ -9,7 +9,7 @@ namespace {
 /// The navigator's present problem, if any.
 NoticeRecord notice_of(const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault && input.base.fault)
-    return {input.now, std::string(to_string(*input.base.fault)), true};
+    return {input.now, in_words(*input.base.fault, input.base.details), true};
   if (step.stop) return {input.now, std::string(to_string(*step.stop)), true};
   if (step.camera) return {input.now, std::string(to_string(*step.camera)), false};
   return {input.now, {}, false};
@@ -95,6 +95,7 @@ DriveRecord RunRecorder::end(const Mission& mission) {
   if (!is_on_) return {};
   is_on_ = false;
   if (!mission.finished()) record_.goals[mission.current()].failure = "stopped by the operator";
+  record_.learned = mission.learned();
   record_.wall_time_s = watch_.seconds();
   return std::exchange(record_, {});
 }

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "app/common/picture_file.hpp"
+#include "app/placement/survey_report.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_statistics.hpp"
@@ -66,6 +67,34 @@ std::string fixes_csv(const RunRecord& record) {
   return text;
 }
 
+/// A real drive has none; nor does it keep that of a drive that left its folder here before.
+void write_truth(const std::filesystem::path& file, const RunRecord& record) {
+  if (!record.truth.empty()) return write_file_atomically(file, truth_tum(record));
+  std::error_code none;
+  std::filesystem::remove(file, none);
+}
+
+/// What `survey check` would propose of the markers that the robot ended up distrusting; offsets in the
+/// registry's frame. No file where it trusts all.
+void write_proposals(const std::filesystem::path& file, const RunRecord& record,
+                     const MarkerRegistry& registry) {
+  if (record.distrusted.empty()) {
+    std::error_code none;
+    std::filesystem::remove(file, none);
+    return;
+  }
+  SurveyDifference found;
+  const Eigen::Rotation2Dd registry_from_map(-registry.map_from_registry.yaw_rad);
+  for (const DistrustedMarker& marker : record.distrusted)
+    found.proposals.push_back({.id = marker.id,
+                               .change = MarkerChange::moved,
+                               .offset_m = registry_from_map * marker.offset_m,
+                               .turn_rad = marker.turn_rad,
+                               .sigma_m = marker.sigma_m,
+                               .sigma_rad = marker.sigma_rad});
+  write_file_atomically(file, csv_report(found));
+}
+
 void write_pictures(const std::filesystem::path& folder, const RunRecord& record) {
   if (record.pictures.empty()) return;
   make_run_folder(folder);
@@ -92,9 +121,10 @@ void write_run_folder(const std::filesystem::path& folder, const RunRecord& reco
   write_file_atomically(folder / "summary.json", summary_of(record).dump(2) + "\n");
   write_file_atomically(folder / "map.png", picture);
   write_file_atomically(folder / "estimate.tum", estimate_tum(record));
-  write_file_atomically(folder / "truth.tum", truth_tum(record));
+  write_truth(folder / "truth.tum", record);
   write_file_atomically(folder / "steps.csv", steps_csv(record));
   write_file_atomically(folder / "fixes.csv", fixes_csv(record));
+  write_proposals(folder / "proposals.csv", record, registry);
   write_pictures(folder / "pictures", record);
   write_file_atomically(folder / "report.html", report_html(record, picture));
 }

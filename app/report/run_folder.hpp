@@ -12,9 +12,9 @@ namespace lodestar {
 void make_run_folder(const std::filesystem::path& folder);
 
 /// Leaves what is known at the end of a run in a folder: summary.json, map.png, estimate.tum, truth.tum,
-/// steps.csv, fixes.csv, report.html, and in pictures/ the kept frames, named by their stamp in seconds
-/// (12.350.jpg). The same record gives the same bytes. Throws InputError when the folder cannot be written;
-/// what was written until then is whole.
+/// steps.csv, fixes.csv, report.html, proposals.csv where the robot distrusts a marker, and in pictures/ the
+/// kept frames, named by their stamp in seconds (12.350.jpg). The same record gives the same bytes. Throws
+/// InputError when the folder cannot be written; what was written until then is whole.
 void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
                       const MarkerRegistry& registry);
 

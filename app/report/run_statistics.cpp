@@ -97,11 +97,6 @@ double mean_confidence(const RunRecord& record) {
 
 }  // namespace
 
-double larger_sigma(const Eigen::Matrix2d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(solver.eigenvalues()[1], 0.0));
-}
-
 std::vector<std::vector<TruePose>> parts_of_track(const RunRecord& record) {
   std::vector<std::vector<TruePose>> parts(1);
   for (const TruePose& pose : record.truth) {

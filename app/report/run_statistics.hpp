@@ -21,9 +21,6 @@ struct EstimateError {
 /// One for each step within the recorded ground truth, which is interpolated to the estimate's stamp.
 std::vector<EstimateError> estimate_errors(const RunRecord& record);
 
-/// Standard deviation of a position along the larger principal axis.
-double larger_sigma(const Eigen::Matrix2d& covariance);
-
 /// Over all steps; nothing where there are none.
 std::optional<double> mean_nees(const std::vector<EstimateError>& errors);
 

@@ -20,21 +20,6 @@ std::set<int> nearest_ids(const MarkerRegistry& registry, const std::vector<Vec2
   return ids;
 }
 
-}  // namespace
-
-SimulationOptions with_disturbances(SimulationOptions options, const Disturbances& disturbances) {
-  if (disturbances.lost_frames) options.camera.lost_frame_probability = *disturbances.lost_frames;
-  if (disturbances.unequal_wheels) {
-    options.base.left_wheel_scale = 1.0 + 0.5 * *disturbances.unequal_wheels;
-    options.base.right_wheel_scale = 1.0 - 0.5 * *disturbances.unequal_wheels;
-  }
-  if (disturbances.plain_ceiling) {
-    options.camera.texture_gray = 0.0;
-    options.camera.tubes = options.camera.lamps = options.camera.glints = false;
-  }
-  return options;
-}
-
 MarkerRegistry with_markers_removed(const MarkerRegistry& registry, double share,
                                     const std::vector<Vec2>& places_m, std::uint64_t seed) {
   constexpr std::uint64_t removal_stream = 3;
@@ -52,6 +37,44 @@ MarkerRegistry with_markers_removed(const MarkerRegistry& registry, double share
   MarkerRegistry left = registry;
   std::erase_if(left.markers, [&](const RegisteredMarker& marker) { return removed.contains(marker.id); });
   return left;
+}
+
+MarkerRegistry with_markers_misplaced(MarkerRegistry registry, const Disturbances& by, std::uint64_t seed) {
+  constexpr std::uint64_t misplacing_stream = 4;
+  const Random random = Random(seed).stream(misplacing_stream);
+  for (std::size_t i = 0; i < registry.markers.size(); ++i) {
+    Random of_marker = random.stream(i);
+    RegisteredMarker& marker = registry.markers[i];
+    marker.position_m.x() += by.misplaced_m * of_marker.normal();
+    marker.position_m.y() += by.misplaced_m * of_marker.normal();
+    marker.yaw_rad += by.misturned_rad * of_marker.normal();
+  }
+  return registry;
+}
+
+}  // namespace
+
+SimulationOptions with_disturbances(SimulationOptions options, const Disturbances& disturbances) {
+  if (disturbances.lost_frames) options.camera.lost_frame_probability = *disturbances.lost_frames;
+  if (disturbances.unequal_wheels) {
+    options.base.left_wheel_scale = 1.0 + 0.5 * *disturbances.unequal_wheels;
+    options.base.right_wheel_scale = 1.0 - 0.5 * *disturbances.unequal_wheels;
+  }
+  options.camera.marker_tilt_sigma_rad = disturbances.tilted_rad;
+  options.camera.print_scale = disturbances.print_scale;
+  if (disturbances.plain_ceiling) {
+    options.camera.texture_gray = 0.0;
+    options.camera.tubes = options.camera.lamps = options.camera.glints = false;
+  }
+  return options;
+}
+
+MarkerRegistry hung_markers(const MarkerRegistry& registry, const Disturbances& disturbances,
+                            const std::vector<Vec2>& places_m, std::uint64_t seed) {
+  const MarkerRegistry left = with_markers_removed(disturbances.hung.value_or(registry),
+                                                   disturbances.removed_markers, places_m, seed);
+  if (disturbances.misplaced_m == 0.0 && disturbances.misturned_rad == 0.0) return left;
+  return with_markers_misplaced(left, disturbances, seed);
 }
 
 }  // namespace lodestar

@@ -8,10 +8,16 @@
 namespace lodestar {
 namespace {
 
+/// A dash where no goal was reached.
+std::string in_words(const std::optional<double>& value, double scale, int digits) {
+  return value ? fmt::format("{:.{}f}", scale * *value, digits) : "-";
+}
+
 void print_row(const RunSummary& run) {
-  fmt::print("{:>6} {:>5}/{:<2} {:>11.1f} {:>12.2f} {:>12.1f} {:>9} {:>9.1f}  {}\n", run.seed, run.arrivals,
-             run.goals, 1000.0 * run.worst_position_m, degrees(run.worst_heading_rad),
-             1000.0 * run.path_p95_m, run.contacts, run.drive_s, run.failure);
+  fmt::print("{:>6} {:>5}/{:<2} {:>11} {:>12} {:>12.1f} {:>9} {:>9.1f}  {}\n", run.seed, run.arrivals,
+             run.goals, in_words(run.worst_position_m, 1000.0, 1),
+             in_words(run.worst_heading_rad, degrees(1.0), 2), 1000.0 * run.path_p95_m, run.contacts,
+             run.drive_s, run.failure);
 }
 
 /// Worst errors, sums of counts and times, and the mean NEES of all runs.
@@ -66,10 +72,10 @@ void print_run_table(const std::vector<RunSummary>& runs, double cpu_s) {
   for (const RunSummary& run : runs) print_row(run);
   const RunSummary worst = worst_of(runs);
   fmt::print(
-      "all {} runs: {} of {} goals reached, {} contacts; worst: {:.1f} mm and {:.2f} deg from a goal, "
+      "all {} runs: {} of {} goals reached, {} contacts; worst: {} mm and {} deg from a goal, "
       "95 % of the track within {:.1f} mm of the path\n",
-      runs.size(), worst.arrivals, worst.goals, worst.contacts, 1000.0 * worst.worst_position_m,
-      degrees(worst.worst_heading_rad), 1000.0 * worst.path_p95_m);
+      runs.size(), worst.arrivals, worst.goals, worst.contacts, in_words(worst.worst_position_m, 1000.0, 1),
+      in_words(worst.worst_heading_rad, degrees(1.0), 2), 1000.0 * worst.path_p95_m);
   if (worst.ideal_s > 0.0) {
     fmt::print("driving time {:.3f} x the ideal of the planned paths, worst run {:.3f} x\n",
                worst.travel_s / worst.ideal_s, worst_time_ratio(runs));

@@ -8,6 +8,7 @@
 #include "app/navigation/navigation_setup.hpp"
 #include "app/recording/run_recorder.hpp"
 #include "app/report/run_statistics.hpp"
+#include "app/site/base_setup.hpp"
 #include "drivers/simulation/simulation.hpp"
 #include "drivers/system/clock.hpp"
 
@@ -21,6 +22,7 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
   options.start = site.start;
   options.base_from_camera = site.robot.base_from_camera;
   options.robot_radius_m = site.robot.radius_m;
+  options.robot_footprint = site.robot.footprint;
   options.base.track_width_m = site.robot.track_width_m;
   options.seed = replay.seed;
   options.faults = replay.faults;
@@ -30,16 +32,17 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
 
 NavigationOptions replay_navigation(const Site& site, const SimulatedDriveOptions& options) {
   NavigationOptions navigation = navigation_options(site.robot);
+  navigation.learned = options.learned;
   navigation.planner.kind = options.planner;
   navigation.planner.uncertainty_constraint = options.uncertainty_constraint;
   navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
   return navigation;
 }
 
-MarkerRegistry remaining_markers(const Site& site, const SimulatedDriveOptions& options) {
+MarkerRegistry markers_over(const Site& site, const SimulatedDriveOptions& options) {
   std::vector<Vec2> places_m{site.start.position_m};
   for (const Goal& goal : options.goals) places_m.push_back(goal.position_m);
-  return with_markers_removed(site.registry, options.disturbances.removed_markers, places_m, options.seed);
+  return hung_markers(site.registry, options.disturbances, places_m, options.seed);
 }
 
 SensorInput sense(Simulation& simulation, BaseDriver& base) {
@@ -67,9 +70,9 @@ class SimulatedDrive {
       : site_(site),
         options_(options),
         world_(known_world(site, options.camera)),
-        simulation_(world_.map, remaining_markers(site, options), world_.camera,
+        simulation_(world_.map, markers_over(site, options), world_.camera,
                     with_disturbances(simulation_options(site, options), options.disturbances)),
-        base_(simulation_.can()),
+        base_(simulation_.can(), base_driver_options(site.robot)),
         mission_(world_, replay_navigation(site, options), options.goals),
         recorder_(site, {.camera = options.camera,
                          .seed = options.seed,
@@ -79,23 +82,30 @@ class SimulatedDrive {
     simulation_.on_can_frame([this](const StampedCanFrame& frame) { recorder_.take(frame); });
   }
 
-  void step(OperatorSession* session = nullptr) {
+  MissionStep step(OperatorSession* session = nullptr) {
     simulation_.advance(control_period);
     const SensorInput input = sense(simulation_, base_);
+    if (options_.on_input) options_.on_input(input);
     const Stopwatch computing;
     const MissionStep step = mission_.step(input);
     if (options_.on_step) options_.on_step(computing.elapsed());
     base_.command(step.navigation.command);
     if (session != nullptr)
       session->publish(input, step, mission_, [&] { return error_of(step.navigation); });
-    if (!recorder_.is_on()) return simulation_.scorer().forget();
-
+    if (!recorder_.is_on()) {
+      forget();
+      return step;
+    }
     recorder_.take(input, step, mission_);
     score(step.event);
     score_backtrack(step.navigation.backtracks);
     if (options_.progress)
       options_.progress(share_done(recorder_.record(), mission_, step.navigation.estimate));
+    return step;
   }
+
+  /// What has been driven without a record.
+  [[nodiscard]] const ConductedDrive& unrecorded() const { return unrecorded_; }
 
   /// From now on, for the mission's goals.
   void begin_record() {
@@ -135,6 +145,20 @@ class SimulatedDrive {
     scores_.emplace_back(scorer.arrivals().back());
   }
 
+  /// Keeps only the sums of what is not recorded.
+  void forget() {
+    Scorer& scorer = simulation_.scorer();
+    for (const TruePose& at : scorer.track()) {
+      if (last_ && at.stamp <= last_->stamp) continue;
+      if (last_)
+        unrecorded_.driven_m += (at.map_from_base.position_m - last_->map_from_base.position_m).norm();
+      last_ = at;
+    }
+    unrecorded_.contacts += scorer.contacts();
+    unrecorded_.driven += control_period;
+    scorer.forget();
+  }
+
   /// While it backtracks, the track is not scored against the path.
   void score_backtrack(bool goes_back) {
     if (goes_back) simulation_.scorer().claim_path({});
@@ -162,6 +186,8 @@ class SimulatedDrive {
   RunRecorder recorder_;
   std::vector<std::optional<ArrivalScore>> scores_;
   bool went_back_ = false;
+  ConductedDrive unrecorded_;
+  std::optional<TruePose> last_;
 };
 
 /// Keeps simulated time no faster than wall time.
@@ -185,9 +211,21 @@ RunRecord simulate_drive(const Site& site, const SimulatedDriveOptions& options)
   drive.begin_record();
   while (!drive.mission().finished()) {
     drive.step();
+    if (options.goes_on && !options.goes_on()) break;
     if (options.realtime) pace.keep();
   }
   return drive.end_record();
+}
+
+ConductedDrive simulate_conducted_drive(const Site& site, const SimulatedDriveOptions& options,
+                                        const std::function<bool(const MissionStep&, Mission&)>& conduct) {
+  SimulatedDrive drive(site, options);
+  Pace pace;
+  while (conduct(drive.step(), drive.mission())) {
+    if (options.goes_on && !options.goes_on()) break;
+    if (options.realtime) pace.keep();
+  }
+  return drive.unrecorded();
 }
 
 void simulate_attended_drive(const Site& site, const SimulatedDriveOptions& options, OperatorSession& session,
@@ -201,8 +239,8 @@ void simulate_attended_drive(const Site& site, const SimulatedDriveOptions& opti
     drive.step(&session);
     const bool has_ended = drive.recording() && drive.mission().finished();
     if (has_ended) keep(drive.end_record());
-    const bool stands = drive.mission().finished() || drive.mission().paused();
-    if (options.realtime || stands) pace.keep();
+    const bool waits_for_people = drive.mission().finished() || drive.mission().paused();
+    if (options.realtime || waits_for_people) pace.keep();
   }
   if (drive.recording()) keep(drive.end_record());
 }

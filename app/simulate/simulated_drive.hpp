@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "app/navigation/learned_state.hpp"
 #include "app/placement/uncertainty_constraint.hpp"
 #include "app/recording/drive_moment.hpp"
 #include "app/report/run_record.hpp"
@@ -22,19 +23,34 @@ struct SimulatedDriveOptions {
   std::vector<Goal> goals;
   PlannerKind planner = PlannerKind::fastest;
   std::optional<UncertaintyConstraint> uncertainty_constraint;  ///< of the paths
+  std::optional<LearnedState> learned;                          ///< in an earlier drive
   Disturbances disturbances;
   std::vector<Fault> faults;
   std::shared_ptr<SimulatedDisk> disk;  ///< disk faults act on it, if given
   double pictures_hz = 0.0;             ///< camera frames to keep in the record
   bool realtime = false;                ///< simulated time runs no faster than wall time
+  std::function<bool()> goes_on;        ///< asked after each step; false ends the drive where it is
   /// Called after each step of the navigator with the wall time that it took.
   std::function<void(std::chrono::nanoseconds)> on_step;
-  std::function<void(double)> progress;  ///< called repeatedly with the completed share, 0..1
-  DriveWatcher watch;                    ///< called during the drive
+  std::function<void(double)> progress;              ///< called repeatedly with the completed share, 0..1
+  DriveWatcher watch;                                ///< called during the drive
+  std::function<void(const SensorInput&)> on_input;  ///< hears of all input, in drives and between
 };
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.
 RunRecord simulate_drive(const Site& site, const SimulatedDriveOptions& options);
+
+/// A drive whose mission is decided on as it goes.
+struct ConductedDrive {
+  int contacts = 0;
+  double driven_m = 0.0;
+  Duration driven{};
+};
+
+/// Drives until `conduct`, called after each step, returns false. Nothing is recorded but what `options`
+/// hear.
+ConductedDrive simulate_conducted_drive(const Site& site, const SimulatedDriveOptions& options,
+                                        const std::function<bool(const MissionStep&, Mission&)>& conduct);
 
 /// The same with an operator session: after the goals the robot stands and waits for more, until `goes_on`
 /// returns false. `keep` gets the record of each drive as it ends. While the robot stands, simulated time

@@ -20,8 +20,8 @@ RunSummary summarize(const RunRecord& record) {
       summary.ideal_s += goal.ideal_s;
     }
     if (const std::optional<ArrivalScore> score = record.score_of(i)) {
-      summary.worst_position_m = std::max(summary.worst_position_m, score->position_error_m);
-      summary.worst_heading_rad = std::max(summary.worst_heading_rad, score->heading_error_rad.value_or(0.0));
+      summary.worst_position_m = std::max(summary.worst_position_m, std::optional(score->position_error_m));
+      summary.worst_heading_rad = std::max(summary.worst_heading_rad, score->heading_error_rad);
     }
     if (summary.failure.empty()) summary.failure = goal.failure;
   }
@@ -36,16 +36,23 @@ RunSummary summarize(const RunRecord& record) {
 
 std::vector<RunSummary> simulate_drives(const Site& site, const SimulatedDriveOptions& options, int runs,
                                         const std::function<void(int)>& done) {
-  std::vector<RunSummary> summaries(static_cast<std::size_t>(runs));
+  std::vector<std::optional<RunSummary>> summaries(static_cast<std::size_t>(runs));
+  const auto is_over = [&] { return options.goes_on && !options.goes_on(); };
   std::atomic<int> finished = 0;
   in_parallel(runs, [&](int i) {
+    if (is_over()) return;
     SimulatedDriveOptions run = options;
     run.seed = options.seed + static_cast<std::uint64_t>(i);
     run.progress = nullptr;
-    summaries[static_cast<std::size_t>(i)] = summarize(simulate_drive(site, run));
+    const RunRecord record = simulate_drive(site, run);
+    if (is_over()) return;  // perhaps in the middle of this one
+    summaries[static_cast<std::size_t>(i)] = summarize(record);
     done(++finished);
   });
-  return summaries;
+  std::vector<RunSummary> whole;
+  for (std::optional<RunSummary>& summary : summaries)
+    if (summary) whole.push_back(std::move(*summary));
+  return whole;
 }
 
 }  // namespace lodestar

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/report/nees.hpp"
@@ -14,9 +15,9 @@ struct RunSummary {
   std::uint64_t seed = 0;
   int goals = 0;
   int arrivals = 0;
-  double worst_position_m = 0.0;   ///< largest true distance from a goal on arrival
-  double worst_heading_rad = 0.0;  ///< largest true heading error on arrival
-  double path_p95_m = 0.0;         ///< 95th percentile of the true track's distance from the planned curve
+  std::optional<double> worst_position_m;   ///< largest true distance from a goal on arrival, if at any
+  std::optional<double> worst_heading_rad;  ///< largest true heading error on arrival, where one was wanted
+  double path_p95_m = 0.0;  ///< 95th percentile of the true track's distance from the planned curve
   int contacts = 0;
   double drive_s = 0.0;   ///< simulated
   double travel_s = 0.0;  ///< of that, from path planned to arrival reported, summed over goals reached
@@ -30,7 +31,8 @@ struct RunSummary {
 RunSummary summarize(const RunRecord& record);
 
 /// Runs with the seeds options.seed, options.seed + 1, ... on all cores; results in the order of the seeds.
-/// `done` is called after each, from any thread, with the number of finished runs.
+/// `done` is called after each, from any thread, with the number of finished runs. Once options.goes_on says
+/// no, the drives at hand are dropped and no more begin: the result has those that were finished.
 std::vector<RunSummary> simulate_drives(const Site& site, const SimulatedDriveOptions& options, int runs,
                                         const std::function<void(int)>& done);
 

@@ -1,7 +1,12 @@
 #include "app/site/site.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <fmt/format.h>
+#include <utility>
 
+#include "maps/camera_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
 
@@ -89,10 +94,62 @@ void read_wheels(StrictYaml yaml, Robot& robot) {
   yaml.finish();
 }
 
+std::vector<std::string> read_words(StrictYaml& yaml, const std::string& key) {
+  const YAML::Node list = yaml.node(key);
+  std::vector<std::string> words;
+  const bool is_list = list.IsSequence();
+  for (std::size_t i = 0; is_list && i < list.size(); ++i) {
+    if (list[i].IsScalar()) words.push_back(list[i].Scalar());
+  }
+  if (!is_list || words.size() != list.size()) yaml.refuse(key, "something else", "a list of words");
+  return words;
+}
+
+ControlMode read_mode(StrictYaml& yaml, const std::string& key, const std::string& word) {
+  constexpr std::array<std::pair<const char*, ControlMode>, 4> modes{{{"standby", ControlMode::standby},
+                                                                      {"can", ControlMode::can},
+                                                                      {"uart", ControlMode::uart},
+                                                                      {"remote", ControlMode::remote}}};
+  for (const auto& [name, mode] : modes) {
+    if (word == name) return mode;
+  }
+  yaml.refuse(key, "'" + word + "'", "standby, can, uart or remote");
+}
+
+void read_base_settings(StrictYaml yaml, Robot& robot) {
+  robot.base.file = yaml.file();
+  robot.base.line = yaml.line();
+  if (yaml.has("ignored_faults")) robot.base.ignored_faults = read_words(yaml, "ignored_faults");
+  if (yaml.has("modes")) {
+    const std::vector<std::string> words = read_words(yaml, "modes");
+    for (const std::string& word : words) robot.base.modes.push_back(read_mode(yaml, "modes", word));
+    if (std::ranges::count(robot.base.modes, ControlMode::can) != 1)
+      yaml.refuse("modes", "a list without can, or with two", "one can: the mode to ask for");
+  }
+  yaml.finish();
+}
+
 void read_arrival(StrictYaml yaml, Robot& robot) {
   robot.arrival_distance_m = yaml.number("distance_m", 0.001, 1.0);
   robot.arrival_heading_rad = radians(yaml.number("heading_deg", 0.1, 90.0));
   yaml.finish();
+}
+
+CameraSettings read_camera_settings(StrictYaml yaml) {
+  constexpr double s_per_ms = 1e-3;
+  CameraSettings settings;
+  if (yaml.has("exposure_ms")) settings.exposure_s = s_per_ms * yaml.number("exposure_ms", 0.1, 1000.0);
+  if (yaml.has("gain")) settings.gain = yaml.integer("gain", 0, 1'000'000);
+  if (yaml.has("rate_hz")) settings.rate_hz = yaml.number("rate_hz", 1.0, 1000.0);
+  if (yaml.has("latency_ms")) settings.latency_s = s_per_ms * yaml.number("latency_ms", 0.0, 250.0);
+  if (yaml.has("stamped_at")) {
+    const std::string moment = yaml.text("stamped_at");
+    if (moment != "exposure_start" && moment != "arrival")
+      yaml.refuse("stamped_at", "'" + moment + "'", "exposure_start or arrival");
+    settings.stamped_at_start = moment == "exposure_start";
+  }
+  yaml.finish();
+  return settings;
 }
 
 /// "socketcan:can0".
@@ -123,6 +180,18 @@ BaseConnection read_base(StrictYaml yaml) {
   return base;
 }
 
+/// Names of camera profiles are words of the command line and of file names.
+void check_name(const StrictYaml::OtherKey& profile, const std::filesystem::path& file) {
+  constexpr std::size_t longest = 40;
+  const bool is_word = std::ranges::all_of(profile.name, [](unsigned char letter) {
+    return (letter < 0x80 && std::isalnum(letter) != 0) || letter == '-' || letter == '_';
+  });
+  if (is_word && !profile.name.empty() && !profile.name.starts_with('-') && profile.name.size() <= longest)
+    return;
+  throw InputError(file, profile.line, "the camera profile '" + profile.name + "'",
+                   "a name of 1 to 40 letters, digits, '-' and '_'");
+}
+
 }  // namespace
 
 Robot load_robot(const std::filesystem::path& file) {
@@ -143,6 +212,7 @@ Robot load_robot(const std::filesystem::path& file) {
   read_arrival(yaml.mapping("arrival"), robot);
   if (yaml.has("motors")) read_motors(yaml.mapping("motors"), robot);
   if (yaml.has("wheels")) read_wheels(yaml.mapping("wheels"), robot);
+  if (yaml.has("base")) read_base_settings(yaml.mapping("base"), robot);
   robot.preferred_clearance_m = yaml.number("preferred_clearance_m", 0.0, 5.0);
   if (yaml.has("pass_corners_within_m"))
     robot.pass_corners_within_m = yaml.number("pass_corners_within_m", 0.0, 1.0);
@@ -161,10 +231,12 @@ Site load_site(const std::filesystem::path& folder) {
   site.registry_file = folder / yaml.text("markers");
   site.registry = load_registry(site.registry_file);
   StrictYaml cameras = yaml.mapping("cameras");
-  for (const std::string profile : {"wide", "paper"}) {
-    if (cameras.has(profile)) site.cameras.emplace(profile, load_camera(folder / cameras.text(profile)));
+  for (const StrictYaml::OtherKey& profile : cameras.take_other_keys()) {
+    check_name(profile, cameras.file());
+    CameraFile read = read_camera_file(folder / cameras.text(profile.name));
+    site.cameras.emplace(profile.name, read.camera);
+    site.map.warnings.insert(site.map.warnings.end(), read.warnings.begin(), read.warnings.end());
   }
-  cameras.finish();
   site.default_camera = yaml.text("default_camera");
   if (!site.cameras.contains(site.default_camera)) {
     yaml.refuse("default_camera", "'" + site.default_camera + "'", "one of the keys of cameras");
@@ -175,6 +247,11 @@ Site load_site(const std::filesystem::path& folder) {
   for (StrictYaml& goal : yaml.list_of_mappings("goals")) site.goals.push_back(read_goal(goal));
   if (site.goals.empty()) yaml.refuse("goals", "an empty list", "at least one goal");
   if (yaml.has("camera")) site.camera = yaml.text("camera");
+  if (yaml.has("camera_settings")) {
+    if (!site.camera.starts_with("v4l2:"))
+      yaml.refuse("camera_settings", "settings of camera '" + site.camera + "'", "them only for v4l2:");
+    site.camera_settings = read_camera_settings(yaml.mapping("camera_settings"));
+  }
   if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
   yaml.finish();
   return site;

@@ -7,13 +7,24 @@
 #include <vector>
 
 #include "app/site/goal.hpp"
+#include "drivers/base/base_state.hpp"
 #include "maps/camera_model.hpp"
+#include "maps/footprint.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/motion.hpp"
-#include "planning/footprint.hpp"
 
 namespace lodestar {
+
+/// What is particular about the firmware of the robot's base.
+struct BaseSettings {
+  /// Reported faults that do not stop it: names of the model, or numbers of bits, such as "0x0800".
+  std::vector<std::string> ignored_faults;
+  std::vector<ControlMode>
+      modes;  ///< of AgileX: meaning of the control mode's values 0, 1 ...; empty: the model's
+  std::filesystem::path file;  ///< and line, for messages
+  int line = 0;
+};
 
 /// The robot, as robot.yaml describes it.
 struct Robot {
@@ -43,6 +54,7 @@ struct Robot {
   std::optional<double> dead_band_radps;
   std::optional<double> encoder_step_m;
   std::optional<double> wheel_noise_m_per_sqrt_m;
+  BaseSettings base;
 };
 
 /// How the real base is connected.
@@ -55,6 +67,15 @@ struct BaseConnection {
   int left_node = 0;
   int right_node = 1;
   bool right_is_mirrored = true;  ///< turns backwards when the robot drives forward
+};
+
+/// Of a V4L2 camera; empty: as the camera is set, and as its driver flags its stamps.
+struct CameraSettings {
+  std::optional<double> exposure_s;
+  std::optional<int> gain;  ///< in the driver's unit
+  std::optional<double> rate_hz;
+  double latency_s = 0.0;                ///< from the end of exposure to the stamp of arrival
+  std::optional<bool> stamped_at_start;  ///< of exposure; false: at arrival
 };
 
 /// A site folder: the map, the markers above it, the cameras, the robot and the usual drive.
@@ -71,7 +92,8 @@ struct Site {
   Robot robot;
   Pose2 start;
   std::vector<Goal> goals;
-  std::string camera;                  ///< the camera device, or "simulated"; empty when the site names none
+  std::string camera;  ///< the camera device, or "simulated"; empty when the site names none
+  CameraSettings camera_settings;
   std::optional<BaseConnection> base;  ///< nothing when the site is for simulation only
 };
 

@@ -219,7 +219,7 @@ void DriveMessages::say_distrust(const DriveMoment& moment, std::vector<Message>
 
 void DriveMessages::say_base(const DriveMoment& moment, std::vector<Message>& messages) {
   const BaseFeedback& base = moment.input.base;
-  const std::string words = "base: " + in_words(base.state, base.fault);
+  const std::string words = "base: " + in_words(base.state, base.fault, base.details);
   if (words == base_said_) return;
   base_said_ = words;
   const bool bad = base.state == BaseState::fault;

@@ -6,6 +6,7 @@ export interface Command {
   key?: string;          // as shown
   button?: string;       // its text in the toolbar; none: a key only
   everywhere?: boolean;  // not only while markers are edited
+  surveying?: boolean;   // also during a survey, which proposes changes
   run: () => void;
   pressed?: () => boolean;
   possible?: () => boolean;

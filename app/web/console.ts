@@ -95,7 +95,12 @@ export class Console implements Page {
 
   private async check(): Promise<void> {
     this.panel.showCoverage(this.coverage);
-    this.panel.showIssues(await api.checkMarkers(this.editor.draft()));
+    try {
+      this.panel.showIssues(await api.checkMarkers(this.editor.draft()));
+    } catch (error) {
+      if (!(error instanceof api.Refusal) || error.status !== 403) throw error;
+      this.panel.showUnchecked('Not checked: that needs the token to edit.');
+    }
   }
 
   /** Expected deviation of a single fix at each position, by the server, as `lodestar map visibility` computes it. */
@@ -161,6 +166,10 @@ export class Console implements Page {
     this.refreshTools();
   }
 
+  private isPossibleNow(command: Command): boolean {
+    return this.modes.now === 'edit' || command.everywhere === true || (this.modes.now === 'survey' && command.surveying === true);
+  }
+
   private listen(): void {
     this.layers.onChange = () => this.layersChanged();
     this.layers.showLegend();
@@ -173,7 +182,7 @@ export class Console implements Page {
       const key = keyOf(e);
       if (isTyping(e.target) && !['Ctrl+S', 'Ctrl+P'].includes(key)) return;
       const command = this.commands.find((c) => c.key === key);
-      if (!command || (this.modes.now !== 'edit' && !command.everywhere)) return;
+      if (!command || !this.isPossibleNow(command)) return;
       e.preventDefault();
       this.run(command);
     });

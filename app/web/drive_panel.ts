@@ -91,6 +91,7 @@ export class DrivePanel {
     const enable = (id: string, possible: boolean) => { (byId(id) as HTMLButtonElement).disabled = !possible; };
     const free = live.canDrive && state !== null && (state.driver === null || live.atWheel);
     enable('live-stop', live.hello?.robot === true);
+    live.hand.enable(free);
     enable('live-pause', free && state!.moving && !state!.paused);
     enable('live-resume', free && state!.paused);
     enable('live-clear', free && state!.fault !== null);

@@ -7,12 +7,15 @@ import type { Goal } from './goals.js';
 import { LiveSocket } from './live_socket.js';
 import type { Hello, Listener, Picture, Preview, State } from './live_socket.js';
 import { DrivePanel } from './drive_panel.js';
+import { HandDrive } from './hand.js';
 import { Places } from './places.js';
 import { DrivePlots } from './plots.js';
 import type { Guest } from './pointer.js';
 import { drawEllipse, drawGoal, drawRobot, drawWay, ellipseOf, inkNow } from './robot_paint.js';
 import type { Stage } from './stage.js';
 import type { Point } from './geometry.js';
+import { SurveyView } from './survey.js';
+import type { Survey } from './survey.js';
 
 const holdEveryMs = 250;
 const staleAfterMs = 1500;
@@ -31,6 +34,8 @@ export class Live implements Guest, Listener {
   private readonly socket: LiveSocket;
   private readonly panel: DrivePanel;
   private readonly places: Places;
+  readonly hand: HandDrive;
+  readonly survey: SurveyView;
   private plots: DrivePlots | null = null;
   private path: Point[] = [];
   private track: Point[] = [];
@@ -38,6 +43,7 @@ export class Live implements Guest, Listener {
   private heardAt = 0;
   private plottedAt = 0;
   private shown = false;
+  private surveys = false;
   private wantsControl = false;
   private hasDriven = false;
 
@@ -46,6 +52,10 @@ export class Live implements Guest, Listener {
     this.goals.onChange = () => this.goalsChanged();
     this.panel = new DrivePanel(this);
     this.places = new Places(this.goals, say);
+    this.hand = new HandDrive((order) => this.order(order), () => this.releaseControl());
+    this.survey = new SurveyView(stage, stage.editor, { say, goTo: (at) => { stage.view.fit([at], 3); stage.redraw(); },
+      driveTo: (at) => this.goals.set([{ ...at, yawDeg: null }]) });
+    byId('hand').append(this.hand.element);
     byId('camera-box').append(this.camera.element, this.camera.words);
     this.makeControls();
     stage.painters.push((c) => { if (this.shown) this.paint(c); });
@@ -53,9 +63,11 @@ export class Live implements Guest, Listener {
     setInterval(() => this.beat(), holdEveryMs);
   }
 
-  /** While shown, pictures are requested, and clicks on the map set goals. */
-  show(shown: boolean): void {
+  /** While shown, pictures are requested, and clicks on the map set goals. `surveys`: a survey is shown too. */
+  show(shown: boolean, surveys = false): void {
     this.shown = shown;
+    this.surveys = surveys;
+    if (!shown) this.hand.set(false);
     if (shown) {
       this.plots ??= new DrivePlots(byId('live-plots'));
       this.places.open();
@@ -78,6 +90,7 @@ export class Live implements Guest, Listener {
     this.wantsControl = false;
     this.wantPictures();
     if (hello.robot) document.body.dataset['robot'] = '';
+    if (hello.survey) document.body.dataset['survey'] = '';
     if (first && hello.robot) this.onRobot();
     this.panel.refresh();
   }
@@ -108,6 +121,8 @@ export class Live implements Guest, Listener {
     if (what === 'take' || what === 'hold') this.wantsControl = false;
     if (what !== 'hold') this.say(`Not done (${what}): ${why}`, true);
   }
+
+  onSurvey(survey: Survey): void { this.survey.set(survey); }
 
   onPicture(picture: Picture): void { if (this.shown) this.camera.show(picture); }
 
@@ -186,6 +201,7 @@ export class Live implements Guest, Listener {
   /** Releases the control lease when the drive is over. */
   private watchControl(state: State): void {
     if (state.moving) this.hasDriven = true;
+    if (this.hand.on) this.hasDriven = false;
     if (this.wantsControl && this.hasDriven && !state.moving) {
       this.hasDriven = false;
       this.releaseControl();
@@ -226,7 +242,8 @@ export class Live implements Guest, Listener {
   private paint(c: CanvasRenderingContext2D): void {
     const { view } = this.stage;
     const colours = inkNow();
-    drawWay(c, view, this.track, colours.track, 1.5);
+    if (this.surveys) this.survey.paint(c);
+    else drawWay(c, view, this.track, colours.track, 1.5);
     drawWay(c, view, this.path, colours.path, 3);
     if (this.preview?.points) drawWay(c, view, this.preview.points.map(([x, y]) => ({ x, y })), colours.preview, 3, [8, 6]);
     this.paintMarkersInView(c);

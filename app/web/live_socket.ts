@@ -1,4 +1,5 @@
 // The connection to the robot, `lodestar.v1`: reconnects by itself, and reports when it is lost.
+import type { Survey } from './survey.js';
 
 export interface Estimate {
   x_m: number; y_m: number; yaw_deg: number;
@@ -17,7 +18,7 @@ export interface State {
   driver: number | null; viewers: number;
 }
 
-export interface Hello { client: number; role: 'view' | 'edit' | 'drive'; robot: boolean; lease_s: number }
+export interface Hello { client: number; role: 'view' | 'edit' | 'drive'; robot: boolean; survey: boolean; lease_s: number }
 
 export interface Preview {
   points?: [number, number][]; length_m?: number; time_s?: number; turns?: number;
@@ -28,13 +29,14 @@ export interface SeenMarker { id: number; confidence: number; o_px: [number, num
 export interface Picture { time_s: number; width_px: number; height_px: number; markers: SeenMarker[]; jpeg: Blob }
 
 type Message = ({ type: 'hello' } & Hello) | ({ type: 'state' } & State) | { type: 'path'; points: [number, number][] }
-  | ({ type: 'preview' } & Preview) | { type: 'refused'; what: string; why: string };
+  | ({ type: 'preview' } & Preview) | ({ type: 'survey' } & Survey) | { type: 'refused'; what: string; why: string };
 
 export interface Listener {
   onHello(hello: Hello): void;
   onState(state: State): void;
   onPath(points: [number, number][]): void;
   onPreview(preview: Preview): void;
+  onSurvey(survey: Survey): void;
   onRefused(what: string, why: string): void;
   onPicture(picture: Picture): void;
   onGone(): void;
@@ -74,6 +76,7 @@ export class LiveSocket {
       case 'state': return this.listener.onState(message);
       case 'path': return this.listener.onPath(message.points);
       case 'preview': return this.listener.onPreview(message);
+      case 'survey': return this.listener.onSurvey(message);
       case 'refused': return this.listener.onRefused(message.what, message.why);
     }
   }

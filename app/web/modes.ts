@@ -7,8 +7,9 @@ import type { Replay } from './replay.js';
 import type { Stage } from './stage.js';
 import { attempt } from './words.js';
 
-export type Mode = 'edit' | 'live' | 'replay';
+export type Mode = 'edit' | 'live' | 'survey' | 'replay';
 const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['live', 'Live', 'watch and drive the robot'],
+  ['survey', 'Survey', 'survey the markers by driving'],
   ['replay', 'Replay', 'open a run and play it back']];
 
 /** Ignores clicks and drags: no editing during playback. */
@@ -31,7 +32,7 @@ export class Modes {
   constructor(private readonly parts: Parts) {
     byId('modes').append(...titles.map(([mode, text, title]) => button(text, title, () => this.enter(mode), { id: `tool-${mode}` })));
     parts.replay.onClose = () => this.enter(parts.live.hello?.robot ? 'live' : 'edit');
-    parts.live.onRobot = () => this.enter('live');
+    parts.live.onRobot = () => this.enter(parts.live.hello?.survey ? 'survey' : 'live');
     this.enter('edit');
   }
 
@@ -42,9 +43,10 @@ export class Modes {
     document.body.dataset['mode'] = mode;
     for (const [other] of titles) byId(`tool-${other}`).setAttribute('aria-pressed', String(other === mode));
     pointer.cancel();
-    pointer.guest = mode === 'edit' ? null : mode === 'live' ? live : passive;
+    const isLive = mode === 'live' || mode === 'survey';
+    pointer.guest = mode === 'edit' ? null : isLive ? live : passive;
     stage.showsSelection = mode === 'edit';
-    live.show(mode === 'live');
+    live.show(isLive, mode === 'survey');
     if (before !== mode) layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
     if (mode !== 'replay') this.fitAtFirst(mode);
     this.parts.refreshTools();

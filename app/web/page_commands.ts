@@ -25,8 +25,8 @@ export interface Page extends MarkerTools {
 export function pageCommands(page: Page): Command[] {
   const { editor, layers } = page;
   return [
-    { name: 'undo', button: 'Undo', key: 'Ctrl+Z', title: 'undo', run: () => editor.undo(), possible: () => editor.canUndo },
-    { name: 'redo', button: 'Redo', key: 'Ctrl+Shift+Z', title: 'redo', run: () => editor.redo(), possible: () => editor.canRedo },
+    { name: 'undo', surveying: true, button: 'Undo', key: 'Ctrl+Z', title: 'undo', run: () => editor.undo(), possible: () => editor.canUndo },
+    { name: 'redo', surveying: true, button: 'Redo', key: 'Ctrl+Shift+Z', title: 'redo', run: () => editor.redo(), possible: () => editor.canRedo },
     { name: 'redo2', key: 'Ctrl+Y', title: 'redo', run: () => editor.redo() },
     ...markerCommands(page, attempt),
     { name: 'coverage', everywhere: true, button: 'Coverage', key: 'C', title: 'show the coverage of the markers', run: () => layers.paintFloor(layers.floor === 'coverage' ? 'plain' : 'coverage'), pressed: () => layers.floor === 'coverage' },
@@ -42,7 +42,7 @@ export function pageCommands(page: Page): Command[] {
     { name: 'print', button: 'Print', key: 'Ctrl+P', title: 'print sheets of the selected markers', run: () => attempt(() => printChosen(editor)) },
     { name: 'history', button: 'History', title: 'restore an earlier version', run: () => attempt(() => openHistory(editor)) },
     { name: 'reload', button: 'Reload', title: 'reload the markers; unsaved changes are lost', run: () => attempt(() => page.documents.reload()) },
-    { name: 'save', button: 'Save', key: 'Ctrl+S', title: 'save', run: () => attempt(() => page.documents.save()), possible: () => editor.dirty },
+    { name: 'save', surveying: true, button: 'Save', key: 'Ctrl+S', title: 'save', run: () => attempt(() => page.documents.save()), possible: () => editor.dirty },
     { name: 'theme', everywhere: true, button: 'Light/dark', title: 'light or dark', run: () => page.changeTheme() },
     { name: 'help', everywhere: true, button: 'Help', key: '?', title: 'this help', run: () => attempt(() => showHelp(page.commands)) },
   ];

@@ -111,6 +111,11 @@ export class Panel {
       listOf(worstFirst.slice(0, mostIssues).map((issue) => this.issueRow(issue))));
   }
 
+  showUnchecked(why: string): void {
+    this.gapWords.textContent = '';
+    byId('issues').replaceChildren(el('p', {}, why));
+  }
+
   private issueRow(issue: Issue): HTMLElement {
     return button(issue.words, 'Show on the map', () => {
       this.editor.select([...this.editor.markers.values()].filter((m) => issue.ids.includes(m.id)).map((m) => m.key));

@@ -1,50 +1,52 @@
+#include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <utility>
 
 #include "drivers/base/agilex_v2.hpp"
+#include "drivers/base/agilex_v2_table.hpp"
 #include "drivers/base/base_protocol.hpp"
 #include "drivers/base/travel_counter.hpp"
 
 namespace lodestar {
 namespace {
 
-struct NamedBit {
-  std::uint32_t bit = 0;
-  const char* name = "";
-};
+// Fault bits: bytes 4 and 5 of the system state as one big-endian number, from each model's user manual. A
+// base drives on CAN with its transmitter off, and with a battery that is getting low.
+constexpr std::array tracer_bits{
+    FaultBit{.bit = 0x0100, .name = "battery under-voltage"},
+    FaultBit{.bit = 0x0200, .name = "battery under-voltage warning", .stops = false},
+    FaultBit{.bit = 0x0400, .name = "remote control lost", .stops = false}};
+constexpr std::array hunter_bits{FaultBit{.bit = 0x0200, .name = "steering encoder"},
+                                 FaultBit{.bit = 0x0400, .name = "remote control lost", .stops = false},
+                                 FaultBit{.bit = 0x1000, .name = "upper computer lost"},
+                                 FaultBit{.bit = 0x4000, .name = "motor driver"},
+                                 FaultBit{.bit = 0x0001, .name = "battery under-voltage"},
+                                 FaultBit{.bit = 0x0008, .name = "steering driver lost"},
+                                 FaultBit{.bit = 0x0010, .name = "rear right driver lost"},
+                                 FaultBit{.bit = 0x0020, .name = "rear left driver lost"},
+                                 FaultBit{.bit = 0x0040, .name = "motor driver too hot"},
+                                 FaultBit{.bit = 0x0080, .name = "motor driver over-current"}};
 
-// Fault bits: bytes 4 and 5 of the system state as one big-endian number, from each model's user manual.
-constexpr std::array tracer_bits{NamedBit{0x0100, "battery under-voltage"},
-                                 NamedBit{0x0200, "battery under-voltage warning"},
-                                 NamedBit{0x0400, "remote control lost"}};
-constexpr std::array hunter_bits{
-    NamedBit{0x0200, "steering encoder"},       NamedBit{0x0400, "remote control lost"},
-    NamedBit{0x1000, "upper computer lost"},    NamedBit{0x4000, "motor driver"},
-    NamedBit{0x0001, "battery under-voltage"},  NamedBit{0x0008, "steering driver lost"},
-    NamedBit{0x0010, "rear right driver lost"}, NamedBit{0x0020, "rear left driver lost"},
-    NamedBit{0x0040, "motor driver too hot"},   NamedBit{0x0080, "motor driver over-current"}};
-
-template <std::size_t count>
-std::vector<std::string> names_of(std::uint32_t bits, const std::array<NamedBit, count>& known) {
-  std::vector<std::string> names;
-  for (const auto& [bit, name] : known) {
-    if ((bits & bit) != 0) names.emplace_back(name);
-    bits &= ~bit;
-  }
-  if (bits != 0) names.push_back(fmt::format("unknown fault bits 0x{:04X}", bits));
-  return names;
+/// What the values of the control mode mean, from the manuals. The remote control is 2 on a Hunter, and 3 in
+/// the vendor's client for all.
+std::vector<ControlMode> modes_of(BaseModel model) {
+  using enum ControlMode;
+  return model == BaseModel::hunter ? std::vector{standby, can, remote, remote}
+                                    : std::vector{standby, can, uart, remote};
 }
 
 class AgilexProtocol final : public BaseProtocol {
  public:
-  AgilexProtocol(BaseModel model, double max_plausible_wheel_mps)
-      : model_(model), travel_(max_plausible_wheel_mps) {}
+  AgilexProtocol(BaseModel model, double max_plausible_wheel_mps, std::vector<ControlMode> modes)
+      : model_(model),
+        modes_(modes.empty() ? modes_of(model) : std::move(modes)),
+        travel_(max_plausible_wheel_mps) {}
 
   HeardFrame decode(const StampedCanFrame& received) override {
     const CanFrame& frame = received.frame;
     HeardFrame heard;
-    if (const auto state = agilex::decode_system_state(frame)) {
+    if (auto state = agilex::decode_system_state(frame)) {
+      state->mode = mode_of(frame);
       heard.from_base = true;
       heard.system = state;
       heard.odd = state->vehicle == VehicleState::unknown || state->mode == ControlMode::unknown;
@@ -64,7 +66,8 @@ class AgilexProtocol final : public BaseProtocol {
   }
 
   [[nodiscard]] std::vector<CanFrame> enable() const override {
-    return {agilex::encode_control_mode(ControlMode::can)};
+    const auto can_mode = std::ranges::find(modes_, ControlMode::can) - modes_.begin();
+    return {encode(agilex::tables::control_mode, {static_cast<double>(can_mode)})};
   }
   [[nodiscard]] std::vector<CanFrame> command(const BodyVelocity& velocity) const override {
     return {agilex::encode_motion_command(velocity)};
@@ -76,19 +79,28 @@ class AgilexProtocol final : public BaseProtocol {
             agilex::system_state_id,   agilex::motion_state_id, agilex::odometer_id};
   }
 
-  [[nodiscard]] std::vector<std::string> fault_names(std::uint32_t bits) const override {
-    return model_ == BaseModel::hunter ? names_of(bits, hunter_bits) : names_of(bits, tracer_bits);
+  [[nodiscard]] std::span<const FaultBit> known_fault_bits() const override {
+    if (model_ == BaseModel::hunter) return hunter_bits;
+    return tracer_bits;
   }
 
  private:
+  [[nodiscard]] ControlMode mode_of(const CanFrame& system_state) const {
+    constexpr std::size_t mode_byte = 1;
+    const std::size_t value = system_state.data.at(mode_byte);
+    return value < modes_.size() ? modes_[value] : ControlMode::unknown;
+  }
+
   BaseModel model_;
+  std::vector<ControlMode> modes_;
   TravelCounter travel_;
 };
 
 }  // namespace
 
-std::unique_ptr<BaseProtocol> make_agilex_protocol(BaseModel model, double max_plausible_wheel_mps) {
-  return std::make_unique<AgilexProtocol>(model, max_plausible_wheel_mps);
+std::unique_ptr<BaseProtocol> make_agilex_protocol(BaseModel model, double max_plausible_wheel_mps,
+                                                   std::vector<ControlMode> modes) {
+  return std::make_unique<AgilexProtocol>(model, max_plausible_wheel_mps, std::move(modes));
 }
 
 }  // namespace lodestar

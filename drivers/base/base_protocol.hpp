@@ -2,7 +2,9 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drivers/base/base_state.hpp"
@@ -19,6 +21,13 @@ struct HeardFrame {
   std::optional<SystemState> system;
   std::optional<BodyVelocity> measured;
   std::optional<WheelTravel> travel;  ///< since the first reading
+};
+
+/// A bit of SystemState::fault_bits.
+struct FaultBit {
+  std::uint32_t bit = 0;
+  std::string_view name;
+  bool stops = true;  ///< false: a warning, which the base drives with
 };
 
 /// Protocol of one kind of base: what to send, and what its frames mean. It keeps state only to assemble
@@ -38,17 +47,24 @@ class BaseProtocol {
   [[nodiscard]] virtual std::vector<CanFrame> clear_faults() const = 0;
   /// All identifiers that are sent or received.
   [[nodiscard]] virtual std::vector<std::uint32_t> identifiers() const = 0;
-  /// Descriptions of the bits that are set, for messages.
-  [[nodiscard]] virtual std::vector<std::string> fault_names(std::uint32_t bits) const = 0;
+  /// The fault bits that the model defines; any other is a fault.
+  [[nodiscard]] virtual std::span<const FaultBit> known_fault_bits() const = 0;
 
+  /// Descriptions of the bits that are set, for messages.
+  [[nodiscard]] std::vector<std::string> fault_names(std::uint32_t bits) const;
+  /// The bits that are only warnings.
+  [[nodiscard]] std::uint32_t warning_bits() const;
   [[nodiscard]] std::vector<CanFrame> stop() const { return command({}); }
 };
 
 enum class BaseModel { tracer, scout, hunter };
 
-/// AgileX V2; the meaning of the fault bits depends on the model.
+/// AgileX V2; the meaning of the fault bits and of the control mode depends on the model. `modes`: what the
+/// values 0, 1, ... of the control mode mean, where the firmware differs from the model's manual; it must
+/// contain ControlMode::can, and a value beyond it is ControlMode::unknown. Empty: as in the manual.
 std::unique_ptr<BaseProtocol> make_agilex_protocol(BaseModel model = BaseModel::tracer,
-                                                   double max_plausible_wheel_mps = 5.0);
+                                                   double max_plausible_wheel_mps = 5.0,
+                                                   std::vector<ControlMode> modes = {});
 
 /// Two wheels on the axes of an ODrive.
 struct OdriveOptions {

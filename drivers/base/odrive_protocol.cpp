@@ -1,7 +1,5 @@
 #include <array>
-#include <fmt/format.h>
 #include <numbers>
-#include <utility>
 
 #include "drivers/base/base_protocol.hpp"
 #include "drivers/base/odrive_table.hpp"
@@ -10,38 +8,39 @@
 namespace lodestar {
 namespace {
 
-namespace tables = odrive::tables;
+namespace odrive_tables = odrive::tables;
 
 /// The subset of CANSimple that the driver sends or needs to receive.
-constexpr std::array spoken{tables::heartbeat,           tables::encoder_estimates,  tables::set_axis_state,
-                            tables::set_controller_mode, tables::set_input_velocity, tables::clear_errors};
+constexpr std::array spoken{odrive_tables::heartbeat,          odrive_tables::encoder_estimates,
+                            odrive_tables::set_axis_state,     odrive_tables::set_controller_mode,
+                            odrive_tables::set_input_velocity, odrive_tables::clear_errors};
 
 /// Readings of the two axes are combined only when they are about equally old.
 constexpr Duration most_apart = std::chrono::milliseconds(300);
 constexpr Duration most_apart_moving = std::chrono::milliseconds(40);
 
-constexpr std::array<std::pair<std::uint32_t, const char*>, 20> error_names{{
-    {0x1, "initializing"},
-    {0x2, "system level"},
-    {0x4, "timing"},
-    {0x8, "missing estimate"},
-    {0x10, "bad configuration"},
-    {0x20, "gate driver"},
-    {0x40, "missing input"},
-    {0x100, "over-voltage"},
-    {0x200, "under-voltage"},
-    {0x400, "over-current"},
-    {0x800, "too much regenerated"},
-    {0x1000, "current limit"},
-    {0x2000, "motor too hot"},
-    {0x4000, "inverter too hot"},
-    {0x8000, "velocity limit"},
-    {0x10000, "position limit"},
-    {odrive::watchdog_expired, "watchdog expired"},
-    {odrive::estop_requested, "emergency stop requested"},
-    {0x04000000, "spinout"},
-    {0x40000000, "calibration"},
-}};
+constexpr std::array error_bits{FaultBit{.bit = 0x1, .name = "initializing"},
+                                FaultBit{.bit = 0x2, .name = "system level"},
+                                FaultBit{.bit = 0x4, .name = "timing"},
+                                FaultBit{.bit = 0x8, .name = "missing estimate"},
+                                FaultBit{.bit = 0x10, .name = "bad configuration"},
+                                FaultBit{.bit = 0x20, .name = "gate driver"},
+                                FaultBit{.bit = 0x40, .name = "missing input"},
+                                FaultBit{.bit = 0x100, .name = "over-voltage"},
+                                FaultBit{.bit = 0x200, .name = "under-voltage"},
+                                FaultBit{.bit = 0x400, .name = "over-current"},
+                                FaultBit{.bit = 0x800, .name = "too much regenerated"},
+                                FaultBit{.bit = 0x1000, .name = "current limit"},
+                                FaultBit{.bit = 0x2000, .name = "motor too hot"},
+                                FaultBit{.bit = 0x4000, .name = "inverter too hot"},
+                                FaultBit{.bit = 0x8000, .name = "velocity limit"},
+                                FaultBit{.bit = 0x10000, .name = "position limit"},
+                                FaultBit{.bit = odrive::watchdog_expired, .name = "watchdog expired"},
+                                FaultBit{.bit = odrive::estop_requested, .name = "emergency stop requested"},
+                                FaultBit{.bit = 0x04000000, .name = "spinout"},
+                                FaultBit{.bit = 0x08000000, .name = "brake resistor"},
+                                FaultBit{.bit = 0x10000000, .name = "thermistor"},
+                                FaultBit{.bit = 0x40000000, .name = "calibration"}};
 
 /// The newest values of one axis.
 struct Axis {
@@ -64,22 +63,22 @@ class OdriveProtocol final : public BaseProtocol {
       const std::uint32_t offset = offset_of(is_right);
       const CanFrame& frame = received.frame;
       Axis& axis = is_right ? right_ : left_;
-      if (const auto heartbeat = lodestar::decode(tables::heartbeat, frame, offset)) {
+      if (const auto heartbeat = lodestar::decode(odrive_tables::heartbeat, frame, offset)) {
         axis.heartbeat = received.stamp;
         axis.errors = static_cast<std::uint32_t>((*heartbeat)[0]);
         axis.state = static_cast<std::uint8_t>((*heartbeat)[1]);
         heard.from_base = true;
         heard.system = system_state(received.stamp);
-      } else if (const auto estimate = lodestar::decode(tables::encoder_estimates, frame, offset)) {
+      } else if (const auto estimate = lodestar::decode(odrive_tables::encoder_estimates, frame, offset)) {
         axis.estimate = received.stamp;
         axis.position_rev = (*estimate)[0];
         axis.velocity_rps = (*estimate)[1];
         heard.from_base = true;
         if (is_right) decode_wheels(received.stamp, heard);
       } else {
-        heard.odd = heard.odd || frame.id == tables::heartbeat.id + offset ||
-                    frame.id == tables::encoder_estimates.id + offset;
-        heard.command = heard.command || frame.id == tables::set_input_velocity.id + offset;
+        heard.odd = heard.odd || frame.id == odrive_tables::heartbeat.id + offset ||
+                    frame.id == odrive_tables::encoder_estimates.id + offset;
+        heard.command = heard.command || frame.id == odrive_tables::set_input_velocity.id + offset;
       }
     }
     return heard;
@@ -88,10 +87,10 @@ class OdriveProtocol final : public BaseProtocol {
   [[nodiscard]] std::vector<CanFrame> enable() const override {
     std::vector<CanFrame> frames;
     for (const std::uint32_t offset : {offset_of(false), offset_of(true)}) {
-      frames.push_back(
-          encode(tables::set_controller_mode, {odrive::velocity_control, odrive::passthrough}, offset));
-      frames.push_back(encode(tables::set_input_velocity, {}, offset));
-      frames.push_back(encode(tables::set_axis_state, {odrive::closed_loop_control}, offset));
+      frames.push_back(encode(odrive_tables::set_controller_mode,
+                              {odrive::velocity_control, odrive::passthrough}, offset));
+      frames.push_back(encode(odrive_tables::set_input_velocity, {}, offset));
+      frames.push_back(encode(odrive_tables::set_axis_state, {odrive::closed_loop_control}, offset));
     }
     return frames;
   }
@@ -100,13 +99,13 @@ class OdriveProtocol final : public BaseProtocol {
     const double half_difference_mps = velocity.turn_radps * options_.track_width_m / 2.0;
     const double left_rps = (velocity.forward_mps - half_difference_mps) / m_per_rev();
     const double right_rps = (velocity.forward_mps + half_difference_mps) / m_per_rev();
-    return {encode(tables::set_input_velocity, {left_rps}, offset_of(false)),
-            encode(tables::set_input_velocity, {right_sign() * right_rps + 0.0}, offset_of(true))};
+    return {encode(odrive_tables::set_input_velocity, {left_rps}, offset_of(false)),
+            encode(odrive_tables::set_input_velocity, {right_sign() * right_rps + 0.0}, offset_of(true))};
   }
 
   [[nodiscard]] std::vector<CanFrame> clear_faults() const override {
-    return {encode(tables::clear_errors, {}, offset_of(false)),
-            encode(tables::clear_errors, {}, offset_of(true))};
+    return {encode(odrive_tables::clear_errors, {}, offset_of(false)),
+            encode(odrive_tables::clear_errors, {}, offset_of(true))};
   }
 
   [[nodiscard]] std::vector<std::uint32_t> identifiers() const override {
@@ -117,15 +116,7 @@ class OdriveProtocol final : public BaseProtocol {
     return all;
   }
 
-  [[nodiscard]] std::vector<std::string> fault_names(std::uint32_t bits) const override {
-    std::vector<std::string> names;
-    for (const auto& [bit, name] : error_names) {
-      if ((bits & bit) != 0) names.emplace_back(name);
-      bits &= ~bit;
-    }
-    if (bits != 0) names.push_back(fmt::format("unknown error bits 0x{:08X}", bits));
-    return names;
-  }
+  [[nodiscard]] std::span<const FaultBit> known_fault_bits() const override { return error_bits; }
 
  private:
   [[nodiscard]] std::uint32_t offset_of(bool is_right) const {

@@ -28,6 +28,8 @@ inline constexpr std::array heartbeat_signals{
     Signal{.name = "ProcedureResult", .byte = 5}, Signal{.name = "TrajectoryDone", .byte = 6, .bits = 1}};
 inline constexpr std::array error_signals{Signal{.name = "ActiveErrors", .byte = 0, .bits = 32},
                                           Signal{.name = "DisarmReason", .byte = 4, .bits = 32}};
+inline constexpr std::array address_signals{Signal{.name = "NodeId", .byte = 0},
+                                            Signal{.name = "SerialNumber", .byte = 1, .bits = 48}};
 inline constexpr std::array axis_state_signals{Signal{.name = "RequestedState", .byte = 0, .bits = 32}};
 inline constexpr std::array estimate_signals{
     Signal{.name = "Position", .byte = 0, .bits = 32, .kind = float32, .unit = "rev"},
@@ -102,6 +104,13 @@ inline constexpr MessageSpec error{.name = "Error",
                                    .order = ByteOrder::little_endian,
                                    .period = milliseconds(100),
                                    .signals = error_signals};
+/// Each axis's answer to a request to itself or to address_of_all: who is on the bus.
+inline constexpr MessageSpec address{.name = "Address",
+                                     .id = 0x06,
+                                     .sender = Sender::base,
+                                     .least_length = 7,
+                                     .order = ByteOrder::little_endian,
+                                     .signals = address_signals};
 inline constexpr MessageSpec set_axis_state{.name = "SetAxisState",
                                             .id = 0x07,
                                             .sender = Sender::host,
@@ -186,6 +195,7 @@ inline constexpr std::array messages{version,
                                      heartbeat,
                                      estop,
                                      error,
+                                     address,
                                      set_axis_state,
                                      encoder_estimates,
                                      set_controller_mode,
@@ -201,6 +211,9 @@ inline constexpr std::array messages{version,
                                      powers};
 
 }  // namespace tables
+
+/// Of a request for addresses that every axis answers: sent to the node number of axes that have none yet.
+inline constexpr std::uint32_t address_of_all = 0x3F * node_step + tables::address.id;
 
 /// A drive with two axes.
 inline constexpr ProtocolTable table{

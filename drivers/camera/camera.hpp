@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "maps/frame.hpp"
 
@@ -16,6 +17,9 @@ class Camera {
 
   /// The oldest frame not yet polled; empty when none has arrived. Never blocks.
   virtual std::optional<Frame> poll() = 0;
+
+  /// What the device and its driver claim about the frames, in words; empty for what has no driver.
+  [[nodiscard]] virtual std::string description() const { return {}; }
 };
 
 }  // namespace lodestar

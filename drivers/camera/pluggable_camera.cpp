@@ -38,8 +38,11 @@ void PluggableCamera::take_opened() {
   heard_ = options_.now();
 }
 
-std::unique_ptr<Camera> open_v4l2_camera(const std::string& device, int width_px, int height_px) {
-  const V4l2CameraOptions options{.width_px = width_px, .height_px = height_px};
+std::string PluggableCamera::description() const {
+  return camera_ ? camera_->description() : std::string();
+}
+
+std::unique_ptr<Camera> open_v4l2_camera(const std::string& device, const V4l2CameraOptions& options) {
   return std::make_unique<PluggableCamera>(
       [device, options] { return std::make_unique<V4l2Camera>(open_video_device(device), device, options); });
 }

@@ -27,6 +27,7 @@ class PluggableCamera final : public Camera {
   explicit PluggableCamera(Open open, PluggableCameraOptions options = {});
 
   std::optional<Frame> poll() override;
+  [[nodiscard]] std::string description() const override;
 
  private:
   void open_again();
@@ -39,7 +40,8 @@ class PluggableCamera final : public Camera {
   std::future<std::unique_ptr<V4l2Camera>> opening_;
 };
 
-/// The camera at the given device node (`/dev/video0`), which must deliver frames of that size.
-std::unique_ptr<Camera> open_v4l2_camera(const std::string& device, int width_px, int height_px);
+/// The camera at the given device node (`/dev/video0`). The options apply at every opening, also after it was
+/// unplugged.
+std::unique_ptr<Camera> open_v4l2_camera(const std::string& device, const V4l2CameraOptions& options);
 
 }  // namespace lodestar

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <linux/videodev2.h>
 
+#include "drivers/camera/v4l2_controls.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -37,12 +38,8 @@ bool has_limited_luma(const v4l2_pix_format& pixels) {
   return pixels.colorspace != V4L2_COLORSPACE_JPEG;
 }
 
-/// The exposure time if the camera reports it, otherwise zero.
-Duration exposure_of(VideoDevice& device) {
-  v4l2_control exposure{.id = V4L2_CID_EXPOSURE_ABSOLUTE, .value = 0};
-  if (device.control(VIDIOC_G_CTRL, &exposure) != 0) return {};
-  constexpr std::chrono::microseconds unit(100);
-  return std::max(exposure.value, 0) * unit;
+std::string in_words(StampedAt moment) {
+  return moment == StampedAt::exposure_start ? "start of exposure" : "arrival";
 }
 
 }  // namespace
@@ -52,7 +49,7 @@ V4l2Camera::V4l2Camera(std::unique_ptr<VideoDevice> device, const std::string& n
     : device_(std::move(device)), name_(name), options_(options) {
   require_streaming();
   choose_layout();
-  exposure_ = exposure_of(*device_);
+  apply_settings();
   start();
 }
 
@@ -69,6 +66,7 @@ void V4l2Camera::require_streaming() {
   constexpr const char* wanted = "a V4L2 camera that streams";
   v4l2_capability capability{};
   if (device_->control(VIDIOC_QUERYCAP, &capability) != 0) refuse("no video device", wanted);
+  driver_ = reinterpret_cast<const char*>(capability.driver);
   const std::uint32_t can = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0U ? capability.device_caps
                                                                                    : capability.capabilities;
   constexpr std::uint32_t needed = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
@@ -111,6 +109,22 @@ void V4l2Camera::choose_layout() {
   }
 }
 
+void V4l2Camera::apply_settings() {
+  if (options_.rate_hz) set_frame_rate(*device_, name_, *options_.rate_hz);
+  if (options_.exposure) set_exposure(*device_, name_, *options_.exposure);
+  if (options_.gain) set_gain(*device_, name_, *options_.gain);
+  read_exposure();
+}
+
+void V4l2Camera::read_exposure() {
+  const Stamp now = device_->now();
+  const bool is_known =
+      exposure_read_ && (options_.exposure || now - *exposure_read_ < options_.exposure_read_period);
+  if (is_known) return;
+  exposure_read_ = now;
+  exposure_ = exposure_of(*device_).value_or(options_.exposure.value_or(Duration{}));
+}
+
 void V4l2Camera::start() {
   constexpr const char* wanted = "buffers to stream into";
   v4l2_requestbuffers request{};
@@ -131,13 +145,43 @@ void V4l2Camera::start() {
   if (device_->control(VIDIOC_STREAMON, &type) != 0) refuse("a camera that does not start", "a stream");
 }
 
-Stamp V4l2Camera::middle_of_exposure(const v4l2_buffer& buffer) const {
-  if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC)
-    return device_->now() - exposure_ / 2;
-  const Stamp stamp(std::chrono::seconds(buffer.timestamp.tv_sec) +
-                    std::chrono::microseconds(buffer.timestamp.tv_usec));
-  const bool at_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
-  return at_start ? stamp + exposure_ / 2 : stamp - options_.readout - exposure_ / 2;
+Stamp V4l2Camera::middle_of_exposure(const v4l2_buffer& buffer) {
+  Stamp stamp = device_->now();
+  StampedAt moment = StampedAt::arrival;
+  if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
+    stamp = Stamp(std::chrono::seconds(buffer.timestamp.tv_sec) +
+                  std::chrono::microseconds(buffer.timestamp.tv_usec));
+    moment = stamped_at(buffer, stamp);
+  }
+  taken_as_ = moment;
+  return moment == StampedAt::exposure_start ? stamp + exposure_ / 2
+                                             : stamp - options_.latency - exposure_ / 2;
+}
+
+StampedAt V4l2Camera::stamped_at(const v4l2_buffer& buffer, Stamp stamp) {
+  const bool flags_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  flagged_ = flags_start ? StampedAt::exposure_start : StampedAt::arrival;
+  if (options_.stamped_at) return *options_.stamped_at;
+  if (stamp + exposure_ > device_->now()) start_is_impossible_ = true;
+  const bool flags_in_vain = driver_ == "uvcvideo" || start_is_impossible_;
+  return flags_in_vain ? StampedAt::arrival : *flagged_;
+}
+
+std::string V4l2Camera::description() const {
+  std::string words = fmt::format("{}: {} x {} {}", driver_.empty() ? name_ : driver_, layout_.width_px,
+                                  layout_.height_px, fourcc_name(layout_.fourcc));
+  if (const auto rate_hz = frame_rate_of(*device_))
+    words += fmt::format(", {:.4g} frames a second", *rate_hz);
+  if (exposure_ > Duration{}) {
+    words += fmt::format(", exposure {:.1f} ms ({})", 1e3 * seconds(exposure_),
+                         has_automatic_exposure(*device_) ? "automatic" : "fixed");
+  } else {
+    words += ", exposure not reported";
+  }
+  if (!taken_as_) return words;
+  words += flagged_ ? ", stamps flagged as " + in_words(*flagged_) : ", no stamps";
+  if (taken_as_ != flagged_) words += ", taken as " + in_words(*taken_as_);
+  return words;
 }
 
 std::optional<Frame> V4l2Camera::poll() {
@@ -149,6 +193,7 @@ std::optional<Frame> V4l2Camera::poll() {
 
     const auto memory = buffers_[buffer.index];
     const auto filled = memory.first(std::min<std::size_t>(buffer.bytesused, memory.size()));
+    read_exposure();
     const bool damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0U;
     Frame frame{.stamp = middle_of_exposure(buffer), .gray = damaged ? cv::Mat() : gray_of(layout_, filled)};
     lost_ = device_->control(VIDIOC_QBUF, &buffer) != 0;

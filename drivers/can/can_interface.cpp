@@ -1,7 +1,9 @@
 #include "drivers/can/can_interface.hpp"
 
 #include <array>
+#include <fmt/format.h>
 #include <libsocketcan.h>
+#include <linux/can.h>
 #include <linux/ethtool.h>
 #include <linux/sockios.h>
 #include <net/if.h>
@@ -30,6 +32,10 @@ bool is_virtual(const std::string& name) {
   return driver == "vcan" || driver == "vxcan";
 }
 
+bool kernel_has_can() {
+  return FileDescriptor(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW)).is_open();
+}
+
 std::string name_of_state(int state) {
   constexpr std::array<const char*, 6> names{"error-active", "error-warning", "error-passive",
                                              "bus-off",      "stopped",       "sleeping"};
@@ -47,6 +53,7 @@ bool is_switched_on(const std::string& name) {
 
 CanInterface look_at_can_interface(const std::string& name) {
   CanInterface seen;
+  seen.kernel_has_can = kernel_has_can();
   seen.exists = name.size() < IFNAMSIZ && ::if_nametoindex(name.c_str()) != 0;
   if (!seen.exists) return seen;
   seen.is_up = is_switched_on(name);
@@ -63,6 +70,26 @@ CanInterface look_at_can_interface(const std::string& name) {
     seen.receive_errors = errors.rxerr;
   }
   return seen;
+}
+
+std::optional<CanInterfaceProblem> problem_of(const std::string& name, const CanInterface& seen) {
+  const bool wants_virtual = name.starts_with("vcan");
+  if (!seen.kernel_has_can) {
+    return CanInterfaceProblem{"this kernel has no CAN",
+                               "sudo modprobe can can-raw; where there are no such modules, as in many "
+                               "containers, a kernel that has them"};
+  }
+  if (!seen.exists) {
+    return CanInterfaceProblem{
+        name + " does not exist",
+        wants_virtual ? fmt::format("sudo ip link add dev {0} type vcan && sudo ip link set {0} up", name)
+                      : "plug in the CAN adapter, or name another interface: ip link"};
+  }
+  if (seen.is_up) return std::nullopt;
+  return CanInterfaceProblem{name + " is down",
+                             wants_virtual ? fmt::format("sudo ip link set {} up", name)
+                                           : fmt::format("sudo ip link set {} up type can bitrate {}", name,
+                                                         usual_can_bit_rate_bps)};
 }
 
 }  // namespace lodestar

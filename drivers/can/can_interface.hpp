@@ -6,8 +6,12 @@
 
 namespace lodestar {
 
+/// Of AgileX's bases and ODrive's defaults.
+inline constexpr std::uint32_t usual_can_bit_rate_bps = 500'000;
+
 /// What the system reports about a CAN interface, without opening it.
 struct CanInterface {
+  bool kernel_has_can = false;
   bool exists = false;
   bool is_up = false;
   bool is_virtual = false;                       ///< has no controller, hence no bit rate and no errors
@@ -19,7 +23,15 @@ struct CanInterface {
 
 CanInterface look_at_can_interface(const std::string& name);
 
-/// Only the controller state.
+/// What keeps an interface from being used.
+struct CanInterfaceProblem {
+  std::string found;
+  std::string remedy;  ///< the commands, where commands help
+};
+/// Empty when frames can be sent and received.
+std::optional<CanInterfaceProblem> problem_of(const std::string& name, const CanInterface& seen);
+
+/// Only whether it is switched on.
 bool is_switched_on(const std::string& name);
 
 }  // namespace lodestar

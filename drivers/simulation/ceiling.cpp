@@ -1,6 +1,7 @@
 #include "drivers/simulation/ceiling.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,7 +19,8 @@ enum CeilingPurpose : std::uint64_t {
   places_of_lamps,
   places_of_glints,
   places_of_dots,
-  place_of_tiles
+  place_of_tiles,
+  tilt_of_marker
 };
 
 constexpr double margin_m = 3.0;  ///< ceiling beyond the outermost markers
@@ -28,6 +30,16 @@ constexpr double tube_half_length_m = 0.59;  ///< a T8 tube of 36 W
 constexpr double tube_radius_m = 0.016;      ///< with the glow of its reflector
 constexpr double tube_gray = 330.0;
 const Vec2 tube_spacing_m(5 * ceiling_tile_m, 4 * ceiling_tile_m);
+
+/// A tube in a reflector, as bands from the reflector's rim to the tube.
+struct ReflectorBand {
+  double half_width_m = 0.0;
+  double gray = 0.0;
+};
+constexpr std::array reflector_bands{ReflectorBand{0.085, 150.0}, ReflectorBand{0.065, 185.0},
+                                     ReflectorBand{0.04, 230.0}, ReflectorBand{0.018, 360.0}};
+const Vec2 reflector_spacing_m(2 * ceiling_tile_m, 2 * ceiling_tile_m);
+constexpr double reflector_clearance_m = 0.19;  ///< from its axis to the centre of a marker
 
 const Vec2 lamp_spacing_m(4 * ceiling_tile_m, 4 * ceiling_tile_m);
 constexpr double light_clearance_m = 0.3;  ///< between a light and the centre of a marker
@@ -41,20 +53,31 @@ struct Extent {
   Vec2 high_m = Vec2::Zero();
 };
 
+/// About the marker's dot O.
+Eigen::Isometry3d draw_tilt(double sigma_rad, Random random) {
+  const double about_x_rad = sigma_rad * random.normal();
+  const double about_y_rad = sigma_rad * random.normal();
+  Eigen::Isometry3d tilt = Eigen::Isometry3d::Identity();
+  tilt.linear() = rotation_from({about_x_rad, about_y_rad, 0.0});
+  return tilt;
+}
+
 CeilingMarker installed_marker(const MarkerRegistry& registry, const RegisteredMarker& marker,
                                const SimulatedCameraOptions& options, Random random) {
   Random places = random.stream(places_of_dots);
   CeilingMarker result;
-  result.map_from_marker = map_from_marker(registry, marker);
+  result.map_from_marker = map_from_marker(registry, marker) *
+                           draw_tilt(options.marker_tilt_sigma_rad, random.stream(tilt_of_marker));
   const auto in_map = [&](const Vec2& in_marker) -> Vec3 {
-    return result.map_from_marker * Vec3(in_marker.x(), in_marker.y(), 0.0);
+    const Vec2 printed = options.print_scale * in_marker;
+    return result.map_from_marker * Vec3(printed.x(), printed.y(), 0.0);
   };
   result.middle_m = in_map(Vec2::Constant(0.5 * (marker_grid_size - 1) * marker_pitch_m));
   for (const GridCell cell : dots_of(marker.id)) {
     Vec2 glued = cell_in_marker(cell);
     for (double& coordinate : glued) coordinate += options.dot_place_sigma_m * places.normal();
-    result.dots.push_back(
-        {in_map(glued), marker_dot_radius_m, options.dot_gray + options.dot_gray_sigma * random.normal()});
+    result.dots.push_back({in_map(glued), options.print_scale * marker_dot_radius_m,
+                           options.dot_gray + options.dot_gray_sigma * random.normal()});
   }
   return result;
 }
@@ -84,10 +107,11 @@ double distance_to_piece_m(const Vec2& point, const Vec2& from, const Vec2& to) 
   return (from + fraction * piece - point).norm();
 }
 
-bool is_clear(const CeilingTube& tube, const std::vector<CeilingMarker>& markers) {
+bool is_clear(const CeilingTube& tube, const std::vector<CeilingMarker>& markers,
+              double clearance_m = light_clearance_m) {
   return std::ranges::none_of(markers, [&](const CeilingMarker& marker) {
     return distance_to_piece_m(marker.middle_m.head<2>(), tube.from_m.head<2>(), tube.to_m.head<2>()) <
-           light_clearance_m;
+           clearance_m;
   });
 }
 
@@ -148,6 +172,20 @@ std::vector<CeilingTube> fit_tubes(const Ceiling& ceiling, const Extent& extent)
   return tubes;
 }
 
+/// Rows of luminaires; those in the way of a marker are left out.
+std::vector<CeilingTube> fit_reflectors(const Ceiling& ceiling, const Extent& extent) {
+  std::vector<CeilingTube> tubes;
+  for (const Vec2& middle : tile_middles_m(extent, reflector_spacing_m, ceiling.tile_corner_m)) {
+    const Vec3 at(middle.x(), middle.y(), ceiling.height_m);
+    const Vec3 half_length(tube_half_length_m - reflector_bands.front().half_width_m, 0.0, 0.0);
+    const CeilingTube axis{at - half_length, at + half_length, 0.0, 0.0};
+    if (!is_clear(axis, ceiling.markers, reflector_clearance_m)) continue;
+    for (const ReflectorBand& band : reflector_bands)
+      tubes.push_back({axis.from_m, axis.to_m, band.half_width_m, band.gray});
+  }
+  return tubes;
+}
+
 std::vector<CeilingDisc> fit_lamps(const Ceiling& ceiling, const Extent& extent, Random random) {
   constexpr double share_of_places = 0.5;
   std::vector<CeilingDisc> lamps;
@@ -204,7 +242,11 @@ Ceiling fit_ceiling(const MarkerRegistry& registry, const SimulatedCameraOptions
   ceiling.height_m = median_height_m(ceiling.markers);
   ceiling.tile_corner_m = draw_tile_corner(random.stream(place_of_tiles));
   const Extent extent = extent_of(ceiling.markers);
-  if (options.tubes) ceiling.tubes = fit_tubes(ceiling, extent);
+  if (options.ceiling == CeilingKind::reflectors) {
+    ceiling.tubes = fit_reflectors(ceiling, extent);
+  } else if (options.tubes) {
+    ceiling.tubes = fit_tubes(ceiling, extent);
+  }
   if (options.lamps) ceiling.lamps = fit_lamps(ceiling, extent, random.stream(places_of_lamps));
   if (options.glints) ceiling.glints = scatter_glints(ceiling, extent, random.stream(places_of_glints));
   return ceiling;

@@ -1,8 +1,8 @@
 #include "drivers/simulation/ceiling_background.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
+
+#include "drivers/simulation/ceiling_light.hpp"
 
 namespace lodestar {
 namespace {
@@ -14,59 +14,8 @@ constexpr double light_scale = LightImage::units_per_gray << light_bits;
 
 constexpr double strongest_texture_gray = 30.0;  // such that texture on white still fits 16 bits
 
-constexpr double glow_gray = 28.0;     // of the ceiling directly beside a light
-constexpr double glow_reach_m = 0.13;  // distance at which it has fallen to a quarter
-
 std::size_t index(int value) {
   return static_cast<std::size_t>(value);
-}
-
-/// The ray through a pixel. Outside the domain of the lens model (corners of a circular image) the pinhole
-/// ray is used.
-Vec3 ray_through(const Vec2& pixel, const CameraModel& camera) {
-  const Vec2 pinhole((pixel.x() - camera.cx_px) / camera.fx_px, (pixel.y() - camera.cy_px) / camera.fy_px);
-  return camera.normalized(pixel).value_or(pinhole).homogeneous();
-}
-
-/// Intersection of a ray with the ceiling; a nearly horizontal ray is cut off at a distance.
-Vec2 meet_ceiling(const Vec3& from, const Vec3& ray, double height_m) {
-  constexpr double least_rise = 0.05;
-  const double distance = std::max(height_m - from.z(), 0.0) / std::max(ray.z(), least_rise);
-  return from.head<2>() + distance * ray.head<2>();
-}
-
-double squared_distance_m2(const CeilingTube& tube, const Vec2& point) {
-  const Vec2 from = tube.from_m.head<2>();
-  const Vec2 piece = tube.to_m.head<2>() - from;
-  const double fraction = std::clamp((point - from).dot(piece) / piece.squaredNorm(), 0.0, 1.0);
-  return (from + fraction * piece - point).squaredNorm();
-}
-
-double squared_distance_m2(const CeilingDisc& lamp, const Vec2& point) {
-  return std::max((lamp.center_m.head<2>() - point).squaredNorm() - lamp.radius_m * lamp.radius_m, 0.0);
-}
-
-double glow_at(double squared_distance_m2) {
-  const double fall = 1.0 / (1.0 + squared_distance_m2 / (glow_reach_m * glow_reach_m));
-  return glow_gray * fall * fall;
-}
-
-double glow_of_lights(const Ceiling& ceiling, const Vec2& point) {
-  double gray = 0.0;
-  for (const CeilingTube& tube : ceiling.tubes) gray += glow_at(squared_distance_m2(tube, point));
-  for (const CeilingDisc& lamp : ceiling.lamps) gray += glow_at(squared_distance_m2(lamp, point));
-  return gray;
-}
-
-/// The lights whose glow may be in view.
-Ceiling lights_near(const Ceiling& ceiling, const Vec2& middle, double radius_m) {
-  constexpr double farthest_glow_m = 0.8;
-  const double near = (radius_m + farthest_glow_m) * (radius_m + farthest_glow_m);
-  const auto is_near = [&](const auto& light) { return squared_distance_m2(light, middle) < near; };
-  Ceiling result;
-  std::ranges::copy_if(ceiling.tubes, std::back_inserter(result.tubes), is_near);
-  std::ranges::copy_if(ceiling.lamps, std::back_inserter(result.lamps), is_near);
-  return result;
 }
 
 /// One eighth of the way from one end to the other; coordinates wrap, so their difference is taken as signed.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "drivers/simulation/periodic_noise.hpp"
 #include "maps/random.hpp"
 
 namespace lodestar {
@@ -15,33 +16,13 @@ constexpr int side = CeilingTexture::side;
 constexpr int tiles = 8;  // along a side
 constexpr int tile = side / tiles;
 
-cv::Mat1f white_noise(int size, Random random) {
-  cv::Mat1f noise(size, size);
-  for (float& value : noise) value = static_cast<float>(random.normal());
-  return noise;
-}
-
-/// Gaussian blur with periodic boundaries, scaled to standard deviation 1.
-cv::Mat1f smooth_noise(int size, double sigma, Random random) {
-  const int border = static_cast<int>(std::ceil(4.0 * sigma));
-  cv::Mat1f wide;
-  cv::copyMakeBorder(white_noise(size, random), wide, border, border, border, border, cv::BORDER_WRAP);
-  cv::GaussianBlur(wide, wide, {}, sigma);
-  cv::Mat1f smooth = wide(cv::Rect(border, border, size, size)).clone();
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(smooth, mean, deviation);
-  smooth = (smooth - mean[0]) / deviation[0];
-  return smooth;
-}
-
 /// Large soft blotches, enlarged from a coarse periodic grid.
 cv::Mat1f draw_stains(Random random) {
   constexpr int coarse = 128;
   constexpr int scale = side / coarse;
   constexpr int border = 4;
   cv::Mat1f wide;
-  cv::copyMakeBorder(smooth_noise(coarse, 6.0, random), wide, border, border, border, border,
+  cv::copyMakeBorder(smooth_noise(coarse, 6.0, 6.0, random), wide, border, border, border, border,
                      cv::BORDER_WRAP);
   cv::resize(wide, wide, {}, scale, scale, cv::INTER_CUBIC);
   return wide(cv::Rect(border * scale, border * scale, side, side)).clone();
@@ -59,7 +40,7 @@ double joint_at(int texel) {
 CeilingTexture::CeilingTexture(std::uint64_t seed) : texels_(static_cast<std::size_t>(side) * side) {
   const Random random(seed);
   const cv::Mat1f stain = draw_stains(random.stream(stains));
-  const cv::Mat1f speck = smooth_noise(side, 1.2, random.stream(specks));
+  const cv::Mat1f speck = smooth_noise(side, 1.2, 1.2, random.stream(specks));
   const cv::Mat1f tone = white_noise(tiles, random.stream(tones_of_tiles));
   std::array<double, side> joint{};
   for (int i = 0; i < side; ++i) joint[static_cast<std::size_t>(i)] = joint_at(i);

@@ -1,15 +1,18 @@
 #include "drivers/simulation/hosted_base.hpp"
 
 #include <array>
+#include <fmt/format.h>
 #include <utility>
 
 #include "drivers/base/agilex_v2_table.hpp"
 #include "drivers/base/odrive_table.hpp"
+#include "drivers/can/can_interface.hpp"
 #include "drivers/can/socketcan_bus.hpp"
 #include "drivers/simulation/simulated_motion.hpp"
 #include "drivers/simulation/simulated_odrive.hpp"
 #include "drivers/simulation/truth_socket.hpp"
 #include "drivers/system/clock.hpp"
+#include "maps/input_error.hpp"
 
 namespace lodestar {
 namespace {
@@ -34,15 +37,17 @@ constexpr std::array<std::pair<const char*, ScriptedFault>, 10> fault_names{{
 
 std::optional<SimulatedMotion::Surroundings> surroundings_of(const HostedBaseOptions& options) {
   if (!options.map) return std::nullopt;
-  return SimulatedMotion::Surroundings{*options.map, options.robot_radius_m};
+  return SimulatedMotion::Surroundings{*options.map, options.robot_radius_m, options.robot_footprint};
 }
 
 const ProtocolTable& table_of(HostedProtocol protocol) {
   return protocol == HostedProtocol::odrive ? odrive::table : agilex::table;
 }
 
-std::vector<std::uint32_t> identifiers_of(const ProtocolTable& table) {
+std::vector<std::uint32_t> identifiers_of(HostedProtocol protocol) {
+  const ProtocolTable& table = table_of(protocol);
   std::vector<std::uint32_t> all;
+  if (protocol == HostedProtocol::odrive) all.push_back(odrive::address_of_all);
   for (std::uint32_t node = 0; node < static_cast<std::uint32_t>(table.nodes); ++node) {
     for (const MessageSpec& message : table.messages) all.push_back(message.id + node * table.node_step);
   }
@@ -51,7 +56,9 @@ std::vector<std::uint32_t> identifiers_of(const ProtocolTable& table) {
 
 std::unique_ptr<SimulatedFirmware> make_firmware(CanBus& bus, SimulatedMotion& motion,
                                                  const HostedBaseOptions& options) {
-  if (options.protocol == HostedProtocol::odrive) return std::make_unique<SimulatedOdrive>(bus, motion);
+  if (options.protocol == HostedProtocol::odrive)
+    return std::make_unique<SimulatedOdrive>(bus, motion,
+                                             SimulatedOdriveOptions{.watchdog = options.watchdog});
   SimulatedBaseOptions complete = options.base;
   complete.has_periphery = true;
   return std::make_unique<SimulatedBase>(bus, motion, complete);
@@ -109,12 +116,17 @@ struct HostedBase::World {
   explicit World(const HostedBaseOptions& chosen)
       : options(chosen),
         bus(chosen.interface,
-            {.identifiers = identifiers_of(table_of(chosen.protocol)), .takes_remote_requests = true}),
+            {.identifiers = identifiers_of(chosen.protocol), .takes_remote_requests = true}),
         motion(chosen.base, chosen.start, chosen.seed, surroundings_of(chosen)),
         base(make_firmware(bus, motion, chosen)),
         truth(chosen.world.empty() ? chosen.interface : chosen.world),
         now(monotonic_now()),
-        drive{.map_from_base = chosen.start} {}
+        drive{.map_from_base = chosen.start} {
+    const auto problem = problem_of(chosen.interface, look_at_can_interface(chosen.interface));
+    if (!problem) return;
+    throw InputError(fmt::format("--can: found that {}, wanted an interface that is up: {}", problem->found,
+                                 problem->remedy));
+  }
 
   void advance(Stamp until) {
     if (until - now > longest_pass) now = until - longest_pass;

@@ -8,6 +8,7 @@
 
 #include "drivers/simulation/scoring.hpp"
 #include "drivers/simulation/simulated_base.hpp"
+#include "maps/footprint.hpp"
 #include "maps/occupancy_map.hpp"
 
 namespace lodestar {
@@ -46,8 +47,10 @@ struct HostedBaseOptions {
   Pose2 start;
   std::optional<OccupancyMap> map;  ///< empty: an endless empty floor
   double robot_radius_m = 0.25;
+  std::optional<Footprint> robot_footprint;  ///< collides in place of the disc
   std::uint64_t seed = 1;
   std::vector<FaultSwitch> faults;
+  std::optional<Duration> watchdog;  ///< of an ODrive's axes; empty: switched off, as by default
 };
 
 /// The protocol as the text of a .dbc file.
@@ -64,7 +67,7 @@ struct HostedDrive {
 /// a real base; the simulated camera receives the true pose over a socket.
 class HostedBase {
  public:
-  /// Throws InputError when the interface cannot be used.
+  /// Throws InputError when the interface is missing, switched off, or simulates a base already.
   explicit HostedBase(const HostedBaseOptions& options);
   ~HostedBase();
 

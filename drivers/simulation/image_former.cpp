@@ -48,6 +48,15 @@ double shoulder(double light) {
   return (1.0 - std::exp(-steepness * light)) / at_full_scale;
 }
 
+std::variant<CeilingBackground, CeilingSurface> background_of(const CameraModel& camera,
+                                                              const Vignetting& vignetting,
+                                                              const SimulatedCameraOptions& options,
+                                                              std::uint64_t seed) {
+  if (options.ceiling == CeilingKind::tiles)
+    return CeilingBackground(camera, vignetting, options.background_gray, options.texture_gray, seed);
+  return CeilingSurface(camera, vignetting, options, seed);
+}
+
 }  // namespace
 
 struct ImageFormer::Shutter {
@@ -79,14 +88,15 @@ ImageFormer::ImageFormer(const MarkerRegistry& registry, const CameraModel& came
       vignetting_(camera, options.vignetting),
       blur_sigma_px_(std::sqrt(options.blur_sigma_px * options.blur_sigma_px + pixel_area_variance_px2)),
       widest_ray_(widest_ray_of(camera)),
-      background_(camera, vignetting_, options.background_gray, options.texture_gray, seed),
+      background_(background_of(camera, vignetting_, options, seed)),
       noise_(options.read_noise_gray, options.shot_noise_gray_at_255, seed),
       light_(camera.width_px, camera.height_px) {}
 
 cv::Mat ImageFormer::expose(const Eigen::Isometry3d& map_from_camera_at_opening,
                             const Eigen::Isometry3d& map_from_camera_at_closing, std::uint64_t frame_number) {
   const Shutter shutter(map_from_camera_at_opening, map_from_camera_at_closing);
-  background_.paint(ceiling_, shutter.map_from_camera, light_);
+  std::visit([&](auto& background) { background.paint(ceiling_, shutter.map_from_camera, light_); },
+             background_);
   paint_squares(squares_, shutter);
   for (const CeilingTube& tube : ceiling_.tubes) paint_tube(tube, shutter);
   for (const CeilingDisc& lamp : ceiling_.lamps) paint_disc(lamp, lamp.gray, shutter);

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "drivers/simulation/ceiling.hpp"
 #include "drivers/simulation/ceiling_background.hpp"
+#include "drivers/simulation/ceiling_surface.hpp"
 #include "drivers/simulation/disc_profile.hpp"
 #include "drivers/simulation/light_image.hpp"
 #include "drivers/simulation/printed_square.hpp"
@@ -82,7 +84,7 @@ class ImageFormer {
   double blur_sigma_px_;  ///< lens and pixel together
   double widest_ray_;     ///< largest hypot(x, y) of the rays (x, y, 1) in the image
   DiscProfile profile_;
-  CeilingBackground background_;
+  std::variant<CeilingBackground, CeilingSurface> background_;
   SensorNoise noise_;
   LightImage light_;  ///< kept between frames only to reuse its memory
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "drivers/simulation/disc_contact.hpp"
 
@@ -13,11 +14,14 @@ constexpr double driving_mps = 0.01;
 
 }  // namespace
 
-Scorer::Scorer(const OccupancyMap& map, double robot_radius_m) : map_(map), robot_radius_m_(robot_radius_m) {}
+Scorer::Scorer(const OccupancyMap& map, double robot_radius_m, std::optional<Footprint> footprint)
+    : map_(map), robot_radius_m_(robot_radius_m), footprint_(std::move(footprint)) {}
 
 void Scorer::record(const TruePose& truth, bool ran_against_obstacle) {
   const Vec2& position_m = truth.map_from_base.position_m;
-  if (ran_against_obstacle || disc_overlaps_obstacle(map_, position_m, robot_radius_m_)) ++contacts_;
+  const bool overlaps = footprint_ ? !footprint_->is_clear(map_, truth.map_from_base)
+                                   : disc_overlaps_obstacle(map_, position_m, robot_radius_m_);
+  if (ran_against_obstacle || overlaps) ++contacts_;
   if (path_ && has_moved_to(truth)) path_distances_m_.push_back(distance_to_path_m(*path_, position_m));
   track_.push_back(truth);
 }

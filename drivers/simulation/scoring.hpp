@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "maps/footprint.hpp"
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
 #include "maps/percentile.hpp"
@@ -25,7 +26,8 @@ struct ArrivalScore {
 /// claims.
 class Scorer {
  public:
-  explicit Scorer(const OccupancyMap& map, double robot_radius_m);
+  /// The robot is a disc, or the footprint if there is one.
+  Scorer(const OccupancyMap& map, double robot_radius_m, std::optional<Footprint> footprint = {});
 
   /// Called by the simulated world at a fixed rate. `ran_against_obstacle`: since the previous record, an
   /// obstacle blocked the robot.
@@ -47,7 +49,7 @@ class Scorer {
   /// Cross-track errors: distances of the driven track from the path followed at the time, one per recorded
   /// pose at which the robot moved along a path; turning on the spot and waiting add none.
   [[nodiscard]] const std::vector<double>& path_distances_m() const { return path_distances_m_; }
-  /// Recorded poses at which the robot's disc overlapped a cell that is not drivable, left the map, or was
+  /// Recorded poses at which the robot overlapped a cell that is not drivable, left the map, or was
   /// blocked by an obstacle.
   [[nodiscard]] int contacts() const { return contacts_; }
 
@@ -56,6 +58,7 @@ class Scorer {
 
   OccupancyMap map_;
   double robot_radius_m_ = 0.0;
+  std::optional<Footprint> footprint_;
   std::optional<Path> path_;
   std::vector<ArrivalScore> arrivals_;
   std::vector<TruePose> track_;

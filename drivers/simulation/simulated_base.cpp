@@ -89,8 +89,10 @@ void SimulatedBase::drive_wheels(Stamp now) {
   const double half_difference_mps = wanted.turn_radps * options_.track_width_m / 2.0;
   const double left_mps = wanted.forward_mps - half_difference_mps;
   const double right_mps = wanted.forward_mps + half_difference_mps;
-  const double excess = std::max(
-      {1.0, std::abs(left_mps) / options_.max_wheel_mps, std::abs(right_mps) / options_.max_wheel_mps});
+  const double excess = std::max({1.0, std::abs(left_mps) / options_.max_wheel_mps,
+                                  std::abs(right_mps) / options_.max_wheel_mps,
+                                  std::abs(wanted.forward_mps) / options_.max_forward_mps,
+                                  std::abs(wanted.turn_radps) / options_.max_turn_radps});
   motion_.set_wheel_targets(left_mps / excess, right_mps / excess);
 }
 

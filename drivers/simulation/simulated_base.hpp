@@ -21,7 +21,10 @@ struct SimulatedBaseOptions {
   double slip_sigma_per_sqrt_m = 0.002;
   double motor_lag_s = 0.08;  ///< first-order lag of the wheel speed loop
   double max_wheel_acceleration_mps2 = 2.0;
-  double max_wheel_mps = 1.6;          ///< motor limit; commands beyond it keep their curvature
+  // Limits of the motors, and of the firmware (assumed); commands beyond them keep their curvature.
+  double max_wheel_mps = 1.6;
+  double max_forward_mps = 1.6;
+  double max_turn_radps = 2.0;
   double encoder_step_m = 0.0005;      ///< quantization of the wheel encoders
   double speed_filter_s = 0.03;        ///< smoothing of the measured speed in the motion state
   std::int32_t odometer_start_mm = 0;  ///< initial value of both counters

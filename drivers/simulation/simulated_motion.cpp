@@ -89,19 +89,24 @@ double SimulatedMotion::roll(Wheel& wheel, double scale, double elapsed_s) {
          options_.slip_sigma_per_sqrt_m * std::sqrt(std::abs(rolled_m)) * slip_.normal();
 }
 
-/// A robot that would hit an obstacle turns but does not translate. One that overlaps an obstacle already,
-/// because it was placed there, may move freely.
+/// A disc that would hit an obstacle turns but does not translate; a footprint does neither. A robot that
+/// overlaps an obstacle already, because it was placed there, may move freely.
 void SimulatedMotion::move(double left_m, double right_m) {
   Pose2 moved = map_from_base_ * arc(left_m, right_m, options_.true_track_width_m);
-  const bool moves = moved.position_m != map_from_base_.position_m;
-  blocked_ = moves && overlaps_obstacle(moved.position_m) && !overlaps_obstacle(map_from_base_.position_m);
+  const bool is_disc = !surroundings_ || !surroundings_->footprint;
+  const bool moves =
+      moved.position_m != map_from_base_.position_m || (!is_disc && moved.yaw_rad != map_from_base_.yaw_rad);
+  blocked_ = moves && overlaps_obstacle(moved) && !overlaps_obstacle(map_from_base_);
   if (blocked_) moved.position_m = map_from_base_.position_m;
+  if (blocked_ && !is_disc) moved.yaw_rad = map_from_base_.yaw_rad;
   map_from_base_ = moved;
 }
 
-bool SimulatedMotion::overlaps_obstacle(const Vec2& position_m) const {
-  return surroundings_ &&
-         disc_overlaps_obstacle(surroundings_->map, position_m, surroundings_->robot_radius_m);
+bool SimulatedMotion::overlaps_obstacle(const Pose2& map_from_base) const {
+  if (!surroundings_) return false;
+  const auto& [map, radius_m, footprint] = *surroundings_;
+  return footprint ? !footprint->is_clear(map, map_from_base)
+                   : disc_overlaps_obstacle(map, map_from_base.position_m, radius_m);
 }
 
 double SimulatedMotion::encoder_m(const Wheel& wheel) const {

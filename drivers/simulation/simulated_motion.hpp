@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "drivers/simulation/simulated_base.hpp"
+#include "maps/footprint.hpp"
 #include "maps/geometry.hpp"
 #include "maps/occupancy_map.hpp"
 #include "maps/random.hpp"
@@ -14,10 +15,11 @@ namespace lodestar {
 /// not use it.
 class SimulatedMotion {
  public:
-  /// Obstacles: a disc-shaped robot against the cells of a map that are not drivable.
+  /// Obstacles: a robot, a disc or a footprint, against the cells of a map that are not drivable.
   struct Surroundings {
     OccupancyMap map;
     double robot_radius_m = 0.0;
+    std::optional<Footprint> footprint;  ///< in place of the disc
   };
 
   /// Without surroundings the floor is unbounded and empty.
@@ -63,7 +65,7 @@ class SimulatedMotion {
 
   double roll(Wheel& wheel, double scale, double elapsed_s);
   void move(double left_m, double right_m);
-  [[nodiscard]] bool overlaps_obstacle(const Vec2& position_m) const;
+  [[nodiscard]] bool overlaps_obstacle(const Pose2& map_from_base) const;
   [[nodiscard]] double encoder_m(const Wheel& wheel) const;
 
   SimulatedBaseOptions options_;

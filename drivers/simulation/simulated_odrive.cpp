@@ -10,7 +10,7 @@
 namespace lodestar {
 namespace {
 
-namespace tables = odrive::tables;
+namespace odrive_tables = odrive::tables;
 
 /// True once in each period; after a delay, missed periods are not made up for.
 bool is_due(std::optional<Stamp>& next, Stamp now, Duration period) {
@@ -37,23 +37,26 @@ void SimulatedOdrive::step(Stamp now) {
 }
 
 void SimulatedOdrive::handle(const CanFrame& frame, Stamp now) {
+  const bool asks_who_is_there = frame.id == odrive::address_of_all && frame.length == 0;
+  for (std::uint32_t node = 0; asks_who_is_there && !defects_.silent && node < axes_.size(); ++node)
+    answer(node, odrive_tables::address.id);
   for (std::uint32_t node = 0; node < axes_.size(); ++node) {
     Axis& axis = axes_[node];
     const std::uint32_t offset = node * odrive::node_step;
     if (frame.id / odrive::node_step != node) continue;
     axis.fed = now;  // every message to the axis feeds its watchdog
-    if (const auto velocity = decode(tables::set_input_velocity, frame, offset)) {
+    if (const auto velocity = decode(odrive_tables::set_input_velocity, frame, offset)) {
       axis.wanted_rps = (*velocity)[0];
-    } else if (const auto state = decode(tables::set_axis_state, frame, offset)) {
+    } else if (const auto state = decode(odrive_tables::set_axis_state, frame, offset)) {
       const bool may_arm = axis.errors == 0 && !emergency_stop_;
       if ((*state)[0] == odrive::idle) axis.state = odrive::idle;
       if ((*state)[0] == odrive::closed_loop_control && may_arm) axis.state = odrive::closed_loop_control;
-    } else if (const auto mode = decode(tables::set_controller_mode, frame, offset)) {
+    } else if (const auto mode = decode(odrive_tables::set_controller_mode, frame, offset)) {
       axis.controls_velocity = (*mode)[0] == odrive::velocity_control;
-    } else if (decode(tables::clear_errors, frame, offset)) {
+    } else if (decode(odrive_tables::clear_errors, frame, offset)) {
       axis.errors = emergency_stop_ ? odrive::estop_requested : 0;
       axis.disarm_reason = axis.errors;
-    } else if (decode(tables::estop, frame, offset)) {
+    } else if (decode(odrive_tables::estop, frame, offset)) {
       disarm(odrive::estop_requested);
     } else if (frame.length == 0 && !defects_.silent) {
       answer(node, frame.id - offset);
@@ -129,21 +132,22 @@ void SimulatedOdrive::send_estimates(Stamp now) {
     const double sign = i == 1 && options_.right_is_mirrored ? -1.0 : 1.0;
     axis.position_rev = sign * now_m / m_per_rev();
     axis.velocity_rps = sign * axis.speed_rps;
-    (void)bus_.send(*frame_of(static_cast<std::uint32_t>(i), tables::encoder_estimates.id));
+    (void)bus_.send(*frame_of(static_cast<std::uint32_t>(i), odrive_tables::encoder_estimates.id));
   }
 }
 
 void SimulatedOdrive::send_heartbeats() {
   if (defects_.silent) return;
   for (std::uint32_t node = 0; node < axes_.size(); ++node)
-    (void)bus_.send(*frame_of(node, tables::heartbeat.id));
+    (void)bus_.send(*frame_of(node, odrive_tables::heartbeat.id));
 }
 
 void SimulatedOdrive::send_health() {
   if (defects_.silent) return;
   for (std::uint32_t node = 0; node < axes_.size(); ++node) {
-    for (const MessageSpec& message : {tables::error, tables::currents, tables::temperatures,
-                                       tables::bus_voltage_current, tables::torques, tables::powers}) {
+    for (const MessageSpec& message :
+         {odrive_tables::error, odrive_tables::currents, odrive_tables::temperatures,
+          odrive_tables::bus_voltage_current, odrive_tables::torques, odrive_tables::powers}) {
       (void)bus_.send(*frame_of(node, message.id));
     }
   }
@@ -155,37 +159,42 @@ void SimulatedOdrive::answer(std::uint32_t node, std::uint32_t command) {
   if (frame && answers_.size() < most_waiting) answers_.push_back(*frame);
 }
 
-/// The axis's answer to a request for this command; empty for commands that cannot be requested. Torque: a
-/// turning wheel overcomes a constant friction.
+/// The axis's answer to a request for this command; empty for commands that cannot be requested. Torque: the
+/// motor of a turning wheel overcomes a constant friction; that of an idle one coasts without current.
 std::optional<CanFrame> SimulatedOdrive::frame_of(std::uint32_t node, std::uint32_t command) const {
   constexpr double friction_nm = 0.2;
   constexpr double nm_per_a = 0.4;
   constexpr double room_degc = 25.0;
   const Axis& axis = axes_.at(node);
-  const double torque_nm = axis.velocity_rps == 0.0 ? 0.0 : std::copysign(friction_nm, axis.velocity_rps);
+  const bool drives = axis.state == odrive::closed_loop_control && axis.velocity_rps != 0.0;
+  const double torque_nm = drives ? std::copysign(friction_nm, axis.velocity_rps) : 0.0;
   const double power_w = torque_nm * 2.0 * std::numbers::pi * axis.velocity_rps;
   const auto said = [&](const MessageSpec& message, const SignalValues& values) {
     return encode(message, values, node * odrive::node_step);
   };
   switch (command) {
-    case tables::version.id:
-      return said(tables::version, {2, 4, 4, 58, 0, 6, 9, 0});
-    case tables::heartbeat.id:
-      return said(tables::heartbeat, {static_cast<double>(axis.errors), static_cast<double>(axis.state)});
-    case tables::error.id:
-      return said(tables::error, {static_cast<double>(axis.errors), static_cast<double>(axis.disarm_reason)});
-    case tables::encoder_estimates.id:
-      return said(tables::encoder_estimates, {axis.position_rev, axis.velocity_rps});
-    case tables::currents.id:
-      return said(tables::currents, {torque_nm / nm_per_a, torque_nm / nm_per_a});
-    case tables::temperatures.id:
-      return said(tables::temperatures, {room_degc, room_degc});
-    case tables::bus_voltage_current.id:
-      return said(tables::bus_voltage_current, {options_.supply_v, power_w / options_.supply_v});
-    case tables::torques.id:
-      return said(tables::torques, {torque_nm, torque_nm});
-    case tables::powers.id:
-      return said(tables::powers, {power_w, power_w});
+    case odrive_tables::version.id:
+      return said(odrive_tables::version, {2, 4, 4, 58, 0, 6, 9, 0});
+    case odrive_tables::heartbeat.id:
+      return said(odrive_tables::heartbeat,
+                  {static_cast<double>(axis.errors), static_cast<double>(axis.state)});
+    case odrive_tables::error.id:
+      return said(odrive_tables::error,
+                  {static_cast<double>(axis.errors), static_cast<double>(axis.disarm_reason)});
+    case odrive_tables::address.id:
+      return said(odrive_tables::address, {static_cast<double>(node), static_cast<double>(options_.serial)});
+    case odrive_tables::encoder_estimates.id:
+      return said(odrive_tables::encoder_estimates, {axis.position_rev, axis.velocity_rps});
+    case odrive_tables::currents.id:
+      return said(odrive_tables::currents, {torque_nm / nm_per_a, torque_nm / nm_per_a});
+    case odrive_tables::temperatures.id:
+      return said(odrive_tables::temperatures, {room_degc, room_degc});
+    case odrive_tables::bus_voltage_current.id:
+      return said(odrive_tables::bus_voltage_current, {options_.supply_v, power_w / options_.supply_v});
+    case odrive_tables::torques.id:
+      return said(odrive_tables::torques, {torque_nm, torque_nm});
+    case odrive_tables::powers.id:
+      return said(odrive_tables::powers, {power_w, power_w});
     default:
       return std::nullopt;
   }

@@ -14,6 +14,8 @@ struct SimulatedOdriveOptions {
   double wheel_diameter_m = 0.17;
   double max_wheel_mps = 1.6;
   double supply_v = 24.0;
+  std::uint64_t serial =
+      0x3663'3651'3030;  ///< of the drive, 48 bits, in each axis's answer to an enumeration
   bool right_is_mirrored = true;
   Duration heartbeat_period = std::chrono::milliseconds(100);  ///< also of errors, currents, temperatures ...
   Duration estimate_period = std::chrono::milliseconds(10);

@@ -41,14 +41,14 @@ struct Simulation::World {
         navigator_end(bus.attach()),
         base_end(bus.attach()),
         motion(chosen.base, chosen.start, seed_for(chosen.seed, slip_stream),
-               SimulatedMotion::Surroundings{map, chosen.robot_radius_m}),
+               SimulatedMotion::Surroundings{map, chosen.robot_radius_m, chosen.robot_footprint}),
         base(base_end, motion, chosen.base),
         camera(registry, camera_model, chosen.base_from_camera, chosen.camera,
                seed_for(chosen.seed, camera_stream)),
         faulty_camera(camera, seed_for(chosen.seed, bad_camera_stream)),
         faulty_bus(navigator_end, seed_for(chosen.seed, bad_bus_stream)),
         faults(chosen.faults, seed_for(chosen.seed, schedule_stream)),
-        scorer(map, chosen.robot_radius_m) {
+        scorer(map, chosen.robot_radius_m, chosen.robot_footprint) {
     if (options.physics_step <= Duration::zero()) {
       throw InputError(
           fmt::format("physics step: found {} s, wanted a positive time", seconds(options.physics_step)));

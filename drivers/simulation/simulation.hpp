@@ -13,6 +13,7 @@
 #include "drivers/simulation/simulated_camera_options.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
 #include "maps/camera_model.hpp"
+#include "maps/footprint.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
 
@@ -22,8 +23,9 @@ namespace lodestar {
 struct SimulationOptions {
   SimulatedBaseOptions base;
   SimulatedCameraOptions camera;
-  Pose2 start;                   ///< true pose of the base at time 0
-  double robot_radius_m = 0.25;  ///< of the disc that collides with obstacles
+  Pose2 start;                               ///< true pose of the base at time 0
+  double robot_radius_m = 0.25;              ///< of the disc that collides with obstacles
+  std::optional<Footprint> robot_footprint;  ///< collides in place of the disc
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
   Duration physics_step = std::chrono::milliseconds(1);
   Duration scoring_period = std::chrono::milliseconds(20);  ///< between records of the true pose

@@ -168,6 +168,7 @@ CameraModel camera_of(const Solution& solution, cv::Size size, LensModel model) 
                       : model == LensModel::rational ? Distortion::rational_polynomial
                                                      : Distortion::plumb_bob;
   std::ranges::copy(solution.distortion, camera.coefficients.begin());
+  camera.limit_rays();
   return camera;
 }
 

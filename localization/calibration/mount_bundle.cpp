@@ -11,6 +11,8 @@
 #include <memory>
 #include <numbers>
 
+#include "maps/rotation_vector.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -28,27 +30,6 @@ struct Unknowns {
   Vec3 wheels = Vec3::Ones();  ///< left scale, right scale, track width
   Eigen::Matrix3d base_from_camera = Eigen::Matrix3d::Identity();
 };
-
-Eigen::Matrix3d rotation_by(const Vec3& vector) {
-  const double angle = vector.norm();
-  return angle > 0.0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix()
-                     : Eigen::Matrix3d::Identity();
-}
-
-Eigen::Matrix3d skew(const Vec3& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
-
-/// Left Jacobian of SO(3): rotation about the fixed axes, per change of `vector`.
-Eigen::Matrix3d turn_by_vector(const Vec3& vector) {
-  const double angle = vector.norm();
-  const Eigen::Matrix3d cross = skew(vector);
-  if (angle < 1e-4) return Eigen::Matrix3d::Identity() + 0.5 * cross;
-  return Eigen::Matrix3d::Identity() + (1.0 - std::cos(angle)) / (angle * angle) * cross +
-         (angle - std::sin(angle)) / (angle * angle * angle) * cross * cross;
-}
 
 /// Reprojection errors of one frame's dots, with map_from_camera = place * wobble * mount. Parameters: the
 /// place, the mount's position and its turn.

@@ -1,82 +1,23 @@
 #include "localization/detection/dots.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <numbers>
 
-#include "localization/detection/wide_registers.hpp"
+#include "localization/detection/surroundings.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr int smallest_part_px = 4;      // least size of each part after erosion
 constexpr double round_as_a_dot = 1.25;  // aspect ratio: rounder areas are a single dot
+constexpr double round_part = 1.5;       // of a part that erosion leaves; others are several dots still
 constexpr double binary_sigma_px = 0.1;  // of the centroid of a dot's bright pixels
 
 /// For non-negative values.
 int rounded(double value) {
   return static_cast<int>(value + 0.5);
-}
-
-constexpr std::size_t ring_samples = 16;
-using Samples [[gnu::vector_size(ring_samples)]] = std::uint8_t;
-
-[[gnu::always_inline]] inline std::uint8_t greatest_of(Samples v) {
-  const auto greatest = [](const Samples& a, const Samples& b) { return a > b ? a : b; };
-  v = greatest(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
-  v = greatest(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11));
-  v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13));
-  return std::max(v[0], v[1]);
-}
-
-/// Order statistics of the gray values around a dot. Neighbouring dots may affect their upper half.
-struct Surroundings {
-  std::uint8_t second_darkest = 0;
-  std::uint8_t third = 0;  ///< a third of the pixels are darker
-  std::uint8_t median = 0;
-};
-
-/// Each statistic is the greatest sample with at most `rank` smaller ones, counted for all samples at once,
-/// without sorting.
-LODESTAR_WIDE_REGISTERS
-Surroundings surroundings_of(const std::uint8_t* ring) {
-  Samples samples;
-  std::memcpy(&samples, ring, sizeof(samples));
-  Samples smaller{};
-  for (std::size_t i = 0; i < ring_samples; ++i) smaller -= static_cast<Samples>(samples > ring[i]);
-  const auto of_rank = [&](std::uint8_t rank) { return greatest_of(smaller <= rank ? samples : Samples{}); };
-  return {
-      .second_darkest = of_rank(1), .third = of_rank(ring_samples / 3), .median = of_rank(ring_samples / 2)};
-}
-
-/// From a ring of 16 pixels around the dot, clamped to the frame.
-Surroundings surroundings(const cv::Mat& gray, const Vec2& center_px, double reach_px) {
-  const int u = rounded(center_px.x());
-  const int v = rounded(center_px.y());
-  const int full = rounded(reach_px);
-  const int wide = rounded(0.924 * reach_px);  // at 22.5 degrees
-  const int high = rounded(0.383 * reach_px);
-  const int diagonal = rounded(0.707 * reach_px);
-  const std::array<std::array<int, 2>, ring_samples / 4> quarter{
-      {{full, 0}, {wide, high}, {diagonal, diagonal}, {high, wide}}};
-  const bool inside = u >= full && v >= full && u + full < gray.cols && v + full < gray.rows;
-  const auto at = [&](int column, int row) {
-    return inside ? gray.ptr<std::uint8_t>(row)[column]
-                  : gray.ptr<std::uint8_t>(
-                        std::clamp(row, 0, gray.rows - 1))[std::clamp(column, 0, gray.cols - 1)];
-  };
-  std::array<std::uint8_t, ring_samples> ring;
-  for (std::size_t i = 0; i < quarter.size(); ++i) {
-    const auto [du, dv] = quarter[i];
-    ring[4 * i] = at(u + du, v + dv);
-    ring[4 * i + 1] = at(u - dv, v + du);
-    ring[4 * i + 2] = at(u - du, v - dv);
-    ring[4 * i + 3] = at(u + dv, v - du);
-  }
-  return surroundings_of(ring.data());
 }
 
 /// Gray value of the dot's centre: mean of the three brightest of its 3 x 3 pixels. Less noisy than the
@@ -121,20 +62,18 @@ double sigma_of(const DiscCenter& center, double dark, double variance_per_gray,
                    sampling_px * sampling_px);
 }
 
+/// What noise and surroundings say about a dot's accuracy.
+struct DotNoise {
+  double dark_gray = 0.0;
+  double variance_per_gray = 0.0;
+};
+
 /// The gray-weighted centroid above the local background, within a disc that holds all of the dot's light,
 /// gives its radius whatever the blur (light = pi r^2 contrast) and the start for the edge fit, which gives
 /// its centre. The paper takes the centre of the binary dot, accurate to a few tenths of a pixel.
-std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, const DotOptions& options,
-                                double dark_noise_gray, double variance_per_gray) {
-  Dot dot;
-  dot.center_px = {area.mean_u_px, area.mean_v_px};
-  const std::optional<double> middle = middle_gray(gray, dot.center_px);
-  if (!middle) return std::nullopt;
-  const double reach_px = std::sqrt(area.area_px / std::numbers::pi) + options.tail_px;
-  const Surroundings around = surroundings(gray, dot.center_px, reach_px + 1.0);
-  dot.background_gray = around.third;
-  dot.contrast_gray = *middle - dot.background_gray;
-  if (!(dot.contrast_gray > 0.0)) return std::nullopt;
+/// `dot` has its centre, background and contrast.
+std::optional<Dot> measured_on(const cv::Mat& gray, Dot dot, double reach_px, const Surroundings& around,
+                               const DotOptions& options, const DotNoise& noise) {
   const std::optional<DiscLight> light = light_in_disc(gray, dot.center_px, reach_px, dot.background_gray);
   if (!light || !(light->mass > 0.0)) return std::nullopt;
   dot.radius_px = std::sqrt(light->mass / (std::numbers::pi * dot.contrast_gray));
@@ -147,9 +86,14 @@ std::optional<Dot> measured_dot(const cv::Mat& gray, const BrightArea& area, con
       center_by_edge(gray, light->center_px, dot.radius_px, dot.background_gray, options.edge);
   if (!center) return std::nullopt;
   dot.center_px = center->center_px;
-  dot.sigma_px = sigma_of(*center, dark_noise_gray, variance_per_gray, around,
+  dot.sigma_px = sigma_of(*center, noise.dark_gray, noise.variance_per_gray, around,
                           options.sampling_sigma_px2 / dot.radius_px);
   return dot;
+}
+
+/// Does the ceiling around a dot vary by so much that it shows in the dot's light?
+bool shows_structure(const Surroundings& around, double contrast_gray, const DotOptions& options) {
+  return around.median - around.second_darkest > options.structure * contrast_gray;
 }
 
 /// A faint dot may exceed the threshold in several specks, each of which measures the whole dot; one is kept.
@@ -186,6 +130,8 @@ std::span<const Dot> DotFinder::find_by_thresholds(const cv::Mat& gray) {
     const int area_px = bright.areas[i].area_px;
     if (area_px >= options_.min_area_px && area_px <= options_.max_area_px) append_dots_of_area(gray, i);
   }
+  if (!options_.by_binary_center)
+    touching_dots_.fit(gray, noise_gray(), light_noise_.variance_per_gray(), dots_);
   return dots_;
 }
 
@@ -195,8 +141,41 @@ void DotFinder::append_dots_of_area(const cv::Mat& gray, std::size_t index) {
   const bool may_be_several = area.aspect_ratio > round_as_a_dot && area.area_px >= 2 * smallest_part_px;
   const std::span<const BrightArea> parts =
       may_be_several ? parts_of(bright.runs_of(area)) : std::span<const BrightArea>{};
-  if (parts.empty()) append_dot(gray, area, index);
+  const bool parts_are_round = !parts.empty() && std::ranges::all_of(parts, [](const BrightArea& part) {
+    return part.aspect_ratio <= round_part;
+  });
+  if (may_be_several && !parts_are_round && !options_.by_binary_center &&
+      append_peaks(gray, area, index, parts.size()))
+    return;
+  if (parts.empty() && !append_dot(gray, area, index) && !may_be_several &&
+      area.area_px >= 4 * smallest_part_px && !options_.by_binary_center) {
+    append_peaks(gray, area, index, 1);  // four dots around a valley are as round as one
+  }
   for (const BrightArea& part : parts) append_dot(gray, part, index);
+}
+
+/// Dots that erosion does not separate, by their peaks. What is known of them is a start for the joint fit.
+/// False when there are no more than the parts that erosion leaves.
+bool DotFinder::append_peaks(const cv::Mat& gray, const BrightArea& area, std::size_t index,
+                             std::size_t parts) {
+  const std::span<const Run> runs = area_finder_.areas().runs_of(area);
+  const int u = rounded(area.mean_u_px);
+  const int v = rounded(area.mean_v_px);
+  const double background_gray = thresholds_.background_gray(u, v);
+  const std::span<const Vec2> peaks = peak_finder_.find(gray, runs, background_gray, noise_gray());
+  if (peaks.size() <= std::max(parts, std::size_t{1})) return false;
+  const double area_of_each_px2 = area.area_px / static_cast<double>(peaks.size());
+  for (const Vec2& peak : peaks) {
+    const std::optional<double> middle = middle_gray(gray, peak);
+    if (!middle) continue;
+    dots_.push_back({.center_px = peak,
+                     .sigma_px = binary_sigma_px,
+                     .radius_px = std::sqrt(area_of_each_px2 / std::numbers::pi),
+                     .background_gray = background_gray,
+                     .contrast_gray = *middle - background_gray,
+                     .area = index});
+  }
+  return true;
 }
 
 /// Touching dots of one area, separated by erosion; none when it stays in one piece.
@@ -209,16 +188,50 @@ std::span<const BrightArea> DotFinder::parts_of(std::span<const Run> area) {
   return several ? std::span<const BrightArea>(parts) : std::span<const BrightArea>{};
 }
 
-void DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index) {
-  if (area.aspect_ratio > options_.max_aspect_ratio) return;
-  const double dark_noise_gray = std::max(thresholds_.noise_gray(), options_.least_noise_gray);
-  std::optional<Dot> dot =
-      measured_dot(gray, area, options_, dark_noise_gray, light_noise_.variance_per_gray());
-  if (!dot || is_found_already(*dot, area, dots_)) return;
+/// Measured on the frame; on the evened ceiling where structure shows around the dot.
+std::optional<Dot> DotFinder::measured_dot(const cv::Mat& gray, const BrightArea& area,
+                                           double dark_noise_gray) {
+  Dot dot;
+  dot.center_px = {area.mean_u_px, area.mean_v_px};
+  const std::optional<double> middle = middle_gray(gray, dot.center_px);
+  if (!middle) return std::nullopt;
+  const double reach_px = std::sqrt(area.area_px / std::numbers::pi) + options_.tail_px;
+  const double ring_px = reach_px + 1.0;
+  const Surroundings around = surroundings(gray, dot.center_px, ring_px);
+  dot.background_gray = around.third;
+  dot.contrast_gray = *middle - dot.background_gray;
+  if (!(dot.contrast_gray > options_.least_contrast * thresholds_.least_range_gray())) return std::nullopt;
+  const DotNoise noise{dark_noise_gray, light_noise_.variance_per_gray()};
+  const bool structured = thresholds_.has_structure(rounded(dot.center_px.x()), rounded(dot.center_px.y())) &&
+                          shows_structure(around, dot.contrast_gray, options_);
+  if (options_.by_binary_center || !structured ||
+      !even_ceiling_.copy(gray, dot.center_px, ring_px, dark_noise_gray,
+                          options_.least_light * dot.contrast_gray)) {
+    return measured_on(gray, dot, reach_px, around, options_, noise);
+  }
+  dot.center_px = even_ceiling_.center_px();
+  dot.background_gray = even_ceiling_.background_gray();
+  dot.contrast_gray = *middle - dot.background_gray;
+  if (!(dot.contrast_gray > options_.least_contrast * thresholds_.least_range_gray())) return std::nullopt;
+  std::optional<Dot> measured = measured_on(even_ceiling_.gray(), dot, reach_px, around, options_, noise);
+  if (!measured) return std::nullopt;
+  measured->center_px -= even_ceiling_.shift_px();
+  measured->on_structure = true;
+  return measured;
+}
+
+/// False when the area is no dot.
+bool DotFinder::append_dot(const cv::Mat& gray, const BrightArea& area, std::size_t index) {
+  if (area.aspect_ratio > options_.max_aspect_ratio) return false;
+  const double dark_noise_gray = noise_gray();
+  std::optional<Dot> dot = measured_dot(gray, area, dark_noise_gray);
+  if (!dot) return false;
+  if (is_found_already(*dot, area, dots_)) return true;
   light_noise_.add(gray, dot->center_px, dot->radius_px >= options_.flat_radius_px, dot->background_gray,
                    dark_noise_gray);
   dot->area = index;
   dots_.push_back(*dot);
+  return true;
 }
 
 }  // namespace lodestar

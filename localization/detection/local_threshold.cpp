@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 
 #include "localization/detection/sixteen_pixels.hpp"
 #include "localization/detection/wide_registers.hpp"
@@ -150,6 +151,39 @@ double noise_of(const cv::Mat& gray) {
   return std::sqrt(*quartile / (quartile_to_mean * 2.0 * (tile - 1)));
 }
 
+/// The background of a tile on which dots are to be told from the ceiling.
+///
+/// Usually its darkest pixel. But where half of the pixels are clearly brighter than that, more than dots
+/// fill (with all 16 cells full, 20 % and their blurred edges), the dark ones are joints, grooves or slots of
+/// a brighter ceiling. The brighter level is the background then: the 70th percentile, as dots are above it.
+/// Nothing when nothing rises above that level, so that there are no dots, unless it is that of a lamp, which
+/// saturates, and beside which there may be dots on the dark remainder.
+std::optional<int> background_of(const cv::Mat& gray, const cv::Rect& part, const Extremes& extremes,
+                                 int least_range) {
+  constexpr std::array eighths{1, 3, 5, 7};  // of the tile's height: rows sampled
+  constexpr double clearly_brighter = 0.25;  // share of the range
+  constexpr double most_by_dots = 0.5;       // share of the pixels
+  constexpr double level_share = 0.7;
+  constexpr int saturated_gray = 235;
+  const int quarter = extremes.darkest + static_cast<int>(clearly_brighter * extremes.range());
+  std::array<std::uint8_t, eighths.size() * tile> samples{};
+  std::size_t count = 0;
+  std::size_t brighter = 0;
+  for (const int eighth : eighths) {
+    const auto* const pixels = gray.ptr<std::uint8_t>(part.y + part.height * eighth / 8) + part.x;
+    for (int u = 0; u < part.width; ++u) {
+      samples[count++] = pixels[u];
+      brighter += pixels[u] > quarter ? 1 : 0;
+    }
+  }
+  if (static_cast<double>(brighter) < most_by_dots * static_cast<double>(count)) return extremes.darkest;
+  auto* const level = samples.data() + static_cast<std::size_t>(level_share * static_cast<double>(count));
+  std::nth_element(samples.data(), level, samples.data() + count);
+  if (extremes.brightest - *level >= least_range) return *level;
+  if (extremes.brightest >= saturated_gray) return extremes.darkest;
+  return std::nullopt;
+}
+
 const std::uint8_t* pixels_of(const cv::Mat& gray, int row, int column) {
   return gray.ptr<std::uint8_t>(row * tile) + static_cast<std::ptrdiff_t>(column) * tile;
 }
@@ -171,6 +205,8 @@ void LocalThresholds::find_within(std::span<const cv::Rect> parts, const cv::Mat
                                   const LocalThresholdOptions& options) {
   set(gray.size(), nothing_bright);
   ranges_.assign(thresholds_.size(), 0);
+  backgrounds_.assign(thresholds_.size(), 0);
+  structured_.assign(thresholds_.size(), 0);
   noise_gray_ = noise_of(gray);
   least_range_ = std::max(options.min_range_gray,
                           static_cast<int>(std::lround(options.min_range_to_noise * noise_gray_)));
@@ -206,22 +242,27 @@ void LocalThresholds::examine_tiles(const cv::Mat& gray, int row, int first, int
       Extremes extremes;
       const int here = column + static_cast<int>(i);
       find_extremes(pixels_of(gray, row, here), gray.step[0], rows, 1, std::span(&extremes, 1));
-      set_tile({here, row}, extremes.darkest, extremes.brightest);
+      set_tile(gray, {here, row}, extremes.darkest, extremes.brightest);
     }
   }
   if (whole_end == end) return;
   const int left = whole_end * tile;
   const Extremes extremes = extremes_of_part(gray, {left, row * tile, gray.cols - left, rows});
-  set_tile({whole_end, row}, extremes.darkest, extremes.brightest);
+  set_tile(gray, {whole_end, row}, extremes.darkest, extremes.brightest);
 }
 
-void LocalThresholds::set_tile(const cv::Point& at, int darkest, int brightest) {
-  const int range = brightest - darkest;
-  if (range < least_range_) return;
+void LocalThresholds::set_tile(const cv::Mat& gray, const cv::Point& at, int darkest, int brightest) {
   const std::size_t i = index(at);
-  if (thresholds_[i] != nothing_bright) return;
+  if (brightest - darkest < least_range_ || thresholds_[i] != nothing_bright) return;
+  const cv::Rect part = cv::Rect(at.x * tile, at.y * tile, tile, tile) & cv::Rect(0, 0, gray.cols, gray.rows);
+  const std::optional<int> background = background_of(
+      gray, part, {static_cast<std::uint8_t>(darkest), static_cast<std::uint8_t>(brightest)}, least_range_);
+  structured_[i] = !background || *background > darkest ? 1 : 0;
+  if (!background) return;
+  const int range = brightest - *background;
+  backgrounds_[i] = static_cast<std::uint8_t>(*background);
   ranges_[i] = static_cast<std::uint8_t>(range);
-  thresholds_[i] = static_cast<std::uint8_t>(darkest + (range + 1) / 2);
+  thresholds_[i] = static_cast<std::uint8_t>(*background + (range + 1) / 2);
   bright_tiles_.push_back(at);
 }
 
@@ -242,7 +283,8 @@ void LocalThresholds::correct_for_neighbours(const cv::Mat& gray, const cv::Poin
   const cv::Rect inner =
       cv::Rect(at.x * tile + edge_px, at.y * tile + edge_px, tile - 2 * edge_px, tile - 2 * edge_px) &
       cv::Rect(0, 0, gray.cols, gray.rows);
-  if (extremes_of_part(gray, inner).range() < least_range_)
+  const Extremes of_inner = extremes_of_part(gray, inner);
+  if (of_inner.brightest - std::max(of_inner.darkest, backgrounds_[index(at)]) < least_range_)
     thresholds_[index(at)] = std::max(thresholds_[index(at)], thresholds_[strongest]);
 }
 

@@ -15,9 +15,10 @@ struct LocalThresholdOptions {
   double min_range_to_noise = 10.0;
 };
 
-/// Threshold of a bright pixel for each tile of the frame: midway between the tile's darkest and brightest
+/// Threshold of a bright pixel for each tile of the frame: midway between the tile's background and brightest
 /// pixel (Bernsen 1986), so that a dot's size does not depend on the illumination; none where the tile has
-/// too little contrast. Reads every other row, and all rows of tiles with contrast.
+/// too little contrast. The background is the darkest pixel, or the ceiling's brighter level where dark
+/// joints or grooves cross a bright ceiling. Reads every other row, and all rows of tiles with contrast.
 class LocalThresholds {
  public:
   static constexpr int tile_px = 32;
@@ -34,6 +35,9 @@ class LocalThresholds {
   /// quieter stretches of some rows.
   [[nodiscard]] double noise_gray() const { return noise_gray_; }
 
+  /// The contrast from which on a tile may hold dots in the last frame: from the options and the noise.
+  [[nodiscard]] int least_range_gray() const { return least_range_; }
+
   /// Sets one global threshold (1..255), as in the paper.
   void set(const cv::Size& frame, std::uint8_t threshold);
 
@@ -41,9 +45,19 @@ class LocalThresholds {
   [[nodiscard]] int tile_columns() const { return columns_; }
   [[nodiscard]] std::uint8_t of_tile(int row, int column) const { return thresholds_[index({column, row})]; }
 
+  /// The background in the tile of this pixel; 0 in one without contrast.
+  [[nodiscard]] int background_gray(int u_px, int v_px) const {
+    return backgrounds_.empty() ? 0 : backgrounds_[index({u_px / tile_px, v_px / tile_px})];
+  }
+
+  /// Do dark lines or gradients of the ceiling show in the tile of this pixel?
+  [[nodiscard]] bool has_structure(int u_px, int v_px) const {
+    return !structured_.empty() && structured_[index({u_px / tile_px, v_px / tile_px})] != 0;
+  }
+
  private:
   void examine_tiles(const cv::Mat& gray, int row, int first, int end);
-  void set_tile(const cv::Point& at, int darkest, int brightest);
+  void set_tile(const cv::Mat& gray, const cv::Point& at, int darkest, int brightest);
   void correct_for_neighbours(const cv::Mat& gray, const cv::Point& at);
   [[nodiscard]] std::size_t index(const cv::Point& tile) const {
     return static_cast<std::size_t>(tile.y) * static_cast<std::size_t>(columns_) +
@@ -55,7 +69,9 @@ class LocalThresholds {
   int rows_ = 0;
   int columns_ = 0;
   std::vector<std::uint8_t> thresholds_;
-  std::vector<std::uint8_t> ranges_;  ///< of the gray values, in tiles with contrast
+  std::vector<std::uint8_t> backgrounds_;  ///< gray levels, in tiles with contrast
+  std::vector<std::uint8_t> ranges_;       ///< from there to the brightest pixel
+  std::vector<std::uint8_t> structured_;
   std::vector<cv::Point> bright_tiles_;
 };
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "localization/detection/disjoint_sets.hpp"
-#include "localization/detection/dots.hpp"
+#include "localization/detection/dot.hpp"
 
 namespace lodestar {
 

@@ -55,8 +55,10 @@ bool spans_a_grid(std::span<const Dot> dots, const DirectionDots& direction,
 
 bool sizes_are_alike(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
   const auto [small, large] = std::ranges::minmax(dots, {}, &Dot::radius_px);
+  const bool structure = std::ranges::any_of(dots, &Dot::on_structure);
   return large.radius_px - small.radius_px <=
-         options.alike_tolerance * small.radius_px + options.alike_tolerance_px2 / small.radius_px;
+         (structure ? options.alike_on_structure : options.alike_tolerance) * small.radius_px +
+             options.alike_tolerance_px2 / small.radius_px;
 }
 
 /// One cell for each dot; nothing when a dot is in no cell, in another dot's, or in the corner that is always

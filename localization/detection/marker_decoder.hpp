@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "localization/detection/detected_marker.hpp"
-#include "localization/detection/dots.hpp"
+#include "localization/detection/dot.hpp"
 #include "localization/detection/inline_vector.hpp"
 #include "localization/detection/marker_grid.hpp"
 
@@ -23,15 +23,17 @@ struct MarkerDecoderOptions {
   /// ... plus this over it: neighbours brighten the ring that gives a small dot's background, more so for one
   /// among many.
   double alike_tolerance_px2 = 0.4;
+  double alike_on_structure = 0.3;       ///< in place of `alike_tolerance` when one of them lies on structure
   double small_dot_tolerance_px = 0.12;  ///< a dot of a few pixels may look too small by this
   /// Largest distance of a dot from its cell, in pitches, before the perspective is known,
   double cell_tolerance = 0.2;
   double fit_tolerance = 0.08;  ///< and after
   double size_tolerance = 0.2;  ///< relative mismatch of 4 radii and a pitch
-  /// A dot may look larger by this: when saturated, or so small that blur dims its middle, from which its
-  /// radius is derived. Three or four dots two pitches apart that are mistaken for O, X and Y look too large
-  /// by half, more than few dots are allowed; five such dots fit no grid.
-  double growth_px = 0.8;
+  /// A dot may look larger by this: when saturated, or so blurred that its middle is dimmed, from which its
+  /// radius is derived (a disc of radius 2 px behind a blur of 2.5 px looks twice as large). Three or four
+  /// dots two pitches apart that are mistaken for O, X and Y look too large by half, more than few dots are
+  /// allowed; five such dots fit no grid.
+  double growth_px = 3.0;
   double growth_of_few_px = 0.35;
   double guard_pitches = 2.0;             ///< must be clear around a marker that shares its area with others
   std::size_t least_dots_in_a_crowd = 5;  ///< and so many dots must agree: three always fit some grid

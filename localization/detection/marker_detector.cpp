@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <ranges>
 #include <stdexcept>
 
 #include "localization/detection/confidence.hpp"
@@ -215,11 +217,25 @@ std::span<const DetectedMarker> MarkerDetector::read(const cv::Mat& gray, std::s
   markers_.clear();
   const std::size_t areas = area_finder_.find(dots);
   for (std::size_t i = 0; i < areas; ++i) {
-    const std::span<const Dot> area = area_finder_.dots_of(i);
+    const std::span<const Dot> area = bright_ones(area_finder_.dots_of(i));
     if (area.size() >= 3) append_markers_of_area(gray, area, dots);
   }
   sort_by_distance_to_center(markers_, gray.size());
   return markers_;
+}
+
+/// The area's dots without those too dim to be of the same marker.
+std::span<const Dot> MarkerDetector::bright_ones(std::span<const Dot> area) {
+  if (!options_.weigh_cells || area.empty()) return area;
+  const auto brightness = [](const Dot& dot) { return dot.background_gray + dot.contrast_gray; };
+  const double brightest = std::ranges::max(area | std::views::transform(brightness));
+  const double dimmest = std::ranges::min(area | std::views::transform(brightness));
+  if (dimmest >= options_.least_brightness * brightest) return area;
+  bright_dots_.clear();
+  std::ranges::copy_if(area, std::back_inserter(bright_dots_), [&](const Dot& dot) {
+    return brightness(dot) >= options_.least_brightness * brightest;
+  });
+  return bright_dots_;
 }
 
 void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots,
@@ -232,7 +248,8 @@ void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const
       markers_.push_back(detected(reading.id, 0.0, confidence_of(gray, own), reading.dots, grid_place));
       continue;
     }
-    const CellEvidence cells = evidence_of_cells(gray, reading.grid, reading.dots, own, options_.evidence);
+    const CellEvidence cells =
+        evidence_of_cells(gray, reading.grid, reading.dots, own, dot_finder_.noise_gray(), options_.evidence);
     const bool cover_shows = shows_a_cover(reading.grid, own, of_frame, options_.evidence);
     const IdReading id = id_decoder_.read(cells, cover_shows);
     const double probability = id.weight / id.all_weight;
@@ -257,8 +274,8 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<con
   double all_weight = 0.0;
   bool is_decided = true;
   for_each_square(*lattice, usual, [&](const Square& square) {
-    const CellEvidence cells =
-        evidence_of_cells(gray, square.grid, square.dots, square.measured, options_.evidence);
+    const CellEvidence cells = evidence_of_cells(gray, square.grid, square.dots, square.measured,
+                                                 dot_finder_.noise_gray(), options_.evidence);
     const bool cover_shows = shows_a_cover(square.grid, square.measured, of_frame, options_.evidence);
     is_decided = is_decided && cells.undecided() <= options_.most_undecided;
     for (int turn = 0; turn < quarter_turns; ++turn) {

@@ -26,6 +26,9 @@ struct DetectorOptions {
   /// fits. Other IDs are rejected: a marker with dots behind an occluder as gray as the ceiling looks just
   /// like an unregistered one. Without them every cell must be decided, and all 4096 IDs are equally likely.
   std::vector<int> registered_ids;
+  /// A marker's dots are about equally bright. One whose brightness is below this share of that of its area's
+  /// brighter ones is the ceiling's: the rim of a reflector, a slat between two slots.
+  double least_brightness = 0.75;
   double least_probability = 0.99;  ///< posterior of the ID; less is rejected
   /// Limit on undecided cells of the 16. A larger occluder makes errors of cells dependent. IDs at Hamming
   /// distance 4 stay distinct with three lost.
@@ -61,6 +64,7 @@ class MarkerDetector {
 
  private:
   std::span<const DetectedMarker> read(const cv::Mat& gray, std::span<const Dot> dots);
+  std::span<const Dot> bright_ones(std::span<const Dot> area);
   void append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots, std::span<const Dot> of_frame);
   void append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots,
                                 std::span<const Dot> of_frame);
@@ -71,6 +75,7 @@ class MarkerDetector {
   MarkerAreaFinder area_finder_;
   AreaReader area_reader_;
   IdDecoder id_decoder_;
+  std::vector<Dot> bright_dots_;  ///< of an area that has others too
   std::vector<DetectedMarker> markers_;
 };
 

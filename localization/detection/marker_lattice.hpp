@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "localization/detection/dots.hpp"
+#include "localization/detection/dot.hpp"
 #include "localization/detection/inline_vector.hpp"
 #include "localization/detection/marker_grid.hpp"
 

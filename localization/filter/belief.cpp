@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/filter/belief_pose.hpp"
 #include "maps/chi_square.hpp"
 
 namespace lodestar {
@@ -48,17 +49,23 @@ Mat3 shared_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
   return fix.shared_covariance + Mat3(of_site.asDiagonal());
 }
 
-/// Covariance between pose and wheel readings from the readings' rounding. It is independent at each time and
-/// must not accumulate along the way, as it would in moved().
+/// Covariance of the readings' rounding.
 Mat3 rounding_covariance(const PoseFilterOptions& options) {
   const double wheel = square(options.wheel_step_m) / 12.0;
   return Vec3(0.5 * wheel, 0.5 * wheel, 2.0 * wheel / square(options.track_width_m)).asDiagonal();
 }
 
+/// What the robot's pose (x_m, y_m, yaw_rad) changes by in a second.
+Vec3 velocity_in_map(const Belief& belief) {
+  const double yaw_rad = belief.mean[2];
+  return {belief.velocity.forward_mps * std::cos(yaw_rad), belief.velocity.forward_mps * std::sin(yaw_rad),
+          belief.velocity.turn_radps};
+}
+
 /// Covariance of the error that a fix does not share with others.
-Mat3 own_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
+Mat3 own_covariance(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   const Mat3 own = fix.covariance - fix.shared_covariance;
-  return 0.5 * (own + own.transpose()) + rounding_covariance(options);
+  return 0.5 * (own + own.transpose()) + reading_covariance(belief, options);
 }
 
 double rolled_m(const WheelTravel& travel) {
@@ -101,75 +108,65 @@ Belief sharing(const Belief& belief, const PlanarFix& fix, const PoseFilterOptio
   return result;
 }
 
-/// A fix observes the pose plus the shared error.
+/// A fix observes the robot's pose plus the shared error.
 struct Innovation {
   Vec3 error;
   Mat3 covariance;
-  Eigen::Matrix<double, 3, 12> with_state;  ///< covariance of the expected fix and the state
+  Eigen::Matrix<double, 3, 13> by_state;
 };
 
 Innovation innovation_of(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   Innovation innovation;
-  const Vec3 expected = belief.mean.head<3>() + belief.mean.segment<3>(6);
+  const Vec3 expected = pose_of(belief) + belief.mean.segment<3>(6);
   innovation.error << fix.map_from_base.position_m - expected.head<2>(),
       wrap_angle(fix.map_from_base.yaw_rad - expected.z());
-  innovation.with_state = belief.covariance.topRows<3>() + belief.covariance.middleRows<3>(6);
-  innovation.covariance = innovation.with_state.leftCols<3>() + innovation.with_state.middleCols<3>(6) +
-                          own_covariance(fix, options);
+  innovation.by_state = pose_by_state(belief);
+  innovation.by_state.middleCols<3>(6) = Mat3::Identity();
+  innovation.covariance = innovation.by_state * belief.covariance * innovation.by_state.transpose() +
+                          own_covariance(belief, fix, options);
   return innovation;
 }
 
-/// A belief, augmented by the pose that a frame of its time shows.
-struct WithFramePose {
-  using State = Eigen::Matrix<double, 15, 1>;
-  using Covariance = Eigen::Matrix<double, 15, 15>;
+/// Drift of the readings' mean lag, beside that by their jitter. Assumed: a bus whose load changes.
+constexpr double lag_drift_s_per_sqrt_s = 0.0005;
 
-  State mean;
-  Covariance covariance;
-};
-
-WithFramePose with_frame_pose(const Belief& belief, double sway_m, const PoseFilterOptions& options) {
-  WithFramePose both;
-  both.mean << belief.mean, belief.mean.head<3>();
-  both.covariance << belief.covariance, belief.covariance.leftCols<3>(), belief.covariance.topRows<3>(),
-      belief.covariance.topLeftCorner<3, 3>() + rounding_covariance(options);
-  both.covariance.diagonal().segment<2>(12).array() += square(sway_m);
-  return both;
-}
-
-/// The frame's pose replaces the keyframe's in the belief.
-void set_keyframe(const WithFramePose& both, Belief& belief) {
-  belief.mean << both.mean.head<9>(), both.mean.tail<3>();
-  belief.covariance << both.covariance.topLeftCorner<9, 9>(), both.covariance.topRightCorner<9, 3>(),
-      both.covariance.bottomLeftCorner<3, 9>(), both.covariance.bottomRightCorner<3, 3>();
-}
-
-struct MotionInnovation {
-  Vec3 error;
-  Mat3 covariance;
-  Eigen::Matrix<double, 3, 15> by_state;
-};
-
-MotionInnovation innovation_of(const WithFramePose& both, const VisualOdometryIncrement& motion) {
-  const Pose2 then{both.mean.segment<2>(9), both.mean[11]};
-  const Pose2 expected = inverse(then) * Pose2{both.mean.segment<2>(12), both.mean[14]};
-  const Eigen::Matrix2d then_from_map = Eigen::Rotation2Dd(-then.yaw_rad).toRotationMatrix();
-  MotionInnovation innovation;
-  innovation.error << motion.then_from_now.position_m - expected.position_m,
-      wrap_angle(motion.then_from_now.yaw_rad - expected.yaw_rad);
-  innovation.by_state.setZero();
-  innovation.by_state.block<2, 2>(0, 9) = -then_from_map;
-  innovation.by_state.block<2, 2>(0, 12) = then_from_map;
-  innovation.by_state.col(11) << expected.position_m.y(), -expected.position_m.x(), -1.0;
-  innovation.by_state(2, 14) = 1.0;
-  innovation.covariance =
-      innovation.by_state * both.covariance * innovation.by_state.transpose() + motion.covariance;
-  return innovation;
+/// The velocity with another arc, averaged over two readings, and longer where their jitter makes half a
+/// metre per second of nothing. Chosen by hand.
+BodyVelocity smoothed(const BodyVelocity& before, const Arc& arc, double time_s,
+                      const PoseFilterOptions& options) {
+  if (time_s <= 0.0) return before;
+  const double weight = -std::expm1(-time_s / (0.04 + 6.0 * options.reading_jitter_s));
+  const BodyVelocity now{std::lerp(before.forward_mps, arc.length_m / time_s, weight),
+                         std::lerp(before.turn_radps, arc.turn_rad / time_s, weight)};
+  const bool rests = arc.length_m == 0.0 && arc.turn_rad == 0.0 && std::abs(now.forward_mps) < 1e-3 &&
+                     std::abs(now.turn_radps) < 1e-3;
+  return rests ? BodyVelocity{} : now;  // a robot at rest does not creep
 }
 
 }  // namespace
 
-WheelScales scales_as_built(const PoseFilterOptions& options) {
+Vec3 pose_of(const Belief& belief) {
+  return belief.mean.head<3>() + belief.mean[12] * velocity_in_map(belief);
+}
+
+Eigen::Matrix<double, 3, 13> pose_by_state(const Belief& belief) {
+  Eigen::Matrix<double, 3, 13> jacobian;
+  jacobian << Mat3::Identity(), Eigen::Matrix<double, 3, 9>::Zero(), velocity_in_map(belief);
+  return jacobian;
+}
+
+Mat3 reading_covariance(const Belief& belief, const PoseFilterOptions& options) {
+  const Vec3 jitter = options.reading_jitter_s * velocity_in_map(belief);
+  return rounding_covariance(options) + jitter * jitter.transpose();
+}
+
+Pose2 Belief::map_from_base() const {
+  const Vec3 pose = pose_of(*this);
+  return {pose.head<2>(), wrap_angle(pose.z())};
+}
+
+WheelScales initial_scales(const PoseFilterOptions& options) {
+  if (options.learned_scales) return *options.learned_scales;
   WheelScales scales;
   const double wheel = square(options.initial_wheel_scale_sigma);
   scales.covariance = Vec3(wheel, wheel, square(options.initial_turn_scale_sigma)).asDiagonal();
@@ -177,19 +174,20 @@ WheelScales scales_as_built(const PoseFilterOptions& options) {
 }
 
 Belief belief_from(const PlanarFix& fix, const WheelTravel& travel, const WheelScales& scales,
-                   const PoseFilterOptions& options) {
+                   const PoseFilterOptions& options, const Lag& lag) {
   Belief belief;
   belief.travel = travel;
   belief.mean << fix.map_from_base.position_m, fix.map_from_base.yaw_rad, scales.mean, Vec3::Zero(),
-      Vec3::Zero();
+      Vec3::Zero(), lag.mean_s;
   const Mat3 shared = shared_covariance(fix, options);
   for (const int id : fix.ids) belief.markers.push_back({id, rolled_m(travel)});
   belief.shared = shared;
-  belief.covariance.topLeftCorner<3, 3>() = own_covariance(fix, options) + shared;
+  belief.covariance.topLeftCorner<3, 3>() = own_covariance(belief, fix, options) + shared;
   belief.covariance.block<3, 3>(0, 6) = -shared;
   belief.covariance.block<3, 3>(6, 0) = -shared;
   belief.covariance.block<3, 3>(6, 6) = shared;
   belief.covariance.block<3, 3>(3, 3) = scales.covariance;
+  belief.covariance(12, 12) = square(lag.sigma_s);
   return belief;
 }
 
@@ -201,12 +199,15 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   const double turn_scale = from.mean[5];
   const double turn_as_built = (right_scale * right_m - left_scale * left_m) / options.track_width_m;
   const Arc arc{0.5 * (left_scale * left_m + right_scale * right_m), turn_scale * turn_as_built};
-  const Pose2 pose = along(from.map_from_base(), arc);
+  const Pose2 pose = along({from.mean.head<2>(), from.mean[2]}, arc);
   const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
   const double kept = std::exp(-way_m / fix_bias_reach_m);  // correlation of the shared error
 
+  const double time_s = seconds(travel.stamp - from.travel.stamp);
+
   Belief to = from;
   to.travel = travel;
+  to.velocity = smoothed(from.velocity, arc, time_s, options);
   to.mean.head<3>() << pose.position_m, pose.yaw_rad;
   to.mean.segment<3>(6) *= kept;
 
@@ -229,6 +230,7 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   to.covariance.topLeftCorner<3, 3>() += by_wheels * noise.asDiagonal() * by_wheels.transpose();
   to.covariance.diagonal().segment<3>(3).array() += square(options.wheel_scale_drift_per_sqrt_m) * way_m;
   to.covariance.block<3, 3>(6, 6) += (1.0 - kept * kept) * from.shared;
+  to.covariance(12, 12) += (square(lag_drift_s_per_sqrt_s) + square(options.reading_jitter_s)) * time_s;
   return to;
 }
 
@@ -245,57 +247,22 @@ double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFi
 Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   const Belief expected = sharing(belief, fix, options);
   const Innovation innovation = innovation_of(expected, fix, options);
-  Eigen::Matrix<double, 12, 3> gain = innovation.covariance.ldlt().solve(innovation.with_state).transpose();
+  Eigen::Matrix<double, 13, 3> gain =
+      innovation.covariance.ldlt().solve(innovation.by_state * expected.covariance).transpose();
   gain.middleRows<3>(3) *= options.scales_learned_by_one_fix;
-  Belief::Covariance keep = Belief::Covariance::Identity();
-  keep.leftCols<3>() -= gain;
-  keep.middleCols<3>(6) -= gain;
+  const Belief::Covariance keep = Belief::Covariance::Identity() - gain * innovation.by_state;
   Belief result = expected;
   result.mean += gain * innovation.error;
   result.mean[2] = wrap_angle(result.mean[2]);
   // Joseph form: keeps the covariance symmetric and positive, and is correct for any gain.
-  result.covariance =
-      keep * expected.covariance * keep.transpose() + gain * own_covariance(fix, options) * gain.transpose();
-  return result;
-}
-
-Belief with_keyframe(const Belief& belief, double sway_m, const PoseFilterOptions& options) {
-  Belief result = belief;
-  set_keyframe(with_frame_pose(belief, sway_m, options), result);
-  result.keyframe_stamp = belief.travel.stamp;
-  return result;
-}
-
-double squared_distance(const Belief& belief, const VisualOdometryIncrement& motion,
-                        const PoseFilterOptions& options) {
-  const MotionInnovation innovation = innovation_of(with_frame_pose(belief, motion.sway_m, options), motion);
-  return innovation.error.dot(innovation.covariance.ldlt().solve(innovation.error));
-}
-
-Belief corrected(const Belief& belief, const VisualOdometryIncrement& motion, bool becomes_keyframe,
-                 const PoseFilterOptions& options) {
-  WithFramePose both = with_frame_pose(belief, motion.sway_m, options);
-  const MotionInnovation innovation = innovation_of(both, motion);
-  const Eigen::Matrix<double, 15, 3> gain =
-      innovation.covariance.ldlt().solve(innovation.by_state * both.covariance).transpose();
-  const WithFramePose::Covariance keep = WithFramePose::Covariance::Identity() - gain * innovation.by_state;
-  both.mean += gain * innovation.error;
-  both.covariance =
-      (keep * both.covariance * keep.transpose() + gain * motion.covariance * gain.transpose()).eval();
-  Belief result = belief;
-  result.mean = both.mean.head<12>();
-  result.covariance = both.covariance.topLeftCorner<12, 12>();
-  if (becomes_keyframe) {
-    set_keyframe(both, result);
-    result.keyframe_stamp = belief.travel.stamp;
-  }
-  result.mean[2] = wrap_angle(result.mean[2]);
-  result.mean[11] = wrap_angle(result.mean[11]);
+  result.covariance = keep * expected.covariance * keep.transpose() +
+                      gain * own_covariance(expected, fix, options) * gain.transpose();
   return result;
 }
 
 Mat3 pose_covariance(const Belief& belief, const PoseFilterOptions& options) {
-  return belief.covariance.topLeftCorner<3, 3>() + rounding_covariance(options);
+  const Eigen::Matrix<double, 3, 13> by_state = pose_by_state(belief);
+  return by_state * belief.covariance * by_state.transpose() + reading_covariance(belief, options);
 }
 
 Pose2 rolled(const Pose2& from, double left_m, double right_m, double track_width_m) {

@@ -13,14 +13,8 @@
 // fixes of an extended Kalman filter (Thrun, Burgard and Fox 2005, chapter 3.3).
 namespace lodestar {
 
-/// True over reported: the travel of the left and of the right wheel, and the resulting turn. The third is
-/// the track width as built over the effective one on this floor.
-struct WheelScales {
-  Vec3 mean = Vec3::Ones();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
-
-WheelScales scales_as_built(const PoseFilterOptions& options);
+/// Before anything is learned in this drive: those of an earlier one, or the prior.
+WheelScales initial_scales(const PoseFilterOptions& options);
 
 /// A marker, and the odometer distance at which a fix last used it.
 struct RecentMarker {
@@ -28,28 +22,39 @@ struct RecentMarker {
   double rolled_m = 0.0;
 };
 
+struct Lag {
+  double mean_s = 0.0;
+  double sigma_s = 0.0;
+};
+
+/// Before any fix: readings of a good bus are 0 to 20 ms old, those of a slow one 50.
+inline constexpr Lag initial_lag{.mean_s = 0.0, .sigma_s = 0.02};
+
 struct Belief {
-  /// Four parts of three: the pose (x_m, y_m, yaw_rad), the scales, the error (x_m, y_m, yaw_rad) that nearby
-  /// fixes share, and the keyframe's pose (x_m, y_m, yaw_rad).
-  using State = Eigen::Matrix<double, 12, 1>;
-  using Covariance = Eigen::Matrix<double, 12, 12>;
+  /// Four parts of three: the pose (x_m, y_m, yaw_rad) that the wheels' readings describe, the scales, the
+  /// error (x_m, y_m, yaw_rad) that nearby fixes share, and the keyframe's pose (x_m, y_m, yaw_rad). And the
+  /// readings' lag (s): the robot has left that pose at its velocity for so long.
+  using State = Eigen::Matrix<double, 13, 1>;
+  using Covariance = Eigen::Matrix<double, 13, 13>;
 
   WheelTravel travel;
   std::optional<Stamp> keyframe_stamp;  ///< capture time of the keyframe; nothing when there is none
   std::vector<RecentMarker> markers;    ///< used by fixes nearby
   /// Prior covariance of the error that nearby fixes share.
   Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();
+  BodyVelocity velocity;  ///< by the readings, smoothed
   State mean = State::Zero();
   Covariance covariance = Covariance::Zero();
 
-  [[nodiscard]] Pose2 map_from_base() const { return {mean.head<2>(), mean[2]}; }
+  /// Where the robot is: the readings' pose, and the motion of their lag.
+  [[nodiscard]] Pose2 map_from_base() const;
   [[nodiscard]] WheelScales scales() const { return {mean.segment<3>(3), covariance.block<3, 3>(3, 3)}; }
   [[nodiscard]] Pose2 map_from_keyframe() const { return {mean.segment<2>(9), mean[11]}; }
 };
 
 /// The belief from one fix alone.
 Belief belief_from(const PlanarFix& fix, const WheelTravel& travel, const WheelScales& scales,
-                   const PoseFilterOptions& options);
+                   const PoseFilterOptions& options, const Lag& lag = initial_lag);
 
 /// Prediction: the belief after the wheels have rolled on an arc of constant curvature.
 Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOptions& options);

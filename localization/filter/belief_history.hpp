@@ -2,17 +2,18 @@
 
 #include <deque>
 #include <optional>
+#include <variant>
 
 #include "localization/filter/belief.hpp"
 
 namespace lodestar {
 
 /// The beliefs over the last `history`, up to the newest wheel reading, so that a fix is applied at its
-/// capture time and the travel since then is replayed.
+/// capture time, and the travel and the other corrections since then are replayed.
 class BeliefHistory {
  public:
   explicit BeliefHistory(const Belief& beginning)
-      : beliefs_{beginning}, last_fix_(beginning.travel.stamp), last_motion_(beginning.travel.stamp) {}
+      : moments_{{beginning, {}}}, last_fix_(beginning.travel.stamp), last_motion_(beginning.travel.stamp) {}
 
   /// Predicts up to a newer reading, and drops what is older than the history.
   void add_travel(const WheelTravel& travel, const PoseFilterOptions& options);
@@ -33,13 +34,29 @@ class BeliefHistory {
   /// The belief at the time of `travel`; nothing when that is before all beliefs.
   [[nodiscard]] std::optional<Belief> at(const WheelTravel& travel, const PoseFilterOptions& options) const;
 
-  [[nodiscard]] Stamp oldest() const { return beliefs_.front().travel.stamp; }
-  [[nodiscard]] const Belief& newest() const { return beliefs_.back(); }
+  [[nodiscard]] Stamp oldest() const { return moments_.front().belief.travel.stamp; }
+  [[nodiscard]] const Belief& newest() const { return moments_.back().belief; }
 
  private:
-  void put(const Belief& belief, const PoseFilterOptions& options);
+  struct Motion {
+    VisualOdometryIncrement increment;
+    bool becomes_keyframe = false;
+  };
+  struct Keyframe {
+    double sway_m = 0.0;
+  };
+  using Correction = std::variant<std::monostate, PlanarFix, Motion, Keyframe>;
 
-  std::deque<Belief> beliefs_;  ///< by ascending stamp, never empty
+  /// The belief at one time, after what corrected it.
+  struct Moment {
+    Belief belief;
+    Correction correction;
+  };
+
+  static Belief after(const Belief& expected, const Correction& correction, const PoseFilterOptions& options);
+  void put(const Belief& expected, Correction correction, const PoseFilterOptions& options);
+
+  std::deque<Moment> moments_;  ///< by ascending stamp, never empty
   Stamp last_fix_;              ///< stamp of the newest fix applied
   Stamp last_motion_;           ///< likewise of visual-odometry increments
 };

@@ -32,6 +32,8 @@ void PoseFilter::add_travel(const WheelTravel& reading) {
   if (!readings_.empty() && reading.stamp <= readings_.back().stamp) return;
   const WheelTravel travel = zero_velocity_.settled(reading);
   readings_.push_back(travel);
+  jitter_.add(reading.stamp);
+  options_.reading_jitter_s = jitter_.sigma_s();
   while (readings_.size() > 2 && readings_[1].stamp <= travel.stamp - belief_history) readings_.pop_front();
   if (believed_) believed_->add_travel(travel, options_);
   if (rival_) rival_->history.add_travel(travel, options_);
@@ -196,7 +198,7 @@ std::optional<PoseEstimate> PoseFilter::estimate_at(Stamp stamp) const {
 }
 
 WheelScales PoseFilter::scales() const {
-  return believed_ ? believed_->newest().scales() : scales_as_built(options_);
+  return believed_ ? believed_->newest().scales() : initial_scales(options_);
 }
 
 }  // namespace lodestar

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "localization/filter/arrival_jitter.hpp"
 #include "localization/filter/belief_history.hpp"
 #include "localization/filter/pose_filter_options.hpp"
 #include "localization/filter/zero_velocity_detector.hpp"
@@ -84,6 +85,9 @@ class PoseFilter {
   /// then. Nothing before the start and beyond that range.
   [[nodiscard]] std::optional<PoseEstimate> estimate_at(Stamp stamp) const;
 
+  /// The learned scales of wheels and turns, with their covariance.
+  [[nodiscard]] WheelScales scales() const;
+
   /// Learned scales (true travel over reported travel), left and right.
   [[nodiscard]] Vec2 wheel_scales() const { return scales().mean.head<2>(); }
 
@@ -111,10 +115,10 @@ class PoseFilter {
   [[nodiscard]] bool rival_prevails() const;
   void begin_with(Rival rival, Stamp last_fix);
   [[nodiscard]] Rival rival_from(const PlacedFix& placed) const;
-  [[nodiscard]] WheelScales scales() const;
 
   PoseFilterOptions options_;
   ZeroVelocityDetector zero_velocity_;
+  ArrivalJitter jitter_;
   std::deque<WheelTravel> readings_;  ///< by ascending stamp, over the history
   std::optional<BeliefHistory> believed_;
   std::optional<Rival> rival_;

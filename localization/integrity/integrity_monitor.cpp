@@ -2,22 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace lodestar {
-namespace {
 
-/// Key of fixes by several markers: they count as one witness, whichever markers they are.
-constexpr int several = -1;
-
-}  // namespace
-
+/// Of the two wheels the one that rolled farther counts: the other's encoder may be stuck.
 void IntegrityMonitor::add_travel(const WheelTravel& reading) {
   if (last_travel_) {
-    rolled_m_ += 0.5 * (std::abs(reading.left_m - last_travel_->left_m) +
-                        std::abs(reading.right_m - last_travel_->right_m));
+    rolled_m_ += std::max(std::abs(reading.left_m - last_travel_->left_m),
+                          std::abs(reading.right_m - last_travel_->right_m));
   }
   last_travel_ = reading;
+  rolled_.push_back({reading.stamp, rolled_m_});
+  while (rolled_.size() > 2 && rolled_[1].stamp <= reading.stamp - belief_history) rolled_.pop_front();
+}
+
+/// Several fixes may arrive between two readings of the wheels, late and at once: the distance counts at the
+/// exposure, not on arrival.
+double IntegrityMonitor::rolled_until_m(Stamp stamp) const {
+  const auto after = std::ranges::lower_bound(rolled_, stamp, {}, &Rolled::stamp);
+  if (after == rolled_.end()) return rolled_m_;
+  if (after == rolled_.begin()) return after->distance_m;
+  const Rolled& before = *std::prev(after);
+  return std::lerp(before.distance_m, after->distance_m,
+                   seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp));
 }
 
 void IntegrityMonitor::add_fix(const FixVerdict& fix) {
@@ -47,11 +56,15 @@ void IntegrityMonitor::agree() {
 }
 
 void IntegrityMonitor::contradict(const FixVerdict& fix) {
+  const double rolled_m = rolled_until_m(fix.stamp);
   gross_in_a_row_ = is_gross(fix) ? gross_in_a_row_ + 1 : 0;
   if (!fix.expected || fix.ids.empty()) return;
   const Pose2 map_from_estimated = fix.map_from_base * inverse(*fix.expected);
-  const int who = fix.ids.size() == 1 ? fix.ids.front() : several;
-  const auto [witness, is_new] = witnesses_.try_emplace(who, Witness{map_from_estimated, rolled_m_});
+  // Other markers show another error where the registry is not quite true: only the same ones are compared.
+  std::vector<int> who(fix.ids.begin(), fix.ids.end());
+  std::ranges::sort(who);
+  const auto [witness, is_new] =
+      witnesses_.try_emplace(std::move(who), Witness{map_from_estimated, rolled_m});
   if (is_new) return;
   const Witness& first = witness->second;
   const double apart_m =
@@ -60,7 +73,7 @@ void IntegrityMonitor::contradict(const FixVerdict& fix) {
   const double turned_rad =
       std::abs(wrap_angle(map_from_estimated.yaw_rad - first.map_from_estimated.yaw_rad));
   if (apart_m <= options_.steady_m && turned_rad <= options_.steady_rad) return;
-  if (rolled_m_ - first.rolled_m < options_.rolled_m) {
+  if (rolled_m - first.rolled_m < options_.rolled_m) {
     latched_ = IntegrityAlarm::carried_away;
   } else {
     register_odometry_failure(fix);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -67,10 +68,16 @@ class IntegrityMonitor {
   [[nodiscard]] double rolled_since_agreement_m() const { return rolled_m_ - rolled_at_agreement_m_; }
 
  private:
-  /// Correction of the estimate by one marker's fixes, while none agrees.
+  /// Correction of the estimate by the fixes of the same markers, while none agrees.
   struct Witness {
     Pose2 map_from_estimated;
     double rolled_m = 0.0;
+  };
+
+  /// Distance rolled until `stamp`.
+  struct Rolled {
+    Stamp stamp;
+    double distance_m = 0.0;
   };
 
   /// Position of the estimate at an odometry failure.
@@ -82,15 +89,17 @@ class IntegrityMonitor {
   void agree();
   void contradict(const FixVerdict& fix);
   void register_odometry_failure(const FixVerdict& fix);
+  [[nodiscard]] double rolled_until_m(Stamp stamp) const;
   [[nodiscard]] bool is_out_of_reach(const FixVerdict& start) const;
   [[nodiscard]] bool is_gross(const FixVerdict& fix) const;
 
   IntegrityOptions options_;
   std::optional<WheelTravel> last_travel_;
+  std::deque<Rolled> rolled_;  ///< of the last `belief_history`
   double rolled_m_ = 0.0;
   double rolled_at_agreement_m_ = 0.0;
   int gross_in_a_row_ = 0;
-  std::map<int, Witness> witnesses_;
+  std::map<std::vector<int>, Witness> witnesses_;
   std::vector<Stamp> wheel_errors_;
   bool failure_is_new_ = false;
   std::optional<OdometryFailure> failure_;

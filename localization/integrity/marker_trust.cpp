@@ -25,13 +25,32 @@ void add_last(std::vector<int>& ids, int id) {
 
 }  // namespace
 
+void MarkerTrust::Contradictions::add(const Vec3& offset) {
+  ++count;
+  offset_sum += offset;
+  square_sum += offset.cwiseAbs2();
+}
+
+void MarkerTrust::Contradictions::add(const Contradictions& more) {
+  count += more.count;
+  offset_sum += more.offset_sum;
+  square_sum += more.square_sum;
+}
+
+/// The scatter of single contradictions: the estimate's error in them is shared, so their number does not
+/// divide it. No less than what the other markers' places are known to.
+Vec3 MarkerTrust::Contradictions::sigma() const {
+  const Vec3 least(0.002, 0.002, radians(0.1));
+  const Vec3 variance = square_sum / std::max(count, 1) - mean().cwiseAbs2();
+  return variance.cwiseMax(least.cwiseAbs2()).cwiseSqrt();
+}
+
 void MarkerTrust::add_contradiction(const MarkerSighting& sighting) {
   if (sighting.squared_distance <= gate_squared_distance()) return;
   if (witnesses_beside(sighting.id) < options_.witnesses) return;
   Suspect& suspect = suspects_[sighting.id];
   if (suspect.distrusted) return;
-  ++suspect.open.count;
-  suspect.open.offset_sum += offset_of(sighting);
+  suspect.open.add(offset_of(sighting));
 }
 
 void MarkerTrust::add_agreement(std::span<const int> ids) {
@@ -55,12 +74,23 @@ void MarkerTrust::confirm(Suspect& suspect, std::span<const int> ids) {
   if (suspect.open.count == 0) return;
   for (const int id : ids) add_last(suspect.confirmed_by, id);
   if (std::ssize(suspect.confirmed_by) < options_.witnesses) return;
-  suspect.confirmed.count += suspect.open.count;
-  suspect.confirmed.offset_sum += suspect.open.offset_sum;
+  suspect.confirmed.add(suspect.open);
   suspect.open = {};
   suspect.confirmed_by.clear();
   suspect.distrusted =
       suspect.confirmed.count >= options_.contradictions_to_distrust && is_elsewhere(suspect.confirmed);
+}
+
+void MarkerTrust::distrust(const DistrustedMarker& marker) {
+  Suspect& suspect = suspects_[marker.id];
+  suspect.distrusted = true;
+  Vec3 offset;
+  offset << marker.offset_m, marker.turn_rad;
+  const Vec3 sigma(marker.sigma_m, marker.sigma_m, marker.sigma_rad);
+  Contradictions& known = suspect.confirmed;
+  known.count = std::max(marker.fixes, 1);
+  known.offset_sum = known.count * offset;
+  known.square_sum = known.count * (offset.cwiseAbs2() + sigma.cwiseAbs2());
 }
 
 void MarkerTrust::estimate_moved() {
@@ -72,7 +102,7 @@ void MarkerTrust::estimate_moved() {
 }
 
 bool MarkerTrust::is_elsewhere(const Contradictions& contradictions) const {
-  const Vec3 offset = contradictions.offset_sum / std::max(contradictions.count, 1);
+  const Vec3 offset = contradictions.mean();
   return offset.head<2>().norm() > options_.tolerated_offset_m ||
          std::abs(offset.z()) > options_.tolerated_turn_rad;
 }
@@ -90,9 +120,14 @@ std::vector<DistrustedMarker> MarkerTrust::distrusted() const {
   std::vector<DistrustedMarker> result;
   for (const auto& [id, suspect] : suspects_) {
     if (!suspect.distrusted) continue;
-    const Vec3 offset = suspect.confirmed.offset_sum / suspect.confirmed.count;
-    result.push_back(
-        {.id = id, .offset_m = offset.head<2>(), .turn_rad = offset.z(), .fixes = suspect.confirmed.count});
+    const Vec3 offset = suspect.confirmed.mean();
+    const Vec3 sigma = suspect.confirmed.sigma();
+    result.push_back({.id = id,
+                      .offset_m = offset.head<2>(),
+                      .turn_rad = offset.z(),
+                      .fixes = suspect.confirmed.count,
+                      .sigma_m = sigma.head<2>().maxCoeff(),
+                      .sigma_rad = sigma.z()});
   }
   return result;
 }

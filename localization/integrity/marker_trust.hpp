@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
@@ -23,6 +24,8 @@ struct DistrustedMarker {
   Vec2 offset_m = Vec2::Zero();  ///< of its dot O from its registered position, in the map frame
   double turn_rad = 0.0;         ///< of its orientation, counter-clockwise
   int fixes = 0;                 ///< confirmed contradictions
+  double sigma_m = 0.0;          ///< of the offset, along each axis
+  double sigma_rad = 0.0;
 };
 
 /// Fix of one marker alone, with the estimate's prediction.
@@ -47,7 +50,11 @@ class MarkerTrust {
   /// Adds a fix by these markers, together, that agrees with the estimate.
   void add_agreement(std::span<const int> ids);
 
-  /// The estimate was wrong: discards the unconfirmed charges, and the witnesses for the estimate.
+  /// Distrusts a marker from now on, as an earlier drive found.
+  void distrust(const DistrustedMarker& marker);
+
+  /// The estimate was wrong, or the robot was placed anew: discards the unconfirmed charges, and the
+  /// witnesses for the estimate.
   void estimate_moved();
 
   [[nodiscard]] bool trusts(int id) const;
@@ -60,6 +67,11 @@ class MarkerTrust {
   struct Contradictions {
     int count = 0;
     Vec3 offset_sum = Vec3::Zero();  ///< x_m, y_m, yaw_rad
+    Vec3 square_sum = Vec3::Zero();
+    void add(const Vec3& offset);
+    void add(const Contradictions& more);
+    [[nodiscard]] Vec3 mean() const { return offset_sum / std::max(count, 1); }
+    [[nodiscard]] Vec3 sigma() const;
   };
   struct Suspect {
     Contradictions open;            ///< unconfirmed: too few others have agreed with the estimate since

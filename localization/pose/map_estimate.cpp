@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "localization/pose/dot_projection.hpp"
+#include "localization/pose/huber.hpp"
 #include "localization/pose/second_order_covariance.hpp"
-#include "maps/marker.hpp"
 
 namespace lodestar {
 namespace {
@@ -36,75 +37,17 @@ Vec6 step_between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
 struct Normal {
   Mat6 information = Mat6::Zero();
   Mat6 information_of_dots = Mat6::Zero();  ///< without the prior's
+  Mat6 shared_of_gradient = Mat6::Zero();   ///< its covariance by the offsets of markers
   Vec6 gradient = Vec6::Zero();             ///< of half the cost
   double cost = 0.0;
   bool is_quadratic = true;  ///< no dot is in the linear range of its Huber loss
 };
 
-/// Huber loss: quadratic up to `scale` sigmas, linear beyond. The weight is that of the quadratic form.
-struct Huber {
-  double cost = 0.0;
-  double weight = 1.0;
-};
-
-Huber huber(double squared_sigmas, double scale) {
-  if (squared_sigmas <= scale * scale) return {squared_sigmas, 1.0};
-  const double sigmas = std::sqrt(squared_sigmas);
-  return {scale * (2.0 * sigmas - scale), scale / sigmas};
-}
-
-/// The same in the camera's axes, where most of the derivative is zero: by_u and by_v are by (position,
-/// rotation) of the camera along and about them.
-struct ProjectionInCamera {
-  Vec2 pixel;
-  Vec6 by_u;
-  Vec6 by_v;
-};
-
-/// Centroid of a horizontal disc's image minus the image of its centre, as rays at unit depth. With the
-/// disc's points q(s, t) seen at depth z(s, t), s and t along the map's axes, the centroid is off by r^2 / 4
-/// (laplacian(q) / 2 + grad(q) . grad(ln J)), with J, the change of area, proportional to z^-3. Both terms
-/// are multiples of grad(z) . grad(q) / z: -1 and -3.
-Vec2 disc_offset(const Vec2& normalized, double depth_m, const Eigen::Matrix3d& map_from_camera) {
-  Vec2 sum = Vec2::Zero();
-  for (const Eigen::Index axis : {0, 1}) {
-    const double depth_change = map_from_camera(axis, 2);
-    sum += depth_change * (map_from_camera.row(axis).head<2>().transpose() - depth_change * normalized);
-  }
-  return -square(marker_dot_radius_m / depth_m) * sum;
-}
-
-std::optional<ProjectionInCamera> project_in_camera(const Eigen::Isometry3d& map_from_camera,
-                                                    const Vec3& point_in_map, const CameraModel& camera) {
-  const Vec3 offset = point_in_map - map_from_camera.translation();
-  const Vec3 p = map_from_camera.linear().transpose() * offset;
-  if (!(p.z() > 1e-6)) return std::nullopt;
-  const double per_depth = 1.0 / p.z();
-  const Vec2 normalized = per_depth * p.head<2>();
-  const Eigen::Matrix2d by_normalized = camera.distorted_jacobian(normalized);
-  ProjectionInCamera projection;
-  projection.pixel =
-      camera.distorted(normalized) + by_normalized * disc_offset(normalized, p.z(), map_from_camera.linear());
-  const auto fill = [&](Eigen::Index row, Vec6& derivative) {
-    const double by_x = per_depth * by_normalized(row, 0);
-    const double by_y = per_depth * by_normalized(row, 1);
-    const Vec3 by_point(by_x, by_y, -(by_x * normalized.x() + by_y * normalized.y()));
-    derivative << -by_point, by_point.cross(p);
-  };
-  fill(0, projection.by_u);
-  fill(1, projection.by_v);
-  return projection;
-}
-
 /// Rotates from the camera's axes to the map's.
-void turn(Normal& normal, const Eigen::Matrix3d& map_from_camera) {
-  for (const Eigen::Index i : {0, 3}) {
-    for (const Eigen::Index j : {0, 3}) {
-      normal.information.block<3, 3>(i, j) =
-          map_from_camera * normal.information.block<3, 3>(i, j) * map_from_camera.transpose();
-    }
-    normal.gradient.segment<3>(i) = map_from_camera * normal.gradient.segment<3>(i);
-  }
+void turn(Mat6& matrix, const Eigen::Matrix3d& map_from_camera) {
+  for (const Eigen::Index i : {0, 3})
+    for (const Eigen::Index j : {0, 3})
+      matrix.block<3, 3>(i, j) = map_from_camera * matrix.block<3, 3>(i, j) * map_from_camera.transpose();
 }
 
 bool add_dots(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, const CameraModel& camera,
@@ -124,7 +67,44 @@ bool add_dots(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, 
           (weight * seen->by_u[k]) * seen->by_u + (weight * seen->by_v[k]) * seen->by_v;
     }
   }
-  turn(normal, pose.linear());
+  return true;
+}
+
+bool add_marker(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, const DotsOfMarker& marker,
+                const CameraModel& camera, const PoseFixOptions& options, Normal& normal) {
+  if (!marker.sigma) return add_dots(pose, dots, camera, options, normal);
+  const auto known =
+      eliminate_offset(pose, dots, marker.origin_m, *marker.sigma, camera, options.robust_scale);
+  if (!known) return false;
+  normal.cost += known->cost;
+  normal.is_quadratic = normal.is_quadratic && known->is_quadratic;
+  normal.gradient += known->gradient;
+  normal.information += known->information;
+  normal.shared_of_gradient += known->shared_of_gradient;
+  return true;
+}
+
+/// What a pose is estimated from.
+struct Sight {
+  std::span<const SurveyedDot> dots;
+  std::span<const DotsOfMarker> markers;  ///< empty where all places are exact
+  const CameraModel& camera;
+  const PoseFixOptions& options;
+};
+
+bool add_sight(const Eigen::Isometry3d& pose, const Sight& sight, Normal& normal) {
+  if (sight.markers.empty() && !add_dots(pose, sight.dots, sight.camera, sight.options, normal)) return false;
+  std::size_t first = 0;
+  for (const DotsOfMarker& marker : sight.markers) {
+    const std::span<const SurveyedDot> dots = sight.dots.subspan(first, marker.count);
+    if (!add_marker(pose, dots, marker, sight.camera, sight.options, normal)) return false;
+    first += marker.count;
+  }
+  const Eigen::Matrix3d& map_from_camera = pose.linear();
+  turn(normal.information, map_from_camera);
+  if (!sight.markers.empty()) turn(normal.shared_of_gradient, map_from_camera);
+  for (const Eigen::Index i : {0, 3})
+    normal.gradient.segment<3>(i) = map_from_camera * normal.gradient.segment<3>(i);
   normal.information_of_dots = normal.information;
   return true;
 }
@@ -170,12 +150,11 @@ void forbid_tilting(Normal& normal) {
   }
 }
 
-std::optional<Normal> normal_at(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots,
-                                const CameraModel& camera, const PoseFixOptions& options) {
+std::optional<Normal> normal_at(const Eigen::Isometry3d& pose, const Sight& sight) {
   Normal normal;
-  if (!add_dots(pose, dots, camera, options, normal)) return std::nullopt;
-  add_prior(pose, options.prior, normal);
-  if (tilt_is_exact(options.prior)) forbid_tilting(normal);
+  if (!add_sight(pose, sight, normal)) return std::nullopt;
+  add_prior(pose, sight.options.prior, normal);
+  if (tilt_is_exact(sight.options.prior)) forbid_tilting(normal);
   return normal;
 }
 
@@ -275,10 +254,12 @@ double prior_cost(const Eigen::Isometry3d& map_from_camera, const PosePrior& pri
 
 std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
                                               std::span<const SurveyedDot> dots, const CameraModel& camera,
-                                              const PoseFixOptions& options) {
+                                              const PoseFixOptions& options,
+                                              std::span<const DotsOfMarker> markers) {
+  const Sight sight{dots, markers, camera, options};
   const bool exact_tilt = tilt_is_exact(options.prior);
   Eigen::Isometry3d pose = exact_tilt ? with_prior_tilt(guess, options.prior) : guess;
-  std::optional<Normal> normal = normal_at(pose, dots, camera, options);
+  std::optional<Normal> normal = normal_at(pose, sight);
   if (!normal) return std::nullopt;
 
   double damping = 1e-6;
@@ -298,7 +279,7 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
       normal->cost -= expected_gain;
       break;
     }
-    const std::optional<Normal> next = normal_at(candidate, dots, camera, options);
+    const std::optional<Normal> next = normal_at(candidate, sight);
     if (next && next->cost <= normal->cost) {
       pose = candidate;
       normal = next;
@@ -317,7 +298,9 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
   estimate.freedom = 2.0 * static_cast<double>(dots.size()) - determined;
   if (options.dot_place_sigma_m > 0.0)
     estimate.shared_covariance =
-        shared_part(dots) * (*covariance * normal->information_of_dots * *covariance);
+        shared_part(dots) *
+        (*covariance * (normal->information_of_dots - normal->shared_of_gradient) * *covariance);
+  if (!markers.empty()) estimate.shared_covariance += *covariance * normal->shared_of_gradient * *covariance;
   const Vec3 center_from_camera = center_of(dots) - pose.translation();
   estimate.covariance = *covariance;
   auto of_place = estimate.covariance.topLeftCorner<3, 3>();

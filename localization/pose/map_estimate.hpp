@@ -4,19 +4,13 @@
 #include <optional>
 #include <span>
 
+#include "localization/pose/marker_offset.hpp"
 #include "localization/pose/pose_fix.hpp"
+#include "localization/pose/surveyed_dot.hpp"
 
 // Refines a first guess of the camera's pose to the maximum a posteriori estimate over all dots and the
 // prior.
 namespace lodestar {
-
-/// A dot of known position on the ceiling.
-struct SurveyedDot {
-  Vec3 point_in_map = Vec3::Zero();
-  Vec2 center_px = Vec2::Zero();
-  double sigma_px = 0.03;        ///< standard deviation of each coordinate of the centre
-  double shared_sigma_px = 0.0;  ///< the part of it common to all frames: the dot's displacement
-};
 
 struct MapEstimate {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
@@ -47,9 +41,11 @@ double cost_of(const Eigen::Isometry3d& map_from_camera, std::span<const Surveye
 double prior_cost(const Eigen::Isometry3d& map_from_camera, const PosePrior& prior);
 
 /// Levenberg-Marquardt. Nothing when a dot gets behind the camera or the dots do not determine the pose.
+/// `markers` divides the dots among markers whose places are not known exactly; without it all of them are.
 std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
                                               std::span<const SurveyedDot> dots, const CameraModel& camera,
-                                              const PoseFixOptions& options);
+                                              const PoseFixOptions& options,
+                                              std::span<const DotsOfMarker> markers = {});
 
 /// Merges two modes from the same dots: the likelier pose, with the covariance of both about it, so that two
 /// poses that explain the dots almost equally are covered.

@@ -56,9 +56,20 @@ bool contains(std::span<const DetectedMarker> markers, int id) {
 
 MarkerTracker::MarkerTracker(const MarkerRegistry& registry, const CameraModel& camera,
                              const DetectorOptions& detector, const MarkerTrackerOptions& options)
-    : camera_(camera), options_(options), detector_(expecting(registry, detector)) {
+    : camera_(camera),
+      options_(options),
+      detector_options_(detector),
+      detector_(expecting(registry, detector)) {
   for (const RegisteredMarker& marker : registry.markers)
     markers_in_map_.push_back({marker.id, map_from_marker(registry, marker)});
+}
+
+void MarkerTracker::use_registry(const MarkerRegistry& registry) {
+  markers_in_map_.clear();
+  for (const RegisteredMarker& marker : registry.markers)
+    markers_in_map_.push_back({marker.id, map_from_marker(registry, marker)});
+  detector_ = MarkerDetector(expecting(registry, detector_options_));
+  not_seen_.clear();
 }
 
 std::span<const DetectedMarker> MarkerTracker::detect(const cv::Mat& gray,

@@ -29,6 +29,9 @@ class MarkerTracker {
   MarkerTracker(const MarkerRegistry& registry, const CameraModel& camera,
                 const DetectorOptions& detector = {}, const MarkerTrackerOptions& options = {});
 
+  /// Goes by these markers from now on.
+  void use_registry(const MarkerRegistry& registry);
+
   /// As MarkerDetector::detect().
   std::span<const DetectedMarker> detect(const cv::Mat& gray, const std::optional<ExpectedView>& expected);
 
@@ -49,6 +52,7 @@ class MarkerTracker {
   std::vector<MarkerInMap> markers_in_map_;
   CameraModel camera_;
   MarkerTrackerOptions options_;
+  DetectorOptions detector_options_;
   MarkerDetector detector_;
   std::vector<cv::Rect> parts_;    ///< of the frame, around predicted markers
   std::vector<int> must_be_seen_;  ///< IDs, by the expected view

@@ -40,6 +40,9 @@ struct PoseFixOptions {
   /// few centimetres leaves small residuals on a tilted robot. With 3 degrees of freedom (two of tilt,
   /// height) a true pose exceeds 30 once in 700,000 frames.
   double max_prior_chi2 = 30.0;
+  /// A marker farther from its registered place than its sigmas allow (chi-square of x, y and yaw) is
+  /// displaced.
+  double max_offset_chi2 = 30.0;
   double robust_scale = 3.0;  ///< Huber loss is linear beyond this, in sigmas
 };
 
@@ -49,12 +52,13 @@ struct PoseFix {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   /// Of (x_m, y_m, z_m, rotation about the map's x, y, z axes in rad); zero where the prior is exact.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  /// The part of it from displaced dots: fixes by the same dots, from about the same place, share that error.
+  /// The part of it from displaced dots and markers: fixes by the same ones, from about the same place, share
+  /// that error.
   Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<int> ids;      ///< of the markers used, the optimal one first
   double confidence = 0.0;   ///< of the optimal marker, Eq. (3)
   int dots = 0;              ///< dots used
-  double residual_px = 0.0;  ///< root mean square
+  double residual_px = 0.0;  ///< root mean square, with markers where they most likely are
 };
 
 /// Camera pose from one frame's markers, as by PoseFixer.

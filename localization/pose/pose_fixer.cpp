@@ -22,7 +22,8 @@ double px_per_m(const DetectedMarker& seen) {
 }
 
 KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
-                         const PoseFixOptions& options, double variance_factor) {
+                         const std::optional<MarkerSigma>& sigma, const PoseFixOptions& options,
+                         double variance_factor) {
   const double sigma_factor = std::sqrt(variance_factor);
   const double place_px = options.dot_place_sigma_m * px_per_m(seen);
   const auto surveyed = [&](GridCell cell, const Vec2& center_px, double sigma_px = 0.0) {
@@ -35,23 +36,40 @@ KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& ma
                     .confidence = seen.confidence,
                     .direction_dots = {surveyed(cell_of_o, seen.o_px), surveyed(cell_of_x, seen.x_px),
                                        surveyed(cell_of_y, seen.y_px)},
+                    .sigma = sigma,
                     .dots = {}};
   for (const MarkerDot& dot : seen.dots)
     known.dots.push_back(surveyed(dot.cell, dot.center_px, dot.sigma_px));
   return known;
 }
 
-/// Root mean square reprojection error.
-double residual_px(const Eigen::Isometry3d& map_from_camera, std::span<const SurveyedDot> dots,
-                   const CameraModel& camera) {
+Vec2 origin_m(const KnownMarker& marker) {
+  return marker.direction_dots[0].point_in_map.head<2>();
+}
+
+/// Sum of the squared reprojection errors, with the marker where it most likely is; infinite where its
+/// registered place does not allow that. Infinite behind the camera.
+double squared_px(const Eigen::Isometry3d& map_from_camera, const KnownMarker& marker,
+                  const CameraModel& camera, const PoseFixOptions& options) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (marker.sigma) {
+    const auto dots = eliminate_offset(map_from_camera, marker.dots, origin_m(marker), *marker.sigma, camera,
+                                       options.robust_scale);
+    return dots && dots->chi2_of_offset <= options.max_offset_chi2 ? dots->squared_px : none;
+  }
   const Eigen::Isometry3d camera_from_map = map_from_camera.inverse();
   double sum = 0.0;
-  for (const SurveyedDot& dot : dots) {
+  for (const SurveyedDot& dot : marker.dots) {
     const std::optional<Vec2> seen = camera.project(camera_from_map * dot.point_in_map);
-    if (!seen) return std::numeric_limits<double>::infinity();
+    if (!seen) return none;
     sum += (*seen - dot.center_px).squaredNorm();
   }
-  return std::sqrt(sum / static_cast<double>(dots.size()));
+  return sum;
+}
+
+/// Root mean square.
+double residual_px(double squared_px, std::size_t dots) {
+  return std::sqrt(squared_px / static_cast<double>(dots));
 }
 
 /// True when the prior allows the pose and the reprojection error of each marker is small enough.
@@ -59,7 +77,8 @@ bool fits(const MapEstimate& estimate, std::span<const KnownMarker> markers, con
           const PoseFixOptions& options) {
   if (prior_cost(estimate.map_from_camera, options.prior) > options.max_prior_chi2) return false;
   return std::ranges::all_of(markers, [&](const KnownMarker& marker) {
-    return residual_px(estimate.map_from_camera, marker.dots, camera) <= options.max_residual_px;
+    const double squared = squared_px(estimate.map_from_camera, marker, camera, options);
+    return residual_px(squared, marker.dots.size()) <= options.max_residual_px;
   });
 }
 
@@ -89,21 +108,24 @@ Guesses guesses(const KnownMarker& optimal, std::span<const SurveyedDot> dots, c
 
 /// Merges both modes of the planar ambiguity.
 MapEstimate with_mirrored_view(const MapEstimate& estimate, std::span<const SurveyedDot> dots,
-                               const CameraModel& camera, const PoseFixOptions& options) {
+                               std::span<const DotsOfMarker> markers, const CameraModel& camera,
+                               const PoseFixOptions& options) {
   if (options.prior.tilt_sigma_rad == 0.0) return estimate;
   const Eigen::Isometry3d other = mirrored(estimate.map_from_camera, dots);
   constexpr double hopeless = 50.0;  // twice the log odds
   if (prior_cost(other, options.prior) > estimate.cost + hopeless) return estimate;
-  const std::optional<MapEstimate> mirrored_estimate = maximize_posterior(other, dots, camera, options);
+  const std::optional<MapEstimate> mirrored_estimate =
+      maximize_posterior(other, dots, camera, options, markers);
   return mirrored_estimate ? likelier(estimate, *mirrored_estimate) : estimate;
 }
 
 }  // namespace
 
-PoseFixer::PoseFixer(const MarkerRegistry& registry, const CameraModel& camera) : camera_(camera) {
+PoseFixer::PoseFixer(const MarkerRegistry& registry, const CameraModel& camera, const VarianceFactor& learned)
+    : camera_(camera), variance_factor_(learned) {
   for (const RegisteredMarker& marker : registry.markers) {
     if (registry.find(marker.id) != nullptr)
-      markers_in_map_.push_back({marker.id, map_from_marker(registry, marker)});
+      markers_in_map_.push_back({marker.id, map_from_marker(registry, marker), marker.sigma, std::nullopt});
   }
   std::ranges::sort(markers_in_map_, {}, &MarkerInMap::id);
 }
@@ -117,7 +139,7 @@ const PoseFix* PoseFixer::fix(Stamp stamp, std::span<const DetectedMarker> marke
     const std::optional<MapEstimate> estimate = best_estimate(known_, options);
     if (estimate && fits(*estimate, known_, camera_, options)) {
       learn(*estimate);
-      conclude(stamp, *estimate);
+      conclude(stamp, *estimate, options);
       return &fix_;
     }
     if (known_.size() <= 2) return nullptr;
@@ -138,19 +160,29 @@ void PoseFixer::find_known(std::span<const DetectedMarker> markers, const PoseFi
     const auto times = std::ranges::count(markers, marker.id, &DetectedMarker::id);
     const MarkerInMap* const registered = marker_in_map(marker.id);
     if (registered == nullptr || times > 1 || marker.dots.empty()) continue;
-    known_.push_back(known_marker(marker, registered->map_from_marker, options, variance_factor_.value()));
+    known_.push_back(known_marker(marker, registered->map_from_marker, registered->sigma, options,
+                                  variance_factor_.value()));
   }
+}
+
+void PoseFixer::collect_dots(std::span<const KnownMarker> markers) {
+  dots_.clear();
+  in_doubt_.clear();
+  for (const KnownMarker& marker : markers) dots_.insert(dots_.end(), marker.dots.begin(), marker.dots.end());
+  if (std::ranges::none_of(markers, [](const KnownMarker& marker) { return marker.sigma.has_value(); }))
+    return;
+  for (const KnownMarker& marker : markers)
+    in_doubt_.push_back({marker.dots.size(), origin_m(marker), marker.sigma});
 }
 
 /// Maximum of the posterior: from the first guess that leads to a pose that fits all markers, or else the
 /// best one. With a known tilt, the guess with that tilt leads there and no other needs to be tried.
 std::optional<MapEstimate> PoseFixer::best_estimate(std::span<const KnownMarker> markers,
                                                     const PoseFixOptions& options) {
-  dots_.clear();
-  for (const KnownMarker& marker : markers) dots_.insert(dots_.end(), marker.dots.begin(), marker.dots.end());
+  collect_dots(markers);
   std::optional<MapEstimate> best;
   const auto leads_to_a_fit = [&](const Eigen::Isometry3d& guess) {
-    const std::optional<MapEstimate> estimate = maximize_posterior(guess, dots_, camera_, options);
+    const std::optional<MapEstimate> estimate = maximize_posterior(guess, dots_, camera_, options, in_doubt_);
     if (!estimate || (best && best->cost <= estimate->cost)) return false;
     best = estimate;
     return fits(*best, markers, camera_, options);
@@ -162,7 +194,7 @@ std::optional<MapEstimate> PoseFixer::best_estimate(std::span<const KnownMarker>
     }
   }
   if (!best) return std::nullopt;
-  return with_mirrored_view(*best, dots_, camera_, options);
+  return with_mirrored_view(*best, dots_, in_doubt_, camera_, options);
 }
 
 /// From O, X and Y of all markers at the first one's height; from all dots of a single marker.
@@ -197,23 +229,43 @@ void PoseFixer::reject_outlier_marker(const PoseFixOptions& options) {
 
 /// While the camera stands still, frames differ only by noise and add no information.
 void PoseFixer::learn(const MapEstimate& estimate) {
-  constexpr double moved_px = 0.5;
-  const Vec2& at_px = dots_.front().center_px;
-  if ((at_px - learned_at_px_).squaredNorm() < moved_px * moved_px) return;
-  learned_at_px_ = at_px;
+  if (!has_moved()) return;
+  for (const KnownMarker& marker : known_) place_learned_at(marker.id) = marker.direction_dots[0].center_px;
   variance_factor_.add(estimate.chi2, estimate.freedom);
 }
 
-void PoseFixer::conclude(Stamp stamp, const MapEstimate& estimate) {
+/// Has the image moved since each of these markers was last learned from? A displaced marker is evaluated in
+/// turn with the others, so each is compared with itself.
+bool PoseFixer::has_moved() {
+  constexpr double moved_px = 0.5;
+  bool is_new = true;
+  for (const KnownMarker& marker : known_) {
+    const std::optional<Vec2>& before_px = place_learned_at(marker.id);
+    if (!before_px) continue;
+    if ((marker.direction_dots[0].center_px - *before_px).squaredNorm() >= moved_px * moved_px) return true;
+    is_new = false;
+  }
+  return is_new;
+}
+
+std::optional<Vec2>& PoseFixer::place_learned_at(int id) {
+  return std::ranges::lower_bound(markers_in_map_, id, {}, &MarkerInMap::id)->learned_at_px;
+}
+
+void PoseFixer::conclude(Stamp stamp, const MapEstimate& estimate, const PoseFixOptions& options) {
   fix_.stamp = stamp;
   fix_.map_from_camera = estimate.map_from_camera;
   fix_.covariance = estimate.covariance;
   fix_.shared_covariance = estimate.shared_covariance;
   fix_.ids.clear();
-  for (const KnownMarker& marker : known_) fix_.ids.push_back(marker.id);
+  double squared = 0.0;
+  for (const KnownMarker& marker : known_) {
+    fix_.ids.push_back(marker.id);
+    squared += squared_px(estimate.map_from_camera, marker, camera_, options);
+  }
   fix_.confidence = known_.front().confidence;
   fix_.dots = static_cast<int>(dots_.size());
-  fix_.residual_px = residual_px(estimate.map_from_camera, dots_, camera_);
+  fix_.residual_px = residual_px(squared, dots_.size());
 }
 
 std::optional<PoseFix> fix_pose(Stamp stamp, std::span<const DetectedMarker> markers,

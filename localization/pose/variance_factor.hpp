@@ -11,6 +11,12 @@ namespace lodestar {
 /// confidence.
 class VarianceFactor {
  public:
+  static constexpr double greatest = 25.0;  // sigmas five times as large: beyond it, something else is wrong
+
+  VarianceFactor() = default;
+  /// Begins with a value learned earlier, as far as it is possible.
+  explicit VarianceFactor(double learned) : value_(std::clamp(learned, 1.0, greatest)), weight_(kept) {}
+
   /// Adds one fit: its sum of squared residuals in sigmas, with the dots' variances scaled by `value()`, and
   /// the expectation of this sum, the number of measurements less that of the parameters they determine. One
   /// bad fit counts for at most `most` times its expectation.
@@ -25,8 +31,8 @@ class VarianceFactor {
 
  private:
   static constexpr double assumed = 200.0;        // weight of the initial value, in residuals
+  static constexpr double kept = 5000.0;          // of a value learned earlier: some 400 fits by one marker
   static constexpr double remembered = 50'000.0;  // some 4000 fits by one marker
-  static constexpr double greatest = 25.0;  // sigmas five times as large: beyond it, something else is wrong
 
   double value_ = 1.0;
   double weight_ = assumed;

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <sstream>
 
+#include "tests/maps/temporary_folder.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -29,13 +31,12 @@ class RottenPage : public testing::Test {
     fs::create_directories(folder_ / "maps");
     std::ofstream(folder_ / "maps/home.hpp") << "/// Eq. (1)\nint optimal_marker();\n";
   }
-  ~RottenPage() override { fs::remove_all(folder_); }
 
   [[nodiscard]] std::vector<std::string> complaints(int equation, const std::string& in_the_code) const {
-    return complaints_about_row({equation, in_the_code, in_the_code}, folder_);
+    return complaints_about_row({equation, in_the_code, in_the_code}, folder_.path());
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "lodestar_rotten_page";
+  TemporaryFolder folder_;
 };
 
 TEST(MethodPage, HasARowForEachEquationInOrder) {

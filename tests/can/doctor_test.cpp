@@ -101,5 +101,34 @@ TEST_F(Doctor, names_an_emergency_stop_and_another_master) {
   EXPECT_EQ(finding("masters").substr(0, 2), "??");
 }
 
+/// A fault that the base carries before anybody has driven it.
+TEST_F(Doctor, names_a_fault_and_what_clears_it) {
+  start_speaking_base("--protocol odrive --watchdog 0.3");
+  ASSERT_TRUE(shell(
+      "cp -r " LODESTAR_SOURCE_DIR
+      "/sites/lab expired && sed -i 's/^base:.*/base: {bus: socketcan:vcan0, protocol: odrive, "
+      "wheel_diameter_m: 0.17, left_node: 0, right_node: 1, right_is_mirrored: true}/' expired/site.yaml"));
+  site = "expired";
+  ASSERT_TRUE(shell("cansend vcan0 007#0800000000000000 && cansend vcan0 027#0800000000000000 && sleep 1"));
+  EXPECT_EQ(examine(), 1);
+  EXPECT_NE(finding("faults").find("watchdog expired"), std::string::npos) << report;
+  EXPECT_NE(finding("faults").find("start a run and type resume"), std::string::npos) << report;
+}
+
+/// As `run` does. The modules are there again for the next test.
+TEST_F(Doctor, names_a_kernel_without_can) {
+  witness.reset();
+  take_cable_away();
+  ASSERT_TRUE(shell("rmmod can-gw slcan vxcan vcan can-raw can-dev can"));
+  EXPECT_EQ(examine(), 1);
+  EXPECT_NE(finding("interface").find("this kernel has no CAN"), std::string::npos) << report;
+  EXPECT_EQ(finding("interface").find("ip link add"), std::string::npos) << report;
+  EXPECT_TRUE(shell(
+      "cd /usr/lib/uml/modules/$(uname -r)/kernel && for module in net/can/can net/can/can-raw "
+      "net/can/can-gw "
+      "drivers/net/can/dev/can-dev drivers/net/can/vcan drivers/net/can/vxcan drivers/net/can/slcan/slcan; "
+      "do insmod $module.ko; done"));
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -56,6 +56,8 @@ void CanLab::take_cable_away() {
 }
 
 void CanLab::TearDown() {
+  std::error_code ignored;
+  std::filesystem::remove(std::filesystem::path(site) / "state.yaml", ignored);  // each test learns anew
   if (HasFailure() && run) std::printf("--- run:\n%s\n", run->output().c_str());
   if (HasFailure() && base) std::printf("--- base:\n%s\n", base->output().c_str());
   run.reset();

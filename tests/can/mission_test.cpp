@@ -53,12 +53,13 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   EXPECT_FALSE(load_candump("run/can.log").empty());
 }
 
-/// A full disk must not affect the drive.
+/// A full disk must not affect the drive; that the run is not recorded as a whole shows in the exit code.
 TEST_F(Mission, a_full_disk_ends_the_log_and_not_the_drive) {
   ASSERT_TRUE(shell("mkdir -p /run/small && mount -t tmpfs -o size=16k tmpfs /run/small"));
   start_base();
   start_run("--goal 2.4,5.5 -o /run/small/run");
-  EXPECT_EQ(wait_for_the_end(40s), 0);
+  EXPECT_EQ(wait_for_the_end(40s), 1);
+  EXPECT_TRUE(wait_for_words("goal 1: arrived", 1s));
   EXPECT_TRUE(wait_for_words("the run is not recorded as a whole", 1s));
   EXPECT_NEAR(end_base().x_m, 2.4, 0.03);
   ASSERT_TRUE(shell("umount /run/small"));
@@ -78,6 +79,26 @@ TEST_F(Mission, arrives_with_an_odrive) {
   const Truth truth = end_base();
   EXPECT_NEAR(truth.x_m, 2.4, 0.03);
   EXPECT_NEAR(truth.y_m, 5.5, 0.03);
+}
+
+/// After a run nobody commands the axes: their watchdog expires, and the next run finds them with an error.
+TEST_F(Mission, drives_an_odrive_again_whose_watchdog_expired_after_the_run_before) {
+  ASSERT_TRUE(shell(
+      "cp -r " LODESTAR_SOURCE_DIR
+      "/sites/lab watched && sed -i 's/^base:.*/base: {bus: socketcan:vcan0, "
+      "protocol: odrive, wheel_diameter_m: 0.17, left_node: 0, right_node: 1, right_is_mirrored: true}/' "
+      "watched/site.yaml"));
+  site = "watched";
+  start_base("--protocol odrive --watchdog 0.5");
+  start_run("--goal 1.5,5.6");
+  EXPECT_EQ(wait_for_the_end(40s), 0);
+  sleep_until(monotonic_now() + 1s);
+  start_run("--goal 1.8,5.6");
+  EXPECT_TRUE(wait_for_words("the base reports fault bits: watchdog expired", start_up)) << run->output();
+  EXPECT_TRUE(wait_for_words("resume asks it to clear that", 1s)) << run->output();
+  run->say("resume");
+  EXPECT_EQ(wait_for_the_end(40s), 0);
+  EXPECT_NEAR(end_base().x_m, 1.8, 0.03);
 }
 
 /// The frames that third-party clients expect, each at its period.

@@ -145,6 +145,10 @@ def odrive(client):
     for axis, sign in zip(axes, (1.0, -1.0)):
         client.wait(axis + "EncoderEstimates", lambda said: abs(said["Velocity"] - sign) < 0.1, 0.5, "turns as told")
 
+    for axis, node in zip(axes, (0, 1)):
+        client.send(0x7E6, b"", REMOTE)  # to all nodes: who is there
+        client.wait(axis + "Address", lambda said: said["NodeId"] == node and said["SerialNumber"] > 0, 0.5, "enumeration")
+
     version = client.table["Axis0_Version"].arbitration_id.id
     client.send(version, b"\0" * 8, REMOTE)
     client.wait("Axis0_Version", lambda said: said["FirmwareMinor"] == 6, 0.5, "a remote request for the version")

@@ -81,6 +81,8 @@ inline std::vector<NamedBehaviour> all_behaviours() {
   const Trip standing{drive_at_rest(), std::nullopt, false};
   const Trip turning{turning_drive(), std::nullopt, false};
   const Trip nowhere{RotateThenDrive({}, std::nullopt), std::nullopt, false};
+  Trip steered = nowhere;
+  for (int i = 0; i < 60; ++i) steered.drive.steer({0.2, 0.1}, step_time);
   const auto wanting = [](Trip trip, PlanKind kind) {
     trip.wanted = PlanRequest{.kind = kind, .goal_m = Vec2(2.0, 1.0)};
     return trip;
@@ -117,7 +119,8 @@ inline std::vector<NamedBehaviour> all_behaviours() {
       {"Asking: way back", asking(PlanKind::way_back)},
       {"Backtracking", Backtracking{wanting(standing, PlanKind::another_way), rolling_way_back()}},
       {"Paused", Paused{rolling, std::nullopt}},
-      {"Paused, backtracking", Paused{wanting(standing, PlanKind::another_way), rolling_way_back()}}};
+      {"Paused, backtracking", Paused{wanting(standing, PlanKind::another_way), rolling_way_back()}},
+      {"Steered", Steered{steered}}};
   std::vector<NamedBehaviour> behaviours;
   behaviours.reserve(states.size());
   for (const auto& [name, state] : states) {
@@ -158,6 +161,15 @@ inline std::vector<NamedFacts> all_wishes() {
           {"go on", with([](Facts&) {})},
           {"cancel", with([](Facts& f) { f.wish = Wish::cancel; })},
           {"halt", with([](Facts& f) { f.wish = Wish::halt; })},
+          {"steer", with([](Facts& f) { f.steering = BodyVelocity{0.2, 0.1}; })},
+          {"steer without a pose", with([](Facts& f) {
+             f.steering = BodyVelocity{0.2, 0.1};
+             f.stop = f.stop_on_backtrack = StopReason::no_pose;
+           })},
+          {"steer while the base is silent", with([](Facts& f) {
+             f.steering = BodyVelocity{0.2, 0.1};
+             f.stop = f.stop_on_backtrack = StopReason::base_silent;
+           })},
           {"changed map", with([](Facts& f) { f.map_changed = true; })}};
 }
 

@@ -45,7 +45,9 @@ TEST(SpeedLimit, is_low_in_a_gap_so_that_a_slipping_wheel_cannot_lead_into_its_s
           map.cells[map.index({column, row})] = OccupancyMap::occupied;
     const PoseEstimate sure{.map_from_base = {{2.85, 2.0}, 0.0},
                             .covariance = 1e-6 * Eigen::Matrix3d::Identity()};
-    return safe_speed(ForwardClearance(map, 0.25), sure, {}, {.caution = caution}).forward_mps;
+    return safe_speed(ForwardClearance(std::make_shared<const ObstacleField>(map), 0.25), sure, {},
+                      {.caution = caution})
+        .forward_mps;
   };
   EXPECT_NEAR(speed_mps(2.0), DriveOptions{}.max_forward_mps, 1e-9);
   EXPECT_GT(speed_mps(0.9), 0.45);

@@ -108,6 +108,16 @@ TEST_F(MapFile, warns_of_keys_of_other_programs_and_keeps_them) {
   EXPECT_EQ(back.map.cells, loaded.map.cells);
 }
 
+TEST_F(MapFile, takes_no_image_of_another_map_in_the_folder) {
+  const OccupancyMap kept = load(good_yaml, small_pgm).map;
+  save_map(kept, folder_ / "map.yaml");
+  OccupancyMap other = kept;
+  other.cells.assign(other.cells.size(), 0);
+  for (int i = 0; i < 3; ++i) save_map(other, folder_ / "map.yml");
+  EXPECT_EQ(load_map(folder_ / "map.yaml").map.cells, kept.cells);
+  EXPECT_EQ(load_map(folder_ / "map.yml").map.cells, other.cells);
+}
+
 TEST_F(MapFile, refuses_bad_keys_with_their_line) {
   const auto error = [&](const std::string& piece, const std::string& by) {
     return error_of(replaced(good_yaml, piece, by), small_pgm);

@@ -33,6 +33,7 @@ class TemporaryFolder {
     text << std::ifstream(path_ / name, std::ios::binary).rdbuf();
     return text.str();
   }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
  private:

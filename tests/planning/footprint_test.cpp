@@ -1,4 +1,4 @@
-#include "planning/footprint.hpp"
+#include "maps/footprint.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -155,6 +155,28 @@ TEST(Footprint, turns_are_exact) {
   }
   EXPECT_GT(clear, 50);
   EXPECT_GT(blocked, 50);
+}
+
+TEST(Footprint, half_turn_is_clear_only_where_both_ways_are) {
+  // The cart's tail is longer than its nose, so each way sweeps other cells.
+  const Footprint tailed({{-0.5, -0.1}, {0.2, -0.1}, {0.2, 0.1}, {-0.5, 0.1}});
+  OccupancyMap map = map_from(std::vector<std::string>(30, std::string(30, '.')), 0.05);
+  map.cells[map.index({15, 22})] = OccupancyMap::occupied;  // beside the cart, on its left
+  const Pose2 from{{0.775, 0.775}, 0.0};
+  for (const double off_deg : {-2.9, -0.05, 0.05, 2.9}) {
+    const double to_rad = wrap_angle(std::numbers::pi + radians(off_deg));
+    EXPECT_FALSE(tailed.is_clear_turning(map, from, to_rad))
+        << off_deg << " degrees beyond half a turn: a robot that errs by as much turns the other way";
+    EXPECT_FALSE(tailed.is_clear_turning(map, {from.position_m, to_rad}, 0.0)) << off_deg;
+  }
+  const bool turns_left = is_clear_in_steps(tailed, map, from, std::numbers::pi - radians(3.1));
+  EXPECT_EQ(tailed.is_clear_turning(map, from, std::numbers::pi - radians(3.1)), turns_left)
+      << "where the way is certain, the other one does not matter";
+  const bool turns_right = is_clear_in_steps(tailed, map, from, -std::numbers::pi + radians(3.1));
+  EXPECT_EQ(tailed.is_clear_turning(map, from, -std::numbers::pi + radians(3.1)), turns_right);
+  EXPECT_NE(turns_left, turns_right) << "the obstacle is in one way only";
+  map.cells[map.index({15, 22})] = OccupancyMap::free;
+  EXPECT_TRUE(tailed.is_clear_turning(map, from, std::numbers::pi));
 }
 
 TEST(Footprint, sweeps_the_same_cells_wherever_it_stands) {

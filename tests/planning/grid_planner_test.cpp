@@ -184,6 +184,19 @@ TEST(GridPlanner, goes_round_shunned_ground_unless_that_is_far_longer) {
   }
 }
 
+TEST(GridPlanner, answers_with_clearance_also_when_the_cheapest_path_takes_too_long_to_find) {
+  Random random(6);
+  const OccupancyMap map = random_map(random, 80, 60, 0.02);
+  GridPlannerOptions options{.kind = PlannerKind::fastest, .radius_m = 0.1};
+  const auto plan = [&] { return GridPlanner(map, options).plan({0.3, 0.3}, {3.7, 2.7}); };
+  const PlanResult whole = plan();
+  options.turn_search.cells = 20;
+  const PlanResult limited = plan();
+  ASSERT_TRUE(std::holds_alternative<Plan>(whole));
+  ASSERT_TRUE(std::holds_alternative<Plan>(limited));
+  EXPECT_LT(std::get<Plan>(limited).expanded, std::get<Plan>(whole).expanded);
+}
+
 TEST(GridPlanner, answers_the_same_every_time) {
   Random random(5);
   const OccupancyMap map = random_map(random, 80, 60, 0.02);

@@ -165,22 +165,14 @@ void for_each_seed(const Fault& fault, const Look& look) {
   }
 }
 
-// Wheels that are 50 ms late contradict the camera in every turn. Now and then the robot finds no frame that
-// confirms its arrival, and says so then; but it stays on its path.
+// Wheels that are up to 50 ms late would contradict the camera in every turn, if the filter did not know.
 TEST(Faults, row_11_late_feedback_makes_no_robot_unsteady) {
-  int arrivals = 0;
   for_each_seed({.kind = FaultKind::can_delay, .delay_s = 0.05}, [&](const FaultyDrive& late) {
     EXPECT_GT(commands_of(late).longest_gap_s, 0.05);
     EXPECT_EQ(late.record.contacts, 0);
-    EXPECT_LT(p95_m(late), 0.12);
-    arrivals += late.record.arrived() ? 1 : 0;
-    if (late.record.arrived()) {
-      EXPECT_LT(late.record.score_of(0)->position_error_m, 0.05);
-    } else {
-      EXPECT_THAT(late.goal().failure, HasSubstr("cannot see that it has arrived"));
-    }
+    EXPECT_LT(p95_m(late), 0.02);
+    expect_arrival(late);
   });
-  EXPECT_GE(arrivals, 18);
 }
 
 }  // namespace

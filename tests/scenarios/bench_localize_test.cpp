@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/ceilings.hpp"
 #include "app/bench/counts.hpp"
 #include "app/bench/localize.hpp"
 
@@ -26,6 +27,20 @@ TEST(BenchLocalize, is_repeated_by_its_seed) {
   EXPECT_EQ(first.read, again.read);
   EXPECT_EQ(first.upright.lateral_m, again.upright.lateral_m);
   EXPECT_NE(first.upright.lateral_m, measure(scene, lodestar_method(), 10, 9).upright.lateral_m);
+}
+
+/// A rate over several ceilings of each kind: one is quick to fail by its own grooves.
+TEST(BenchLocalize, reads_markers_on_every_kind_of_ceiling) {
+  constexpr int frames = 75;
+  constexpr double most_missed = 0.02;          // 0.5 % wanted, of some 200 markers
+  constexpr double most_missed_on_vents = 0.1;  // slats narrower than a dot, with slots as wide between them
+  for (const CeilingCounts& row : count_ceilings(lodestar_method(), frames, 21, [](int) {})) {
+    const bool hard = row.dots_touch || row.name == "vents";
+    ASSERT_GT(row.counts.markers, 100) << row.name;
+    EXPECT_GE(row.counts.read, (1.0 - (hard ? most_missed_on_vents : most_missed)) * row.counts.markers)
+        << row.name;
+    EXPECT_EQ(row.counts.wrong, 0) << row.name;
+  }
 }
 
 TEST(BenchLocalize, counts_nothing_wrong_in_hard_frames) {

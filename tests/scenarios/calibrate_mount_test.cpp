@@ -24,11 +24,13 @@ const fs::path lab = fs::path(LODESTAR_SOURCE_DIR) / "sites/lab";
 /// Drives the simulated base through the lab and records what a real robot would: images and wheel readings.
 class Logger {
  public:
-  Logger(const Eigen::Isometry3d& base_from_camera, const fs::path& folder)
+  /// `late`: the images' stamps after their exposures.
+  Logger(const Eigen::Isometry3d& base_from_camera, const fs::path& folder, Duration late)
       : site_(load_site(lab)),
         simulation_(made(site_, base_from_camera)),
         base_(simulation_.can()),
-        folder_(folder) {
+        folder_(folder),
+        late_(late) {
     fs::create_directories(folder);
     wheels_.open(folder / "wheels.csv");
     wheels_ << "stamp_s,left_m,right_m\n" << std::setprecision(12);
@@ -58,13 +60,14 @@ class Logger {
 
   void keep(const Frame& frame) {
     if (count_++ % 3 != 0) return;
-    cv::imwrite((folder_ / (std::to_string(seconds(frame.stamp)) + ".pgm")).string(), frame.gray);
+    cv::imwrite((folder_ / (std::to_string(seconds(frame.stamp + late_)) + ".pgm")).string(), frame.gray);
   }
 
   Site site_;
   Simulation simulation_;
   BaseDriver base_;
   fs::path folder_;
+  Duration late_;
   std::ofstream wheels_;
   int count_ = 0;
 };
@@ -76,7 +79,7 @@ TEST(CalibrateMountCommand, corrects_the_robot_file_from_turns_and_a_straight_dr
   truth.linear() = rotation_from(angles);
   truth.translation() << -0.115, 0.035, 1.088;
   {
-    Logger logger(truth, scratch.path() / "log");
+    Logger logger(truth, scratch.path() / "log", std::chrono::milliseconds(30));
     logger.drive({}, 0.5);
     logger.drive({.forward_mps = 0.0, .turn_radps = 1.2}, 27.0);  // five turns
     logger.drive({}, 1.0);
@@ -99,6 +102,7 @@ TEST(CalibrateMountCommand, corrects_the_robot_file_from_turns_and_a_straight_dr
   EXPECT_NEAR(degrees(found.camera_mount.yaw_rad), 1.5, 0.3);
   EXPECT_THAT(read_text(scratch.path() / "new.yaml"), HasSubstr("# the lab's robot\n"));
   const auto report = nlohmann::json::parse(ran.out);
+  EXPECT_NEAR(report["time_offset"]["late_ms"].get<double>(), 30.0, 4.0) << ran.out;
   EXPECT_TRUE(report["camera_mount"]["yaw_deg"]["measured"].get<bool>());
   EXPECT_NEAR(report["wheels"]["left_scale"].get<double>() / report["wheels"]["right_scale"].get<double>(),
               1.006 / 0.994, 0.006);

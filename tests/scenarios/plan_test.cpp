@@ -24,7 +24,8 @@ TEST_P(PlanWith, gives_the_agreed_json) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : plan.items()) keys.push_back(key);
   EXPECT_THAT(keys, ElementsAre("status", "planner", "length_m", "turns", "travel_time_s", "plan_us",
-                                "expanded", "waypoints"));
+                                "expanded", "prepare_us", "waypoints"));
+  EXPECT_GT(plan["prepare_us"].get<double>(), 0.0);
   EXPECT_EQ(plan["status"], "ok");
   EXPECT_EQ(plan["planner"], GetParam());
   EXPECT_EQ(plan["waypoints"].size(), plan["turns"].get<std::size_t>() + 2);

@@ -77,7 +77,7 @@ TEST_P(Peer, finds_the_camera_where_it_is) {
   for (const MethodChoice& choice : choices) {
     const auto method = choice.make();
     ImageFormer former(registry, bench_camera(), light_of(scene), 1);
-    method->install(registry, former);
+    method->install(registry, bench_camera(), former);
     Random random(7);
     for (std::uint64_t frame = 0; frame < 4; ++frame) {
       const BenchView view = some_view(scene, registry, random);

@@ -121,6 +121,7 @@ TEST_F(RecordedDrive, one_after_the_other_each_have_a_folder) {
       runs.keep(sample::run());
     }
     EXPECT_EQ(runs.count(), 2);
+    EXPECT_TRUE(runs.finish());
   }
   EXPECT_EQ(content_of(folder_ / "run/can.log"), "(0000000001.000000) can3 221#12AB\n");
   EXPECT_EQ(content_of(folder_ / "run-2/can.log"), "(0000000002.000000) can3 221#12AB\n");
@@ -132,6 +133,7 @@ TEST_F(RecordedDrive, goes_on_where_no_folder_can_be_made) {
   runs.watcher().can_frame(frame_at(1.0));
   runs.keep(sample::run());
   EXPECT_EQ(runs.count(), 1);
+  EXPECT_FALSE(runs.finish()) << "the command's exit code tells of it";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/console/registry_edit.hpp"
+#include "app/console/registry_json.hpp"
 #include "maps/input_error.hpp"
 
 #include "tests/maps/temporary_folder.hpp"
@@ -311,6 +312,23 @@ TEST(RegistryEdit, keeps_comments_and_rewrites_what_is_not_one_a_line) {
       "markers: [{id: 1, x_m: 1, y_m: 2, z_m: 2.6, yaw_deg: 0}]\n";
   const MarkerRegistry flow = load_registry(folder.write("flow.yaml", block));
   EXPECT_THAT(edited_registry_text(block, flow, after), HasSubstr("\n  - {id: 2, x_m: 4,"));
+}
+
+TEST(RegistryEdit, keeps_a_surveys_sigmas_of_markers_that_were_not_moved) {
+  const TemporaryFolder folder;
+  const std::string text =
+      "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\nmarkers:\n"
+      "  - {id: 1, x_m: 1, y_m: 2, z_m: 2.6, yaw_deg: 0, sigma_m: 0.0012, sigma_deg: 0.02}\n"
+      "  - {id: 2, x_m: 3, y_m: 2, z_m: 2.6, yaw_deg: 0, sigma_m: 0.0015, sigma_deg: 0.03}\n";
+  const MarkerRegistry before = load_registry(folder.write("markers.yaml", text));
+  ASSERT_TRUE(before.markers[0].sigma);
+  MarkerRegistry after = registry_from_json(registry_json(before).dump());  // as the page sends it
+  after.map_from_registry.position_m.x() = 0.5;  // so that all lines are written anew
+  after.markers[1].position_m.x() = 4.0;
+  const std::string edited = edited_registry_text(text, before, after);
+  EXPECT_THAT(edited,
+              HasSubstr("{id: 1, x_m: 1, y_m: 2, z_m: 2.6, yaw_deg: 0, sigma_m: 0.0012, sigma_deg: 0.02}"));
+  EXPECT_THAT(edited, HasSubstr("{id: 2, x_m: 4, y_m: 2, z_m: 2.6, yaw_deg: 0}"));
 }
 
 }  // namespace

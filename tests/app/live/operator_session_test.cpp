@@ -195,5 +195,52 @@ TEST(OperatorSession, takes_somebodys_word_for_where_the_robot_stands_until_mark
   EXPECT_THAT(story.kept, IsEmpty());
 }
 
+/// Steered for two seconds; then no order comes any more.
+TEST(OperatorSession, steers_by_hand_while_the_orders_are_renewed) {
+  Site site = lab();
+  site.registry.markers.clear();  // where it is, it never knows
+  int orders = 0;
+  std::size_t last_order = 0;
+  const Story story = attended(site, {}, [&](LiveLink& link, const Story& so_far) {
+    link.hold_until(monotonic_now() + long_time);
+    const bool is_up = !so_far.states.empty() && so_far.states.back().base == BaseState::ready;
+    if (is_up && orders < 100) {
+      EXPECT_TRUE(link.give({.by = "somebody", .what = SteerOrder{{0.25, 0.0}}}));
+      ++orders;
+      last_order = so_far.states.size();
+    }
+    return so_far.states.size() < last_order + 100 || orders < 100;
+  });
+  EXPECT_TRUE(story.said("somebody: drive by hand"));
+  EXPECT_EQ(story.states[last_order].phase, MissionPhase::by_hand);
+  EXPECT_NEAR(story.states[last_order].measured->forward_mps, 0.25, 0.02);
+  EXPECT_EQ(story.states.back().phase, MissionPhase::idle);
+  EXPECT_NEAR(story.states.back().measured->forward_mps, 0.0, 0.003);
+  expect_gentle(story, site, 1);
+}
+
+TEST(OperatorSession, ends_a_drive_before_it_steers_and_stop_ends_steering) {
+  const Site site = lab();
+  bool has_stopped = false;
+  bool was_by_hand = false;
+  const Story story = attended(
+      site, {{.position_m = {5.4, 4.4}, .heading_rad = {}}}, [&](LiveLink& link, const Story& so_far) {
+        link.hold_until(monotonic_now() + long_time);
+        if (so_far.kept.empty() && !drives_fast(so_far)) return true;
+        was_by_hand = was_by_hand || so_far.states.back().phase == MissionPhase::by_hand;
+        if (so_far.kept.empty() || !was_by_hand) {
+          EXPECT_TRUE(link.give({.by = "somebody", .what = SteerOrder{{0.0, 0.3}}}));
+        } else if (!has_stopped) {
+          link.stop();
+          has_stopped = true;
+        }
+        return !has_stopped || so_far.states.back().phase != MissionPhase::idle;
+      });
+  ASSERT_EQ(story.kept.size(), 1U);
+  EXPECT_EQ(story.kept.front().goals.front().failure, "stopped by the operator");
+  EXPECT_TRUE(was_by_hand);
+  expect_gentle(story, site, 1);
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -26,7 +26,8 @@ class Reroute : public testing::Test {
       const MissionStep step = mission.step(input);
       base.command(step.navigation.command);
       if (step.event == MissionEvent::path_planned) paths.push_back(mission.path());
-      if (step.navigation.reroute) changes.push_back(step.navigation.reroute->change);
+      const std::optional<RouteUpdate>& reroute = step.navigation.reroute;
+      if (reroute && reroute->change != RouteChange::new_goal) changes.push_back(reroute->change);
       arrived = arrived || step.event == MissionEvent::goal_arrived;
     }
   }
@@ -136,12 +137,12 @@ TEST_F(Reroute, looks_at_a_changed_map_only_after_a_pause) {
       const NavigationStep step = navigation.step(input);
       command = step.command;
       base.command(command);
-      if (step.reroute) seen.push_back(step.reroute->change);
+      if (step.reroute && step.reroute->change != RouteChange::new_goal) seen.push_back(step.reroute->change);
     }
     return command;
   };
   run(100);
-  ASSERT_TRUE(navigation.go_to(goal));
+  navigation.go_to(goal);
   run(300);
   navigation.pause();
   run(100);

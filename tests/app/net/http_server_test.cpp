@@ -1,15 +1,13 @@
 #include "app/net/http_server.hpp"
 
-#include <arpa/inet.h>
 #include <atomic>
-#include <cerrno>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
 #include <thread>
-#include <unistd.h>
 
 #include "maps/input_error.hpp"
+
+#include "tests/app/net/raw_http.hpp"
 
 // A server on loopback and hostile clients, which send raw bytes that no library corrects.
 namespace lodestar {
@@ -42,41 +40,9 @@ class Served {
   [[nodiscard]] unsigned short port() const { return server_.port(); }
   [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(port()); }
 
-  /// The response to some bytes, and whether the server closed the connection.
-  struct Answer {
-    std::string bytes;
-    bool ended_by_server = false;
-  };
-
   /// The whole response to these bytes, until the server closes or nothing arrives for 2 s.
   [[nodiscard]] std::string send(const std::string& bytes) const {
-    return send(bytes, std::chrono::seconds(2)).bytes;
-  }
-  [[nodiscard]] Answer send(const std::string& bytes, std::chrono::seconds patience) const {
-    const int client = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port());
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval wait{.tv_sec = patience.count(), .tv_usec = 0};
-    setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
-    Answer answer;
-    if (connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-      std::size_t sent = 0;
-      while (sent < bytes.size()) {
-        const ssize_t more = ::send(client, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-        if (more <= 0) break;
-        sent += static_cast<std::size_t>(more);
-      }
-      std::array<char, 4096> buffer{};
-      ssize_t n = 0;
-      while ((n = recv(client, buffer.data(), buffer.size(), 0)) > 0) {
-        answer.bytes.append(buffer.data(), static_cast<std::size_t>(n));
-      }
-      answer.ended_by_server = n == 0 || errno == ECONNRESET;
-    }
-    close(client);
-    return answer;
+    return exchange(port(), bytes, std::chrono::seconds(2)).bytes;
   }
 
   /// A request with these headers, the connection closed after it.
@@ -218,7 +184,7 @@ TEST(HttpServer, lets_nobody_hold_all_its_connections_for_long) {
   for (int i = 0; i < 4; ++i) {
     idlers.emplace_back([&] {
       // Far longer than the server's timeout: the server must close.
-      if (served.send(never_finished, std::chrono::seconds(20)).ended_by_server) ++turned_out;
+      if (exchange(served.port(), never_finished, std::chrono::seconds(20)).ended_by_server) ++turned_out;
     });
   }
   for (std::thread& idler : idlers) idler.join();

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
-#include <unistd.h>
 
 #include "tests/maps/empty_floor.hpp"
+#include "tests/maps/temporary_folder.hpp"
 
 namespace lodestar {
 namespace {
@@ -83,9 +83,21 @@ TEST(Visibility, sums_up_shares_and_the_largest_gap) {
   EXPECT_LT(summarize(visibility_of(map, registry, wide_camera(), nullptr, wide)).cells, 500U);
 }
 
+TEST(Visibility, sees_no_marker_where_the_distortion_folds_back) {
+  CameraModel camera = wide_camera();
+  camera.distortion = Distortion::plumb_bob;
+  camera.coefficients = {-0.33, 0.13, 0.0, 0.0, -0.02};
+  camera.limit_rays();
+  const MarkerRegistry registry{.map_from_registry = {}, .markers = {marker_at(447, 0.3, 1.0)}};
+  const Visibility visibility = visibility_of(hall(), registry, camera, nullptr, upright());
+  EXPECT_EQ(view_at(visibility, 1.05, 1.05).least, 1);
+  for (double x_m = 2.95; x_m < 4.0; x_m += 0.1)
+    EXPECT_EQ(view_at(visibility, x_m, 1.05).most, 0) << "1.5 m below, " << x_m - 0.3 << " m aside";
+}
+
 TEST(Visibility, does_not_see_through_walls) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("visibility-" + std::to_string(getpid()) + ".bt");
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "wall.bt";
   octomap::OcTree tree(0.1);
   for (int x = 0; x < 40; ++x) {
     for (int y = 0; y < 20; ++y) {
@@ -98,7 +110,6 @@ TEST(Visibility, does_not_see_through_walls) {
   }
   ASSERT_TRUE(tree.writeBinary(file.string()));
   const SightLines sight_lines(file);
-  std::filesystem::remove(file);
   const MarkerRegistry registry{.map_from_registry = {}, .markers = {marker_at(447, 1.5, 1.0)}};
   const Visibility with_wall = visibility_of(hall(), registry, wide_camera(), &sight_lines, upright());
   const Visibility without = visibility_of(hall(), registry, wide_camera(), nullptr, upright());

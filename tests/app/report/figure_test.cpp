@@ -9,6 +9,7 @@
 #include "maps/input_error.hpp"
 
 #include "tests/app/sample_run.hpp"
+#include "tests/maps/temporary_folder.hpp"
 
 namespace lodestar {
 namespace {
@@ -91,13 +92,13 @@ TEST(Figure, plan_may_be_empty) {
 }
 
 TEST(Figure, is_read_back_from_its_file_as_it_was) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "lodestar_figure.png";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "figure.png";
   const cv::Mat picture = draw_plan(sample::floor(), {}, {1.0, 1.0}, {3.0, 1.0}, {});
   write_png(file, picture);
   const cv::Mat again = cv::imread(file.string(), cv::IMREAD_COLOR);
   ASSERT_EQ(again.size(), picture.size());
   EXPECT_EQ(cv::norm(again, picture, cv::NORM_INF), 0.0);
-  std::filesystem::remove(file);
 }
 
 TEST(Figure, that_cannot_be_written_is_an_input_error) {

@@ -11,6 +11,7 @@
 #include "maps/input_error.hpp"
 
 #include "tests/app/sample_run.hpp"
+#include "tests/maps/temporary_folder.hpp"
 
 namespace lodestar {
 namespace {
@@ -34,18 +35,12 @@ std::vector<std::string> lines_of(const fs::path& file) {
 
 class RunFolder : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::path(testing::TempDir()) / "lodestar_run_folder" / test->name();
-    fs::remove_all(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   void write(const fs::path& where, const RunRecord& record = sample::run()) const {
     write_run_folder(where, record, sample::floor(), sample::ceiling());
   }
 
-  fs::path folder;
+  TemporaryFolder parent;
+  fs::path folder = parent / "run";
 };
 
 TEST_F(RunFolder, holds_every_file_and_nothing_else) {
@@ -53,6 +48,23 @@ TEST_F(RunFolder, holds_every_file_and_nothing_else) {
   for (const char* name : file_names) EXPECT_GT(fs::file_size(folder / "deep" / "run" / name), 0U) << name;
   const auto count = std::distance(fs::directory_iterator(folder / "deep" / "run"), {});
   EXPECT_EQ(count, static_cast<std::ptrdiff_t>(file_names.size()));
+}
+
+TEST_F(RunFolder, proposes_the_new_places_of_markers_that_the_robot_distrusts) {
+  RunRecord record = sample::run();
+  record.distrusted = {{.id = 447,
+                        .offset_m = {0.05, -0.02},
+                        .turn_rad = radians(4.0),
+                        .fixes = 9,
+                        .sigma_m = 0.004,
+                        .sigma_rad = radians(0.5)}};
+  write(folder, record);
+  const std::vector<std::string> lines = lines_of(folder / "proposals.csv");
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0], "id,change,dx_m,dy_m,dyaw_deg,sigma_xy_m,sigma_yaw_deg");
+  EXPECT_EQ(lines[1], "447,moved,0.05000,-0.02000,4.0000,0.00400,0.5000");
+  write(folder);
+  EXPECT_FALSE(fs::exists(folder / "proposals.csv")) << "that of a drive before";
 }
 
 TEST_F(RunFolder, is_the_same_byte_for_byte_however_long_the_run_took) {
@@ -119,7 +131,7 @@ TEST_F(RunFolder, a_run_that_went_nowhere_is_told_too) {
   EXPECT_EQ(summary["arrived"], false);
   EXPECT_EQ(summary["goals"][0]["failure"], "no way");
   EXPECT_TRUE(summary["path_distance_m"]["p95"].is_null());
-  EXPECT_EQ(content_of(folder / "truth.tum"), "");
+  EXPECT_FALSE(fs::exists(folder / "truth.tum")) << "nobody knows it";
 }
 
 TEST_F(RunFolder, that_cannot_be_made_is_an_input_error) {

@@ -1,6 +1,7 @@
 #include "app/simulate/disturbances.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace lodestar {
@@ -25,16 +26,37 @@ std::vector<int> ids_of(const MarkerRegistry& registry) {
 
 TEST(Disturbances, take_the_share_of_markers_away_that_the_seed_draws) {
   const MarkerRegistry all = row_of_markers(40);
-  const MarkerRegistry left = with_markers_removed(all, 0.5, {}, 3);
+  const MarkerRegistry left = hung_markers(all, {.removed_markers = 0.5}, {}, 3);
   EXPECT_EQ(left.markers.size(), 20U);
-  EXPECT_EQ(ids_of(left), ids_of(with_markers_removed(all, 0.5, {}, 3)));
-  EXPECT_NE(ids_of(left), ids_of(with_markers_removed(all, 0.5, {}, 4)));
-  EXPECT_EQ(ids_of(with_markers_removed(all, 0.0, {}, 3)), ids_of(all));
+  EXPECT_EQ(ids_of(left), ids_of(hung_markers(all, {.removed_markers = 0.5}, {}, 3)));
+  EXPECT_NE(ids_of(left), ids_of(hung_markers(all, {.removed_markers = 0.5}, {}, 4)));
+  EXPECT_EQ(ids_of(hung_markers(all, {}, {}, 3)), ids_of(all));
 }
 
 TEST(Disturbances, leave_the_markers_nearest_to_start_and_goals) {
   const std::vector<Vec2> places_m{{0.2, 1.0}, {38.8, -1.0}};
-  EXPECT_EQ(ids_of(with_markers_removed(row_of_markers(40), 1.0, places_m, 1)), (std::vector{100, 139}));
+  EXPECT_EQ(ids_of(hung_markers(row_of_markers(40), {.removed_markers = 1.0}, places_m, 1)),
+            (std::vector{100, 139}));
+}
+
+TEST(Disturbances, hang_markers_off_their_places_by_what_is_asked) {
+  constexpr double sigma_m = 0.01;
+  const MarkerRegistry all = row_of_markers(400);
+  const MarkerRegistry hung =
+      hung_markers(all, {.misplaced_m = sigma_m, .misturned_rad = radians(1.0)}, {}, 3);
+  double squared_m2 = 0.0;
+  double squared_rad2 = 0.0;
+  for (std::size_t i = 0; i < all.markers.size(); ++i) {
+    squared_m2 += (hung.markers[i].position_m - all.markers[i].position_m).squaredNorm();
+    squared_rad2 += square(hung.markers[i].yaw_rad - all.markers[i].yaw_rad);
+  }
+  EXPECT_NEAR(std::sqrt(squared_m2 / 800.0), sigma_m, 0.1 * sigma_m) << "x and y of 400 markers, not z";
+  EXPECT_NEAR(std::sqrt(squared_rad2 / 400.0), radians(1.0), radians(0.1));
+}
+
+TEST(Disturbances, hang_what_is_said_to_hang) {
+  EXPECT_EQ(ids_of(hung_markers(row_of_markers(3), {.hung = row_of_markers(5)}, {}, 1)),
+            ids_of(row_of_markers(5)));
 }
 
 TEST(Disturbances, make_the_ceiling_plain_only_when_asked) {

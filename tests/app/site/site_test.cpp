@@ -2,17 +2,49 @@
 
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <sstream>
 
 #include "app/navigation/navigation_setup.hpp"
+#include "maps/input_error.hpp"
 #include "maps/paper_camera.hpp"
+
+#include "tests/maps/temporary_folder.hpp"
 
 namespace lodestar {
 namespace {
 
+namespace fs = std::filesystem;
+
 Site lab() {
   return load_site(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab");
+}
+
+TEST(Site, names_its_cameras_as_it_likes_and_warns_of_keys_of_other_programs) {
+  const TemporaryFolder folder;
+  const fs::path site = folder / "site";
+  fs::copy(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", site, fs::copy_options::recursive);
+  const auto replace = [&](const char* file, const std::string& piece, const std::string& by) {
+    std::ostringstream text;
+    text << std::ifstream(site / file).rdbuf();
+    std::string content = text.str();
+    const std::size_t at = content.find(piece);
+    ASSERT_NE(at, std::string::npos) << piece;
+    std::ofstream(site / file) << content.replace(at, piece.size(), by);
+  };
+  replace("site.yaml", "wide:", "ceiling-2:");
+  replace("site.yaml", "default_camera: wide", "default_camera: ceiling-2");
+  replace("camera.yaml", "image_width:", "lens_serial: A7\nimage_width:");
+
+  const Site read = load_site(site);
+  EXPECT_TRUE(read.cameras.contains("ceiling-2"));
+  ASSERT_EQ(read.map.warnings.size(), 1U);
+  EXPECT_THAT(read.map.warnings.front(), ::testing::HasSubstr("the key 'lens_serial' is not known here"));
+
+  replace("site.yaml", "ceiling-2:", "'../wide':");
+  EXPECT_THROW((void)load_site(site), InputError);
 }
 
 TEST(Site, of_the_lab_is_the_papers) {
@@ -50,9 +82,8 @@ Robot robot_with(const std::string& base) {
   const std::filesystem::path lab = std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab";
   std::ifstream stream(lab / "robot.yaml");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "lodestar_robot.yaml";
-  std::ofstream(file) << text.substr(0, text.find("motors:")) << base;
-  return load_robot(file);
+  const TemporaryFolder folder;
+  return load_robot(folder.write("robot.yaml", text.substr(0, text.find("motors:")) + base));
 }
 
 TEST(Site, robot_of_another_base_drives_and_rolls_by_its_file) {

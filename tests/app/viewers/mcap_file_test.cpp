@@ -10,6 +10,7 @@
 #include "maps/input_error.hpp"
 
 #include "tests/app/sample_run.hpp"
+#include "tests/maps/temporary_folder.hpp"
 
 // The bytes are checked with a third-party reader, in tests/web/mcap_test.mjs.
 namespace lodestar {
@@ -26,12 +27,6 @@ std::string content_of(const fs::path& file) {
 
 class McapFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    file = fs::path(testing::TempDir()) / (std::string("lodestar_") + test->name() + ".mcap");
-  }
-  void TearDown() override { fs::remove(file); }
-
   std::string written(const std::vector<Message>& messages, const McapOptions& options = {}) const {
     {
       McapFile mcap(file, drive_channels(), options);
@@ -41,7 +36,8 @@ class McapFileTest : public testing::Test {
     return content_of(file);
   }
 
-  fs::path file;
+  TemporaryFolder folder;
+  fs::path file = folder / "run.mcap";
 };
 
 TEST_F(McapFileTest, begins_and_ends_with_the_magic_even_without_a_message) {

@@ -38,15 +38,93 @@ TEST_F(BaseDriverTest, latches_when_one_kind_of_feedback_stays_away) {
     ASSERT_NE(feedback.state, BaseState::fault) << "feedback 300 ms old is still accepted";
     feedback = driver.poll(now);
   }
-  expect_latched(BaseFault::feedback_lost, feedback);
+  EXPECT_EQ(feedback.details, "no odometer");
+  expect_latched(BaseFault::feedback_incomplete, feedback);
 }
 
-TEST_F(BaseDriverTest, takes_a_counter_that_stands_still_for_silence) {
+TEST_F(BaseDriverTest, takes_a_counter_that_stands_still_for_a_base_that_hangs) {
   make_ready();
   counter_runs = false;
   EXPECT_EQ(periods(14).state, BaseState::ready);
-  expect_latched(BaseFault::feedback_lost, periods(4));
+  expect_latched(BaseFault::counter_stuck, periods(4));
   EXPECT_GE(driver.counts().counter_repeats, 15U);
+}
+
+TEST_F(BaseDriverTest, waits_for_a_base_whose_counter_stands_still_from_the_start) {
+  counter_runs = false;
+  period();
+  system.mode = ControlMode::can;
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(period().state, BaseState::waiting_for_base) << "period " << i;
+  EXPECT_EQ(period().fault, BaseFault::counter_stuck) << "it is not silent";
+  counter_runs = true;
+  EXPECT_EQ(periods(2).state, BaseState::ready);
+}
+
+TEST_F(BaseDriverTest, names_what_a_base_does_not_send_from_the_start) {
+  system.mode = ControlMode::can;
+  BaseFeedback feedback;
+  for (int i = 0; i < 20; ++i) {
+    now += milliseconds(20);
+    hear(agilex::encode_motion_state(measured));
+    feedback = driver.poll(now);
+  }
+  EXPECT_EQ(feedback.state, BaseState::waiting_for_base);
+  EXPECT_EQ(in_words(*feedback.fault, feedback.details),
+            "the base does not send all of its feedback: no system state, no odometer");
+}
+
+TEST_F(BaseDriverTest, does_not_start_a_base_whose_state_comes_too_rarely) {
+  system.mode = ControlMode::can;
+  for (int i = 1; i < 200; ++i) {
+    now += milliseconds(20);
+    if (i % 40 == 0) base_speaks();
+    hear(agilex::encode_motion_state(measured));
+    hear(agilex::encode_odometer(odometer));
+    const BaseFeedback feedback = driver.poll(now);
+    if (i < 20) continue;
+    ASSERT_EQ(feedback.state, BaseState::waiting_for_base) << "period " << i;
+    ASSERT_EQ(in_words(*feedback.fault, feedback.details),
+              "the base does not send all of its feedback: no system state");
+  }
+  EXPECT_NE(periods(15).state, BaseState::ready);
+  EXPECT_EQ(periods(20).state, BaseState::ready) << "once it has come at its rate for 600 ms";
+}
+
+TEST_F(BaseDriverTest, asks_a_base_that_already_reports_a_fault_to_clear_it_when_told_to_resume) {
+  system.mode = ControlMode::can;
+  system.fault_bits = 0x0100;
+  const BaseFeedback waiting = periods(50);
+  EXPECT_EQ(waiting.state, BaseState::waiting_for_base);
+  EXPECT_EQ(in_words(*waiting.fault, waiting.details), "the base reports fault bits: battery under-voltage");
+  EXPECT_TRUE(bus.sent.empty()) << "nothing is cleared unasked";
+
+  EXPECT_TRUE(driver.resume(now));
+  ASSERT_EQ(bus.sent.size(), 1U);
+  EXPECT_EQ(bus.sent[0], agilex::encode_clear_fault());
+  EXPECT_EQ(period().state, BaseState::waiting_for_base) << "until the base reports that it has";
+  system.fault_bits = 0;
+  EXPECT_EQ(period().state, BaseState::ready);
+}
+
+TEST_F(BaseDriverTest, cannot_resume_a_base_that_is_off) {
+  base_silent = true;
+  periods(10);
+  EXPECT_FALSE(driver.resume(now));
+  EXPECT_TRUE(bus.sent.empty());
+}
+
+TEST_F(BaseDriverTest, drives_with_its_transmitter_off_and_a_battery_that_is_getting_low) {
+  system.fault_bits = 0x0600;
+  make_ready();
+  EXPECT_EQ(period().state, BaseState::ready);
+  EXPECT_EQ(driver.warnings(),
+            (std::vector<std::string>{"battery under-voltage warning", "remote control lost"}));
+  system.fault_bits = 0x0700;
+  const BaseFeedback feedback = period();
+  EXPECT_EQ(feedback.details, "battery under-voltage");
+  expect_latched(BaseFault::fault_bits, feedback);
+  system.fault_bits = 0;
+  EXPECT_EQ(period().details, "battery under-voltage") << "the first cause";
 }
 
 TEST_F(BaseDriverTest, leaves_a_base_that_somebody_took_over_alone) {

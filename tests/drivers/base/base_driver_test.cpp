@@ -68,6 +68,7 @@ TEST_F(BaseDriverTest, may_be_told_to_ignore_fault_bits) {
 TEST_F(BaseDriverTest, needs_to_hear_the_motion_of_the_base_too) {
   system.mode = ControlMode::can;
   hear(agilex::encode_system_state(system));
+  ++system.counter;
   EXPECT_EQ(driver.poll(now).state, BaseState::waiting_for_base);
   EXPECT_EQ(period().state, BaseState::ready);
 }
@@ -90,6 +91,31 @@ TEST_F(BaseDriverTest, keeps_the_curve_of_a_command_that_is_too_fast) {
   EXPECT_EQ(driver.saturated_commands(), 2U);
   driver.command({1.0, -2.0});
   EXPECT_EQ(driver.saturated_commands(), 2U) << "a command at the limit is not saturated";
+}
+
+TEST_F(BaseDriverTest, keeps_each_wheel_within_its_limit) {
+  BaseDriver slow(bus, {.max_wheel_mps = 0.5, .track_width_m = 0.4});
+  system.mode = ControlMode::can;
+  base_speaks();
+  ASSERT_EQ(slow.poll(now).state, BaseState::ready);
+  slow.command({0.6, 2.0});  // the outer wheel: 1 m/s
+  EXPECT_EQ(bus.sent.back(), agilex::encode_motion_command({0.3, 1.0}));
+}
+
+TEST_F(BaseDriverTest, knows_the_control_modes_of_each_model_and_of_another_firmware) {
+  const auto mode_read = [](BaseProtocol& protocol, std::uint8_t value) {
+    return protocol.decode({Stamp(), {agilex::system_state_id, 8, {0, value}}}).system->mode;
+  };
+  const auto tracer = make_agilex_protocol();
+  EXPECT_EQ(mode_read(*tracer, 2), ControlMode::uart);
+  EXPECT_EQ(mode_read(*tracer, 3), ControlMode::remote);
+  EXPECT_EQ(mode_read(*tracer, 4), ControlMode::unknown);
+  EXPECT_EQ(mode_read(*make_agilex_protocol(BaseModel::hunter), 2), ControlMode::remote);
+  const auto other = make_agilex_protocol(BaseModel::tracer, 5.0,
+                                          {ControlMode::remote, ControlMode::standby, ControlMode::can});
+  EXPECT_EQ(mode_read(*other, 0), ControlMode::remote);
+  EXPECT_EQ(mode_read(*other, 2), ControlMode::can);
+  EXPECT_EQ(other->enable(), (std::vector<CanFrame>{{0x421, 1, {2}}}));
 }
 
 TEST_F(BaseDriverTest, sends_zero_for_a_velocity_that_is_not_finite) {
@@ -150,12 +176,13 @@ TEST(BaseWords, tell_states_and_faults_apart) {
        {BaseState::waiting_for_base, BaseState::asking_for_can_mode, BaseState::ready, BaseState::fault}) {
     words.insert(to_string(state));
   }
-  for (const BaseFault fault : {BaseFault::feedback_lost, BaseFault::left_can_mode, BaseFault::emergency_stop,
-                                BaseFault::vehicle_exception, BaseFault::fault_bits, BaseFault::not_following,
-                                BaseFault::second_master, BaseFault::send_failed}) {
+  for (const BaseFault fault :
+       {BaseFault::feedback_lost, BaseFault::feedback_incomplete, BaseFault::counter_stuck,
+        BaseFault::left_can_mode, BaseFault::emergency_stop, BaseFault::vehicle_exception,
+        BaseFault::fault_bits, BaseFault::not_following, BaseFault::second_master, BaseFault::send_failed}) {
     words.insert(to_string(fault));
   }
-  EXPECT_EQ(words.size(), 12U);
+  EXPECT_EQ(words.size(), 14U);
 }
 
 TEST_F(BaseDriverTest, is_slow_while_the_controller_is_error_passive) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <map>
 
 #include "drivers/base/base_driver.hpp"
 #include "drivers/base/odrive_table.hpp"
@@ -103,6 +104,69 @@ TEST(Odrive, with_a_watchdog_goes_idle_when_nobody_commands) {
   EXPECT_EQ(world.feedback.fault, BaseFault::fault_bits);
   EXPECT_EQ(make_odrive_protocol({})->fault_names(world.feedback.system->fault_bits),
             std::vector<std::string>{"watchdog expired"});
+}
+
+/// After a run nobody commands, and the watchdog expires.
+TEST(Odrive, whose_watchdog_expired_drives_for_the_next_run_when_told_to_resume) {
+  World world({.watchdog = milliseconds(200)});
+  world.drive({}, milliseconds(400));
+  world.drive({}, seconds(1), false);
+
+  BaseDriver next(world.bus.attach(), make_odrive_protocol({}));
+  const auto poll_for = [&](Duration time) {
+    BaseFeedback feedback;
+    for (const Stamp end = world.now + time; world.now < end;) {
+      world.now += milliseconds(1);
+      world.bus.advance(world.now);
+      world.base.step(world.now);
+      if (world.now.time_since_epoch() % milliseconds(20) != Duration::zero()) continue;
+      feedback = next.poll(world.now);
+      next.command({});
+    }
+    return feedback;
+  };
+  const BaseFeedback waiting = poll_for(seconds(2));
+  EXPECT_EQ(waiting.state, BaseState::waiting_for_base);
+  EXPECT_EQ(waiting.details, "watchdog expired");
+  EXPECT_TRUE(next.resume(world.now));
+  EXPECT_EQ(poll_for(seconds(1)).state, BaseState::ready);
+}
+
+TEST(Odrive, tells_who_is_on_the_bus) {
+  World world;
+  CanBus& client = world.bus.attach();
+  world.drive({}, milliseconds(400));
+  while (client.poll()) continue;
+  ASSERT_TRUE(client.send({odrive::address_of_all, 0, {}}));
+  world.drive({}, milliseconds(20));
+  std::map<double, double> serial_of_node;
+  while (const auto heard = client.poll()) {
+    for (const std::uint32_t node : {0U, 1U}) {
+      const auto said = decode(odrive::tables::address, heard->frame, node * odrive::node_step);
+      if (said) serial_of_node[(*said)[0]] = (*said)[1];
+    }
+  }
+  const auto serial = static_cast<double>(SimulatedOdriveOptions{}.serial);
+  EXPECT_EQ(serial_of_node, (std::map<double, double>{{0.0, serial}, {1.0, serial}}));
+}
+
+TEST(Odrive, coasts_without_torque_when_it_is_idle) {
+  World world;
+  CanBus& client = world.bus.attach();
+  world.drive({}, milliseconds(400));
+  world.drive({0.5, 0.0}, seconds(1));
+  const auto torque_nm = [&] {
+    double newest_nm = -1.0;
+    while (const auto heard = client.poll()) {
+      if (const auto said = decode(odrive::tables::torques, heard->frame)) newest_nm = (*said)[1];
+    }
+    return newest_nm;
+  };
+  EXPECT_GT(torque_nm(), 0.1);
+  ASSERT_TRUE(client.send(encode(odrive::tables::set_axis_state, {odrive::idle})));
+  world.drive({}, milliseconds(110), false);
+  ASSERT_GT(world.feedback.measured->forward_mps, 0.05) << "it still rolls";
+  EXPECT_EQ(torque_nm(), 0.0);
 }
 
 /// Messages that a client receives on request.

@@ -26,8 +26,7 @@ class PluggableCameraTest : public testing::Test {
     ++opened;
     // Held until the thread ends: only then can the camera take the attempt's result.
     if (std::this_thread::get_id() != of_test) std::notify_all_at_thread_exit(ended, std::move(lock));
-    return std::make_unique<V4l2Camera>(std::make_unique<VideoDeviceStandIn>(script), "/dev/video7",
-                                        V4l2CameraOptions{});
+    return std::make_unique<V4l2Camera>(std::make_unique<VideoDeviceStandIn>(script), "/dev/video7", options);
   }
 
   /// Waits until this attempt to open the camera has ended.
@@ -56,6 +55,7 @@ class PluggableCameraTest : public testing::Test {
   void take_picture() { script.captures.push_back({.bytes = std::vector<std::uint8_t>(whole_picture, 9)}); }
 
   VideoScript script;
+  V4l2CameraOptions options;
   Stamp now{seconds(1)};
 
  private:
@@ -87,6 +87,21 @@ TEST_F(PluggableCameraTest, comes_back_by_itself_after_it_was_unplugged) {
   ASSERT_TRUE(attempt_is_over(2));
   EXPECT_TRUE(camera.poll());
   EXPECT_EQ(attempts(), 2);
+}
+
+TEST_F(PluggableCameraTest, has_its_settings_again_after_it_was_unplugged) {
+  script.exposure_100us = 300;
+  options.exposure = milliseconds(2);
+  PluggableCamera camera = this->camera();
+  ASSERT_EQ(script.exposure_100us, 20);
+  script.unplugged = true;
+  EXPECT_FALSE(camera.poll());
+  script.exposure_100us = 300;  // as it is when it has just got power
+  script.unplugged = false;
+  now += seconds(1);
+  EXPECT_FALSE(camera.poll());
+  ASSERT_TRUE(attempt_is_over(2));
+  EXPECT_EQ(script.exposure_100us, 20);
 }
 
 TEST_F(PluggableCameraTest, is_tried_again_every_second_for_as_long_as_it_takes) {

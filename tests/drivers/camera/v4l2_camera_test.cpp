@@ -68,13 +68,83 @@ TEST(V4l2Camera, stamps_the_middle_of_the_exposure) {
   script.captures = {{counted(32), monotonic | V4L2_BUF_FLAG_TSTAMP_SRC_SOE, {.tv_sec = 1, .tv_usec = 0}},
                      {counted(32), monotonic | V4L2_BUF_FLAG_TSTAMP_SRC_EOF, {.tv_sec = 1, .tv_usec = 0}},
                      {counted(32), V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN, {.tv_sec = 1, .tv_usec = 0}}};
-  V4l2Camera camera = camera_on(script, {.readout = std::chrono::milliseconds(30)});
+  V4l2Camera camera = camera_on(script, {.latency = std::chrono::milliseconds(30)});
   EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1004)))
       << "stamped at the start of the exposure";
   EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1000 - 30 - 4)))
       << "stamped at the frame's end";
-  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(50'000 - 4)))
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(50'000 - 30 - 4)))
       << "no stamp: from the arrival";
+}
+
+/// uvcvideo flags the start of exposure with every camera, and stamps what comes after it.
+TEST(V4l2Camera, stamps_the_middle_of_the_exposure_before_a_stamp_of_arrival_that_is_flagged_as_its_start) {
+  VideoScript script;
+  script.driver = "uvcvideo";
+  script.exposure_100us = 80;
+  script.captures = {{.bytes = counted(32), .stamp = {.tv_sec = 1, .tv_usec = 0}},
+                     {.bytes = counted(32), .stamp = {.tv_sec = 2, .tv_usec = 0}}};
+  V4l2Camera camera = camera_on(script);
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1000 - 4)));
+  EXPECT_THAT(camera.description(), HasSubstr("flagged as start of exposure, taken as arrival"));
+
+  V4l2Camera told = camera_on(script, {.stamped_at = StampedAt::exposure_start});
+  EXPECT_EQ(told.poll()->stamp, Stamp(std::chrono::milliseconds(2000 + 4))) << "its user knows better";
+}
+
+/// The exposure of a frame has ended before the frame arrives.
+TEST(V4l2Camera, does_not_believe_a_start_of_exposure_that_leaves_no_time_for_it) {
+  VideoScript script;
+  script.exposure_100us = 200;
+  script.now = Stamp(std::chrono::milliseconds(1015));
+  script.captures = {{.bytes = counted(32), .stamp = {.tv_sec = 1, .tv_usec = 0}}};
+  V4l2Camera camera = camera_on(script);
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1000 - 10)));
+}
+
+TEST(V4l2Camera, follows_an_exposure_that_changes_by_itself) {
+  VideoScript script;
+  script.exposure_100us = 80;
+  script.exposure_mode = V4L2_EXPOSURE_APERTURE_PRIORITY;
+  for (int i = 0; i < 2; ++i)
+    script.captures.push_back({.bytes = counted(32), .stamp = {.tv_sec = 1, .tv_usec = 0}});
+  V4l2Camera camera = camera_on(script);
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1004)));
+  script.exposure_100us = 160;
+  script.now += std::chrono::seconds(1);
+  EXPECT_EQ(camera.poll()->stamp, Stamp(std::chrono::milliseconds(1008)));
+  EXPECT_THAT(camera.description(), HasSubstr("exposure 16.0 ms (automatic)"));
+}
+
+TEST(V4l2Camera, takes_its_settings) {
+  VideoScript script;
+  script.exposure_100us = 300;
+  script.exposure_mode = V4L2_EXPOSURE_APERTURE_PRIORITY;
+  script.gain = 64;
+  script.frame_time = {.numerator = 1, .denominator = 30};
+  const V4l2Camera camera =
+      camera_on(script, {.exposure = std::chrono::microseconds(2500), .gain = 12, .rate_hz = 25.0});
+  EXPECT_EQ(script.exposure_mode, V4L2_EXPOSURE_MANUAL);
+  EXPECT_EQ(script.exposure_100us, 25);
+  EXPECT_EQ(script.gain, 12);
+  EXPECT_THAT(camera.description(), HasSubstr("8 x 4 GREY, 25 frames a second, exposure 2.5 ms (fixed)"));
+}
+
+TEST(V4l2Camera, refuses_a_setting_that_the_camera_does_not_take) {
+  VideoScript script;
+  EXPECT_THAT(refusal(script, {.exposure = std::chrono::milliseconds(3)}),
+              HasSubstr("found a camera whose exposure cannot be set, wanted 3.0 ms"));
+  EXPECT_THAT(refusal(script, {.gain = 3}),
+              HasSubstr("found a camera whose gain cannot be set, wanted a gain of 3"));
+  EXPECT_THAT(refusal(script, {.rate_hz = 60.0}),
+              HasSubstr("found a camera whose frame rate cannot be set, wanted 60 frames a second"));
+  script.exposure_100us = 300;
+  script.least_exposure_100us = 50;
+  EXPECT_THAT(refusal(script, {.exposure = std::chrono::milliseconds(3)}),
+              HasSubstr("found an exposure of 5.0 ms, wanted 3.0 ms"));
+  script.frame_time = {.numerator = 1, .denominator = 30};
+  EXPECT_THAT(refusal(script, {.rate_hz = 200.0}),
+              HasSubstr("found 100 frames a second, wanted 200 frames a second"));
 }
 
 TEST(V4l2Camera, leaves_out_damaged_and_short_frames) {

@@ -150,5 +150,21 @@ TEST(Percentile, is_the_nearest_rank) {
   EXPECT_EQ(percentile(hundred, 7.0), 100.0);
 }
 
+TEST(Scorer, counts_contacts_of_the_footprint_and_not_of_the_disc) {
+  // 1 m long and 0.2 m wide, in a disc of 0.25 m only by name.
+  const Footprint plank({{-0.5, -0.1}, {0.5, -0.1}, {0.5, 0.1}, {-0.5, 0.1}});
+  const auto contacts = [&](const Pose2& pose, std::optional<Footprint> footprint) {
+    Scorer scorer(hand_made_map(), radius_m, std::move(footprint));
+    scorer.record({at(0), pose});
+    return scorer.contacts();
+  };
+  const Pose2 ends_in_the_obstacle{{1.6, 1.75}, 0.0};
+  EXPECT_EQ(contacts(ends_in_the_obstacle, plank), 1);
+  EXPECT_EQ(contacts(ends_in_the_obstacle, std::nullopt), 0);
+  const Pose2 passes_beside_it{{1.85, 1.75}, radians(90.0)};
+  EXPECT_EQ(contacts(passes_beside_it, plank), 0);
+  EXPECT_EQ(contacts(passes_beside_it, std::nullopt), 1);
+}
+
 }  // namespace
 }  // namespace lodestar

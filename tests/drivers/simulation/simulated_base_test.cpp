@@ -6,6 +6,7 @@
 
 #include "tests/drivers/base/base_on_a_bus.hpp"
 #include "tests/drivers/perfect_base.hpp"
+#include "tests/maps/empty_floor.hpp"
 
 namespace lodestar {
 namespace {
@@ -57,6 +58,23 @@ TEST(SimulatedBase, takes_no_command_while_it_stands_by) {
       << "asking for remote mode gives a client no control";
   bare.ask_for(agilex::ControlMode::can);
   EXPECT_GT(bare.run(seconds(1), BodyVelocity{0.5, 0.0}), 0.3);
+}
+
+/// As a real base's firmware does, whatever its client asks for.
+TEST(SimulatedBase, limits_the_speeds_that_it_is_told) {
+  BareBase bare;
+  bare.ask_for(agilex::ControlMode::can);
+  bare.run(seconds(3), BodyVelocity{0.0, 30.0});
+  const double before_rad = bare.motion.true_map_from_base().yaw_rad;
+  bare.run(milliseconds(500), BodyVelocity{0.0, 30.0});
+  const double turned_rad = wrap_angle(bare.motion.true_map_from_base().yaw_rad - before_rad);
+  EXPECT_NEAR(turned_rad, 0.5 * SimulatedBaseOptions{}.max_turn_radps, 0.02);
+
+  BareBase straight;
+  straight.ask_for(agilex::ControlMode::can);
+  straight.run(seconds(3), BodyVelocity{30.0, 0.0});
+  EXPECT_NEAR(straight.run(seconds(1), BodyVelocity{30.0, 0.0}), SimulatedBaseOptions{}.max_forward_mps,
+              0.02);
 }
 
 TEST(SimulatedBase, forgets_its_command_when_it_is_stopped) {
@@ -258,6 +276,20 @@ TEST(SimulatedBase, stops_against_an_obstacle_and_may_turn_away) {
   world.drive({0.5, 0.0}, seconds(1));
   EXPECT_FALSE(world.motion.is_blocked());
   EXPECT_LT(world.truth().position_m.x(), 0.5);
+}
+
+TEST(SimulatedBase, with_a_footprint_stops_with_its_nose_against_an_obstacle) {
+  OccupancyMap map = empty_floor(20, 10, 0.1);
+  map.map_from_grid.position_m = {-0.5, -0.5};
+  for (int row = 0; row < 10; ++row) map.cells[map.index({15, row})] = OccupancyMap::occupied;  // x = 1.0 m
+  const Footprint plank({{-0.4, -0.1}, {0.4, -0.1}, {0.4, 0.1}, {-0.4, 0.1}});
+  World world(perfect_base(), 1, SimulatedMotion::Surroundings{map, 0.2, plank});
+  world.wait(milliseconds(200));
+  world.drive({0.5, 0.0}, seconds(4));
+  EXPECT_TRUE(world.motion.is_blocked());
+  EXPECT_NEAR(world.truth().position_m.x(), 0.6, 0.001);
+  world.drive({0.0, 1.0}, seconds(1));
+  EXPECT_LT(std::abs(world.truth().yaw_rad), 0.05) << "its corners would sweep into the wall";
 }
 
 TEST(SimulatedBase, the_same_seed_gives_the_same_bytes_and_another_seed_another_track) {

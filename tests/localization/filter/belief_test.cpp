@@ -8,7 +8,7 @@ namespace {
 /// Any pose, with wheels that are not as built.
 Belief some_belief() {
   Belief belief;
-  belief.mean << 1.0, -2.0, 0.7, 1.01, 0.98, 1.02, 0.003, -0.002, 0.001, 0.9, -2.1, 0.6;
+  belief.mean << 1.0, -2.0, 0.7, 1.01, 0.98, 1.02, 0.003, -0.002, 0.001, 0.9, -2.1, 0.6, 0.01;
   belief.covariance.setIdentity();
   return belief;
 }
@@ -66,7 +66,7 @@ TEST(Belief, takes_from_one_fix_only_a_share_of_what_it_says_about_the_wheels) {
   PoseFilterOptions options;
   const PlanarFix start{.covariance = 1e-6 * Eigen::Matrix3d::Identity()};
   const Belief before =
-      moved(belief_from(start, {}, scales_as_built(options), options), {{}, 1.0, 1.0}, options);
+      moved(belief_from(start, {}, initial_scales(options), options), {{}, 1.0, 1.0}, options);
   PlanarFix turned = start;
   turned.map_from_base = before.map_from_base();
   // As from wheels that differ by 2 %, or from a jolt of 2 cm.
@@ -90,7 +90,7 @@ TEST(Belief, by_one_fix_is_as_unsure_as_fix_and_survey_together) {
   PlanarFix fix;
   fix.map_from_base = {{1.0, 2.0}, 3.0};
   fix.covariance = Vec3(16e-6, 16e-6, 9e-6).asDiagonal();
-  const Belief belief = belief_from(fix, {}, scales_as_built(options), options);
+  const Belief belief = belief_from(fix, {}, initial_scales(options), options);
   EXPECT_EQ(belief.map_from_base().position_m, fix.map_from_base.position_m);
   EXPECT_NEAR(belief.covariance(0, 0), 25e-6, 1e-18);
   EXPECT_NEAR(belief.covariance(2, 2), 13e-6, 1e-18);
@@ -112,7 +112,7 @@ PlanarFix fix_that_shares() {
 TEST(Belief, does_not_average_away_what_the_same_markers_err_by) {
   const PoseFilterOptions options = without_noise();
   const PlanarFix fix = fix_that_shares();
-  Belief belief = belief_from(fix, {}, scales_as_built(options), options);
+  Belief belief = belief_from(fix, {}, initial_scales(options), options);
   EXPECT_NEAR(belief.covariance(0, 0), 25e-6, 1e-11);
   for (int i = 1; i < 1000; ++i) belief = corrected(belief, fix, options);
   EXPECT_NEAR(belief.covariance(0, 0), 9e-6 + 16e-6 / 1000.0, 1e-10);
@@ -123,7 +123,7 @@ TEST(Belief, takes_another_marker_to_err_for_itself_but_the_same_one_only_once) 
   const PoseFilterOptions options = without_noise();
   PlanarFix fix = fix_that_shares();
   fix.ids = {7};
-  Belief belief = belief_from(fix, {}, scales_as_built(options), options);
+  Belief belief = belief_from(fix, {}, initial_scales(options), options);
   for (int i = 0; i < 1000; ++i) belief = corrected(belief, fix, options);
   EXPECT_NEAR(belief.covariance(0, 0), 9e-6, 1e-7);
   fix.ids = {8};
@@ -144,7 +144,7 @@ TEST(Belief, takes_fewer_markers_to_err_as_these_did_and_by_more) {
   const PoseFilterOptions options = without_noise();
   PlanarFix by_three = fix_that_shares();
   by_three.shared_covariance *= 0.25;
-  Belief belief = belief_from(by_three, {}, scales_as_built(options), options);
+  Belief belief = belief_from(by_three, {}, initial_scales(options), options);
   for (int i = 1; i < 1000; ++i) belief = corrected(belief, by_three, options);
   PlanarFix by_one = fix_that_shares();
   by_one.covariance += 1e6 * Eigen::Matrix3d::Identity();  // carries no information

@@ -47,6 +47,23 @@ TEST(PoseFilter, applies_a_late_fix_at_its_capture_time) {
   EXPECT_LT((late.estimate()->covariance - prompt.estimate()->covariance).cwiseAbs().maxCoeff(), 1e-15);
 }
 
+TEST(PoseFilter, an_older_fix_takes_nothing_from_a_newer_one) {
+  World world;
+  PoseFilter filter(without_floor());
+  drive(world, filter, 0.0, 1.0, true);
+  const PlanarFix older = world.fix(0.02, 0.02);
+  for (int i = 1; i <= 5; ++i) {
+    world.roll(0.01, 0.01, 1.0 + 0.02 * i);
+    filter.add_travel(world.reported);
+  }
+  ASSERT_EQ(filter.add_fix(world.fix(1e-5, 1e-5)), FixOutcome::accepted);
+  const PoseEstimate before = *filter.estimate();
+  EXPECT_EQ(filter.add_fix(older), FixOutcome::accepted);
+  // Of the wheels' scales a share alone is learned, so the older fix may cost a little.
+  EXPECT_LE(filter.estimate()->covariance.trace(), 1.01 * before.covariance.trace());
+  EXPECT_LT((filter.estimate()->map_from_base.position_m - before.map_from_base.position_m).norm(), 1e-4);
+}
+
 TEST(PoseFilter, places_a_fix_between_two_wheel_readings) {
   World world;
   PoseFilter filter(without_floor());

@@ -96,6 +96,38 @@ TEST(IntegrityMonitor, stops_at_gross_contradictions_and_for_good_when_they_prev
   EXPECT_EQ(drive.monitor.alarm(drive.now()), IntegrityAlarm::carried_away);
 }
 
+/// While it brakes: 18 mm by the right wheel, which the robot believes to have turned it by 5 degrees.
+TEST(IntegrityMonitor, takes_the_wheel_that_rolls_where_the_other_ones_encoder_is_stuck) {
+  IntegrityMonitor monitor;
+  for (int i = 0; i <= 6; ++i) {
+    const Stamp now = Stamp{} + milliseconds(50 * i);
+    monitor.add_travel({now, 0.0, 3e-3 * i});
+    monitor.add_fix({.stamp = now,
+                     .ids = std::vector{447},
+                     .map_from_base = Pose2{},
+                     .expected = Pose2{{0.0, 0.0}, radians(1.0 + 0.85 * i)},
+                     .outcome = FixOutcome::refused_gate});
+  }
+  EXPECT_EQ(monitor.alarm(Stamp{} + milliseconds(300)), IntegrityAlarm::wheels_wrong);
+}
+
+/// A machine that was busy takes the pictures of 100 ms one after another.
+TEST(IntegrityMonitor, compares_with_what_the_wheels_had_rolled_at_the_exposure) {
+  IntegrityMonitor monitor;
+  const auto at = [](int ms) { return Stamp{} + milliseconds(ms); };
+  for (int ms = 0; ms <= 200; ms += 20) monitor.add_travel({at(ms), 5e-4 * ms, 5e-4 * ms});
+  const auto fix = [&](int ms, double yaw_rad) {
+    monitor.add_fix({.stamp = at(ms),
+                     .ids = std::vector{447},
+                     .map_from_base = {{5e-4 * ms, 0.0}, yaw_rad},
+                     .expected = Pose2{{5e-4 * ms, 0.0}, 0.0},
+                     .outcome = FixOutcome::refused_gate});
+  };
+  fix(50, 0.05);
+  fix(100, 0.15);
+  EXPECT_EQ(monitor.alarm(at(200)), IntegrityAlarm::wheels_wrong);
+}
+
 TEST(IntegrityMonitor, waits_a_moment_where_the_estimate_has_moved_a_little) {
   Drive drive;
   drive.fix(Pose2{{0.1, 0.0}, 0.0} * drive.ahead(), FixOutcome::relocated);

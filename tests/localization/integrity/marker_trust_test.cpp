@@ -108,6 +108,7 @@ TEST(MarkerTrust, accuses_no_healthy_marker) {
 }
 
 TEST(MarkerTrust, names_a_marker_that_was_moved_and_by_how_much) {
+  int within_four_sigmas = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     RoundTrip trip(seed);
     trip.drive(7.0);
@@ -121,9 +122,13 @@ TEST(MarkerTrust, names_a_marker_that_was_moved_and_by_how_much) {
     const std::vector<DistrustedMarker> distrusted = trip.trust.distrusted();
     ASSERT_EQ(distrusted.size(), 1U) << "seed " << seed << ", " << way_m << " m";
     EXPECT_EQ(distrusted.front().id, static_cast<int>(which)) << "seed " << seed;
-    EXPECT_LT((distrusted.front().offset_m - moved).norm(), 0.02) << "seed " << seed;
+    const double off_m = (distrusted.front().offset_m - moved).norm();
+    EXPECT_LT(off_m, 0.02) << "seed " << seed;
+    EXPECT_LT(distrusted.front().sigma_m, 0.02) << "seed " << seed;
+    within_four_sigmas += off_m < 4.0 * distrusted.front().sigma_m ? 1 : 0;
     EXPECT_LT(trip.error_m(), 0.03) << "seed " << seed;
   }
+  EXPECT_GE(within_four_sigmas, 57) << "of 60";
 }
 
 TEST(MarkerTrust, names_a_marker_that_was_turned) {

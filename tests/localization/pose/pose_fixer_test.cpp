@@ -78,6 +78,24 @@ TEST_F(PoseFixerTest, learns_nothing_while_it_stands) {
   EXPECT_NEAR(sigma_m, before_m, 0.05 * before_m);
 }
 
+TEST_F(PoseFixerTest, learns_nothing_while_it_stands_and_evaluates_markers_in_turn) {
+  // As the navigator does when a marker was displaced: the others together, then that marker alone.
+  const Eigen::Isometry3d view = some_view();
+  nees_of_fix(view, 0.0);
+  const double before_m = sigma_m;
+  PoseFixOptions options;
+  options.prior.tilt_sigma_rad = 0.0;
+  options.dot_sigma_px = said_px;
+  const std::vector<DetectedMarker> noisy = seen(view, registry, paper_camera(), 3.0 * said_px, random);
+  ASSERT_GE(noisy.size(), 3U);
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_NE(fixer.fix(Stamp{}, std::span(noisy).first(noisy.size() - 1), options), nullptr);
+    ASSERT_NE(fixer.fix(Stamp{}, std::span(noisy).last(1), options), nullptr);
+  }
+  nees_of_fix(view, 0.0);
+  EXPECT_NEAR(sigma_m, before_m, 0.1 * before_m);
+}
+
 TEST_F(PoseFixerTest, unlearns_what_is_over) {
   mean_nees(500, 2.0 * said_px);
   const Eigen::Isometry3d view = some_view();

@@ -1,12 +1,15 @@
-#include "planning/footprint.hpp"
+#include "maps/footprint.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
+#include <iterator>
 #include <limits>
+#include <numbers>
 
 #include "maps/input_error.hpp"
-#include "planning/touching.hpp"
+#include "maps/touching.hpp"
 
 namespace lodestar {
 namespace {
@@ -131,19 +134,66 @@ double Footprint::outer_radius_m() const {
 }
 
 double Footprint::inner_radius_m() const {
-  double radius_m = std::numeric_limits<double>::infinity();
+  return depth_m(Vec2::Zero());
+}
+
+/// Distance from the edges of a point inside; 0 outside.
+double Footprint::depth_m(const Vec2& point_m) const {
+  double least_m = std::numeric_limits<double>::infinity();
   bool inside = false;
   for (std::size_t i = 0; i < corners_m_.size(); ++i) {
-    const Vec2& a = corners_m_[i];
-    const Vec2& b = corners_m_[(i + 1) % corners_m_.size()];
+    const Vec2 a = corners_m_[i] - point_m;
+    const Vec2 b = corners_m_[(i + 1) % corners_m_.size()] - point_m;
     const Vec2 edge = b - a;
     const double along = std::clamp(-a.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    radius_m = std::min(radius_m, (a + along * edge).norm());
-    // A ray from the origin along x crosses the outline an odd number of times when it begins inside.
+    least_m = std::min(least_m, (a + along * edge).norm());
+    // A ray from the point along x crosses the outline an odd number of times when it begins inside.
     const bool crosses = (a.y() > 0.0) != (b.y() > 0.0) && a.x() - a.y() * edge.x() / edge.y() > 0.0;
     if (crosses) inside = !inside;
   }
-  return inside ? radius_m : 0.0;
+  return inside ? least_m : 0.0;
+}
+
+/// Of a lattice of points inside, each the centre of the largest disc there: the largest disc that is not
+/// within another one, again and again.
+std::vector<InnerDisc> Footprint::inner_discs(double less_m) const {
+  const double spacing_m = std::max(0.01, 0.02 * outer_radius_m());
+  std::vector<InnerDisc> inside = discs_on_lattice(spacing_m);
+  const auto is_deep = [&](const InnerDisc& disc) {
+    return disc.radius_m >= less_m || std::ranges::none_of(inside, [&](const InnerDisc& other) {
+             return other.radius_m > disc.radius_m + 0.5 * spacing_m &&
+                    (other.center_m - disc.center_m).norm() <= 2.0 * less_m;
+           });
+  };
+  std::vector<InnerDisc> deep;
+  std::ranges::copy_if(inside, std::back_inserter(deep), is_deep);
+  for (InnerDisc& disc : deep) disc.radius_m = std::max(disc.radius_m - less_m, 0.0);
+  std::ranges::stable_sort(deep, std::greater(), &InnerDisc::radius_m);
+  std::vector<InnerDisc> chosen;
+  for (const InnerDisc& disc : deep) {
+    const bool is_within = std::ranges::any_of(chosen, [&](const InnerDisc& other) {
+      return (other.center_m - disc.center_m).norm() + disc.radius_m <= other.radius_m + spacing_m;
+    });
+    if (!is_within) chosen.push_back(disc);
+  }
+  return chosen;
+}
+
+/// Beginning half a spacing from the lowest corner, so that a thin footprint has points too.
+std::vector<InnerDisc> Footprint::discs_on_lattice(double spacing_m) const {
+  Bounds bounds;
+  for (const Vec2& corner : corners_m_) bounds.add(corner);
+  const Vec2 size = bounds.high - bounds.low;
+  const double step_m = std::min(spacing_m, 0.5 * size.minCoeff());
+  std::vector<InnerDisc> discs;
+  for (double y = bounds.low.y() + 0.5 * step_m; y < bounds.high.y(); y += step_m) {
+    for (double x = bounds.low.x() + 0.5 * step_m; x < bounds.high.x(); x += step_m) {
+      const double radius_m = depth_m({x, y});
+      if (radius_m > 0.0) discs.push_back({{x, y}, radius_m});
+    }
+  }
+  if (discs.empty()) discs.push_back({corners_m_.front(), 0.0});
+  return discs;
 }
 
 bool Footprint::is_clear(const OccupancyMap& map, const Pose2& pose) const {
@@ -158,9 +208,22 @@ bool Footprint::is_clear_driving(const OccupancyMap& map, const Pose2& from, con
       map, swept(placed(pieces_m_, start, map.resolution_m), (goal_m - start.position_m) / map.resolution_m));
 }
 
+/// The robot decides which way is the shorter one only when it turns, by a heading that differs a little from
+/// the planned one: near half a turn it may be either.
 bool Footprint::is_clear_turning(const OccupancyMap& map, const Pose2& from, double to_rad) const {
+  constexpr double uncertain_rad = radians(3.0);
   const double turn_rad = wrap_angle(to_rad - from.yaw_rad);
   if (!std::isfinite(turn_rad)) return false;
+  if (!is_clear_sweeping(map, from, turn_rad)) return false;
+  if (std::abs(turn_rad) < std::numbers::pi - uncertain_rad) return true;
+  const double other_way_rad = turn_rad - std::copysign(2.0 * std::numbers::pi, turn_rad);
+  const Pose2 halfway{from.position_m, wrap_angle(from.yaw_rad + 0.5 * other_way_rad)};
+  return is_clear_sweeping(map, from, 0.5 * other_way_rad) &&
+         is_clear_sweeping(map, halfway, 0.5 * other_way_rad);
+}
+
+/// By at most half a turn.
+bool Footprint::is_clear_sweeping(const OccupancyMap& map, const Pose2& from, double turn_rad) const {
   const Pose2 start = in_grid(map, from);
   const std::vector<Polygon> pieces = placed(pieces_m_, start, map.resolution_m);
   const Vec2 about = start.position_m / map.resolution_m;

@@ -1,4 +1,4 @@
-#include "planning/convex_pieces.hpp"
+#include "maps/convex_pieces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "planning/touching.hpp"
+#include "maps/touching.hpp"
 
 namespace lodestar {
 namespace {

@@ -1,0 +1,197 @@
+#include "app/bench/survey_bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/common/stopwatch.hpp"
+#include "maps/chi_square.hpp"
+#include "maps/random.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr double ceiling_m = 2.6;
+constexpr double known_print = 1e-4;
+constexpr std::uint64_t print_stream = 11;
+constexpr std::uint64_t anchor_stream = 12;
+constexpr std::uint64_t spoiling_stream = 13;
+
+std::vector<Vec2> joined(std::vector<Vec2> way, const std::vector<Vec2>& more) {
+  way.insert(way.end(), more.begin(), more.end());
+  return way;
+}
+
+/// The markers nearest to the corners, as somebody measures them to 3 mm.
+std::vector<Anchor> corner_anchors(const std::vector<RegisteredMarker>& markers,
+                                   const SurveyScenario& scenario, std::uint64_t seed) {
+  constexpr double sigma_m = 0.003;
+  Random random = Random(seed).stream(anchor_stream);
+  const std::vector<Vec2> corners{
+      {0.0, 0.0}, {scenario.width_m, scenario.depth_m}, {scenario.width_m, 0.0}, {0.0, scenario.depth_m}};
+  std::vector<Anchor> anchors;
+  for (int i = 0; i < std::min<int>(scenario.anchors, static_cast<int>(corners.size())); ++i) {
+    const Vec2& corner = corners[static_cast<std::size_t>(i)];
+    const RegisteredMarker& nearest = *std::ranges::min_element(
+        markers, {},
+        [&](const RegisteredMarker& marker) { return (marker.position_m.head<2>() - corner).norm(); });
+    const Vec2 off(sigma_m * random.normal(), sigma_m * random.normal());
+    anchors.push_back(
+        {MarkerAnchor{.id = nearest.id, .position_m = nearest.position_m.head<2>() + off, .sigma_m = sigma_m},
+         i + 1});
+  }
+  return anchors;
+}
+
+SurveyScenario lab(std::string name, std::vector<Vec2> way) {
+  return {.name = std::move(name), .way_m = std::move(way)};
+}
+
+SurveyScenario hall(std::string name, std::vector<Vec2> way, int anchors) {
+  return {.name = std::move(name),
+          .width_m = 60.0,
+          .depth_m = 40.0,
+          .pitch_m = 2.0,
+          .way_m = std::move(way),
+          .anchors = anchors};
+}
+
+SurveyScenario corridor(std::string name, double length_m, int anchors) {
+  return {.name = std::move(name),
+          .width_m = length_m,
+          .depth_m = 2.0,
+          .pitch_m = 2.0,
+          .way_m = {{0.5, 1.0}, {length_m - 0.5, 1.0}, {0.5, 1.0}},
+          .anchors = anchors};
+}
+
+std::vector<Vec2> lab_lanes_and_cross() {
+  return joined(mower_lanes(15.0, 7.5, 1.5, 0.8), cross_lanes(15.0, 7.5, 2.2, 0.8));
+}
+
+}  // namespace
+
+std::vector<SurveyScenario> survey_scenarios() {
+  const std::vector<Vec2> rows = mower_lanes(60.0, 40.0, 2.0, 1.0);
+  const std::vector<Vec2> grid = joined(rows, cross_lanes(60.0, 40.0, 10.0, 1.0));
+  SurveyScenario anchored = lab("lab, lanes both ways, 4 anchors", lab_lanes_and_cross());
+  anchored.anchors = 4;
+  return {lab("lab, one pass", {{0.8, 3.75}, {14.2, 3.75}}),
+          lab("lab, loop", {{1.0, 1.0}, {14.0, 1.0}, {14.0, 6.5}, {1.0, 6.5}, {1.0, 1.0}, {3.0, 1.0}}),
+          lab("lab, lanes", mower_lanes(15.0, 7.5, 1.5, 0.8)),
+          lab("lab, lanes both ways", lab_lanes_and_cross()),
+          anchored,
+          corridor("corridor of 20 m", 20.0, 0),
+          corridor("corridor of 60 m, 2 anchors", 60.0, 2),
+          hall("hall, rows alone", rows, 0),
+          hall("hall, lanes every 10 m", grid, 0),
+          hall("hall, lanes every 10 m, 2 anchors", grid, 2)};
+}
+
+SurveyTrial try_survey(const SurveyScenario& scenario, std::uint64_t seed) {
+  SurveyWorldOptions options;
+  options.print_scale = 1.0 + known_print * Random(seed).stream(print_stream).normal();
+  const SurveyWorld world = make_survey_world(
+      marker_grid(scenario.width_m, scenario.depth_m, scenario.pitch_m, ceiling_m, seed), options, seed);
+  const SurveyDrive drive = drive_survey(world, scenario.way_m, seed);
+  Anchors anchors{.anchors = corner_anchors(world.markers, scenario, seed),
+                  .print_scale = {1.0, known_print}};
+  SurveyOptions survey_options;
+  survey_options.least_sightings = 1;  // errors of badly seen markers count too
+  survey_options.most_sigma_m = 1.0;
+  const Stopwatch watch;
+  const MarkerSurvey survey =
+      survey_markers(std::span(&drive.log, 1), world.camera, world.belief, anchors, survey_options);
+  SurveyTrial trial{.length_m = drive.length_m, .solve_s = watch.seconds()};
+  trial.refused = !survey.flaws.empty();
+  if (trial.refused) {
+    trial.why = std::string(to_string(survey.flaws.front().flaw)) + ": " + survey.flaws.front().found;
+    return trial;
+  }
+  trial.markers = survey.markers.size();
+  trial.keyframes = survey.keyframes;
+  trial.errors = survey_errors(survey, world.markers);
+  trial.fixes = fix_errors(world, survey, scenario.way_m, seed);
+  return trial;
+}
+
+std::string to_string(Spoiling spoiling) {
+  switch (spoiling) {
+    case Spoiling::swapped_id:
+      return "swapped ID";
+    case Spoiling::clock_shift:
+      return "clock shift";
+    case Spoiling::slip:
+      return "slip";
+    case Spoiling::lens:
+      return "lens";
+    case Spoiling::moved_anchor:
+      return "moved anchor";
+    case Spoiling::print_scale:
+      return "print scale";
+  }
+  return "";
+}
+
+std::vector<Spoiling> all_spoilings() {
+  return {Spoiling::swapped_id, Spoiling::clock_shift,  Spoiling::slip,
+          Spoiling::lens,       Spoiling::moved_anchor, Spoiling::print_scale};
+}
+
+bool SpoiledTrial::is_silently_wrong() const {
+  constexpr double least_probability = 1e-6;
+  return !refused && nees > chi_square_quantile(1.0 - least_probability, freedom);
+}
+
+SpoiledTrial try_spoiled(Spoiling spoiling, std::uint64_t seed) {
+  Random random = Random(seed).stream(spoiling_stream);
+  SurveyScenario scenario = lab("", mower_lanes(15.0, 7.5, 1.5, 0.8));
+  scenario.anchors = 4;
+  SurveyWorldOptions options;
+  double print_sigma = known_print;
+  options.print_scale = 1.0 + known_print * random.normal();
+  if (spoiling == Spoiling::clock_shift) options.wheels_late = from_seconds(random.uniform(-0.3, 0.3));
+  if (spoiling == Spoiling::slip) options.slip_sigma_per_sqrt_m *= random.uniform(2.0, 20.0);
+  if (spoiling == Spoiling::lens) options.k1_off = random.uniform(-0.05, 0.05);
+  if (spoiling == Spoiling::print_scale) options.print_scale = 1.0 + random.uniform(-0.03, 0.03);
+  const SurveyWorld world = make_survey_world(
+      marker_grid(scenario.width_m, scenario.depth_m, scenario.pitch_m, ceiling_m, seed), options, seed);
+  SurveyDrive drive = drive_survey(world, scenario.way_m, seed);
+  Anchors anchors{.anchors = corner_anchors(world.markers, scenario, seed),
+                  .print_scale = {1.0, print_sigma}};
+  if (spoiling == Spoiling::moved_anchor) {
+    auto& anchor = std::get<MarkerAnchor>(anchors.anchors[random.below(anchors.anchors.size())].what);
+    const double direction = random.uniform(-std::numbers::pi, std::numbers::pi);
+    anchor.position_m += random.uniform(0.0, 0.3) * Vec2(std::cos(direction), std::sin(direction));
+  }
+  if (spoiling == Spoiling::swapped_id) {
+    // Two IDs change places in a part of the drive.
+    const int a = world.markers[random.below(world.markers.size())].id;
+    const int b = world.markers[random.below(world.markers.size())].id;
+    const std::size_t frames = drive.log.frames.size();
+    const std::size_t begin = random.below(frames);
+    for (std::size_t i = begin; i < std::min(frames, begin + frames / 4); ++i)
+      for (SightedMarker& marker : drive.log.frames[i].markers) {
+        const int id = marker.id;
+        if (id == a) marker.id = b;
+        if (id == b) marker.id = a;
+        // What does not belong to the other's dots is left out, as a reader would.
+        std::vector<MarkerDot> kept;
+        for (const MarkerDot& dot : marker.dots)
+          if (has_dot(marker.id, dot.cell)) kept.push_back(dot);
+        marker.dots.assign(kept.begin(), kept.end());
+      }
+  }
+  const MarkerSurvey survey =
+      survey_markers(std::span(&drive.log, 1), world.camera, world.belief, anchors, SurveyOptions{});
+  SpoiledTrial trial{.refused = !survey.flaws.empty()};
+  if (trial.refused) {
+    trial.why = std::string(to_string(survey.flaws.front().flaw));
+    return trial;
+  }
+  const SurveyErrors errors = survey_errors(survey, world.markers);
+  trial.nees = errors.nees;
+  trial.freedom = errors.freedom;
+  return trial;
+}
+
+}  // namespace lodestar

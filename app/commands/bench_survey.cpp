@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/bench/survey_bench.hpp"
+#include "app/commands/commands.hpp"
+#include "app/common/parallel.hpp"
+
+namespace lodestar {
+namespace {
+
+struct SurveyBenchArguments {
+  int seeds = 3;
+  int spoiled = 0;
+  std::uint64_t seed = 1;
+  std::string only;
+  bool json = false;
+};
+
+/// Over all seeds of a scenario.
+struct SurveyFigures {
+  std::string name;
+  int seeds = 0;
+  int refused = 0;
+  std::string why;
+  double rms_m = 0.0;
+  double worst_m = 0.0;
+  double bound_m = 0.0;
+  double nees_per_freedom = 0.0;
+  double solve_s = 0.0;  ///< the longest
+  double fix_by_survey_m = 0.0;
+  double fix_by_truth_m = 0.0;
+  SurveyTrial last;
+};
+
+SurveyFigures figures_of(const SurveyScenario& scenario, const SurveyBenchArguments& arguments) {
+  std::vector<SurveyTrial> trials(static_cast<std::size_t>(arguments.seeds));
+  in_parallel(arguments.seeds, [&](int i) {
+    trials[static_cast<std::size_t>(i)] =
+        try_survey(scenario, arguments.seed + static_cast<std::uint64_t>(i));
+  });
+  SurveyFigures figures{.name = scenario.name, .seeds = arguments.seeds};
+  double nees = 0.0;
+  double freedom = 0.0;
+  int good = 0;
+  for (const SurveyTrial& trial : trials) {
+    if (trial.refused) {
+      ++figures.refused;
+      figures.why = trial.why;
+      continue;
+    }
+    ++good;
+    figures.rms_m += square(trial.errors.rms_m);
+    figures.bound_m += square(trial.errors.bound_m);
+    figures.worst_m = std::max(figures.worst_m, trial.errors.worst_m);
+    nees += trial.errors.nees;
+    freedom += trial.errors.freedom;
+    figures.fix_by_survey_m += square(trial.fixes.by_survey_m);
+    figures.fix_by_truth_m += square(trial.fixes.by_truth_m);
+    figures.solve_s = std::max(figures.solve_s, trial.solve_s);
+    figures.last = trial;
+  }
+  if (good == 0) return figures;
+  figures.rms_m = std::sqrt(figures.rms_m / good);
+  figures.bound_m = std::sqrt(figures.bound_m / good);
+  figures.nees_per_freedom = nees / freedom;
+  figures.fix_by_survey_m = std::sqrt(figures.fix_by_survey_m / good);
+  figures.fix_by_truth_m = std::sqrt(figures.fix_by_truth_m / good);
+  return figures;
+}
+
+nlohmann::ordered_json as_json(const SurveyFigures& figures) {
+  return {{"scenario", figures.name},
+          {"seeds", figures.seeds},
+          {"refused", figures.refused},
+          {"markers", figures.last.markers},
+          {"length_m", figures.last.length_m},
+          {"keyframes", figures.last.keyframes},
+          {"rms_m", figures.rms_m},
+          {"worst_m", figures.worst_m},
+          {"bound_m", figures.bound_m},
+          {"nees_per_freedom", figures.nees_per_freedom},
+          {"fix_by_survey_m", figures.fix_by_survey_m},
+          {"fix_by_truth_m", figures.fix_by_truth_m},
+          {"solve_s", figures.solve_s}};
+}
+
+void print_line(const SurveyFigures& figures) {
+  fmt::print("{:36} {:5} {:7} {:7} {:7.0f} {:9.2f} {:9.2f} {:9.2f} {:7.2f} {:7.2f} {:7.2f} {:8.1f}{}\n",
+             figures.name, figures.seeds, figures.refused, figures.last.markers, figures.last.length_m,
+             mm_per_m * figures.rms_m, mm_per_m * figures.worst_m, mm_per_m * figures.bound_m,
+             figures.bound_m > 0.0 ? figures.rms_m / figures.bound_m : 0.0, figures.nees_per_freedom,
+             figures.fix_by_truth_m > 0.0 ? figures.fix_by_survey_m / figures.fix_by_truth_m : 0.0,
+             figures.solve_s, figures.why.empty() ? "" : "  " + figures.why);
+}
+
+/// The exit code is that of a promise kept: no registry written that is silently wrong.
+ExitCode spoiled_survey(const SurveyBenchArguments& arguments) {
+  const std::vector<Spoiling> kinds = all_spoilings();
+  std::vector<SpoiledTrial> trials(static_cast<std::size_t>(arguments.spoiled));
+  in_parallel(arguments.spoiled, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    trials[at] = try_spoiled(kinds[at % kinds.size()], arguments.seed + at);
+  });
+  struct Counts {
+    int logs = 0;
+    int refused = 0;
+    int wrong = 0;
+    std::map<std::string, int> words;
+  };
+  std::vector<Counts> counts(kinds.size());
+  int wrong = 0;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    Counts& of_kind = counts[i % kinds.size()];
+    ++of_kind.logs;
+    of_kind.refused += trials[i].refused ? 1 : 0;
+    of_kind.wrong += trials[i].is_silently_wrong() ? 1 : 0;
+    wrong += trials[i].is_silently_wrong() ? 1 : 0;
+    if (trials[i].refused) ++of_kind.words[trials[i].why];
+  }
+  auto rows = nlohmann::ordered_json::array();
+  if (!arguments.json)
+    fmt::print("{:14} {:>5} {:>8} {:>15}  refused for\n", "spoiled", "logs", "refused", "silently wrong");
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    rows.push_back({{"spoiled", to_string(kinds[k])},
+                    {"logs", counts[k].logs},
+                    {"refused", counts[k].refused},
+                    {"silently_wrong", counts[k].wrong},
+                    {"words", counts[k].words}});
+    if (arguments.json) continue;
+    std::string words;
+    for (const auto& [word, count] : counts[k].words) words += fmt::format(" {} {}", count, word);
+    fmt::print("{:14} {:5} {:8} {:15} {}\n", to_string(kinds[k]), counts[k].logs, counts[k].refused,
+               counts[k].wrong, words);
+  }
+  if (arguments.json) fmt::print("{}\n", rows.dump(2));
+  return wrong == 0 ? done : job_failed;
+}
+
+ExitCode bench_survey(const SurveyBenchArguments& arguments) {
+  fmt::print(stderr, "seed {}\n", arguments.seed);
+  if (arguments.spoiled > 0) return spoiled_survey(arguments);
+  auto rows = nlohmann::ordered_json::array();
+  if (!arguments.json)
+    fmt::print("{:36} {:>5} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>7} {:>7} {:>7} {:>8}\n", "tour", "seeds",
+               "refused", "markers", "m", "RMS mm", "worst mm", "bound mm", "x bound", "NEES", "x fix",
+               "solve s");
+  for (const SurveyScenario& scenario : survey_scenarios()) {
+    if (scenario.name.find(arguments.only) == std::string::npos) continue;
+    const SurveyFigures figures = figures_of(scenario, arguments);
+    rows.push_back(as_json(figures));
+    if (!arguments.json) print_line(figures);
+  }
+  if (arguments.json) fmt::print("{}\n", rows.dump(2));
+  return done;
+}
+
+}  // namespace
+
+Command bench_survey_command(CLI::App& bench) {
+  const auto arguments = std::make_shared<SurveyBenchArguments>();
+  CLI::App* command = bench.add_subcommand("survey", "Errors, consistency and time of surveys by driving");
+  command->add_option("--seeds", arguments->seeds, "Worlds for each tour")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->seed, "First seed")->capture_default_str();
+  command->add_option("--only", arguments->only, "Tours whose names contain this");
+  command
+      ->add_option("--spoiled", arguments->spoiled,
+                   "Instead: so many logs with something wrong in them; exit 1 if one gives a wrong registry")
+      ->check(CLI::Range(0, 1000000));
+  command->add_flag("--json", arguments->json, "Results as JSON");
+  return {command, [arguments] { return bench_survey(*arguments); }};
+}
+
+}  // namespace lodestar

@@ -1,0 +1,83 @@
+#include "app/navigation/background_planner.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace lodestar {
+
+BackgroundPlanner::BackgroundPlanner(const OccupancyMap& map, const TripPlannerOptions& options,
+                                     const PlanArrivalOptions& arrival)
+    : robot_(options.planner), arrival_(arrival) {
+  const auto field = std::make_shared<const ObstacleField>(map);
+  forward_clearance_ = clearance_on(field);
+  planner_.emplace(field, options);
+}
+
+BackgroundPlanner::Clearance BackgroundPlanner::clearance_on(
+    std::shared_ptr<const ObstacleField> field) const {
+  return robot_.footprint ? std::make_shared<const ForwardClearance>(std::move(field), *robot_.footprint)
+                          : std::make_shared<const ForwardClearance>(std::move(field), robot_.radius_m);
+}
+
+template <typename Awaited, typename Result>
+bool BackgroundPlanner::has_arrived(const Awaited& awaited, const std::future<Result>& result) const {
+  if (step_ < awaited.due) return false;
+  return arrival_.waits || result.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+bool BackgroundPlanner::begin_step(std::span<const Vec2> blind_m) {
+  ++step_;
+  if (map_ && has_arrived(*map_, map_->clearance)) {
+    std::future<Clearance> clearance = std::move(map_->clearance);
+    map_.reset();
+    forward_clearance_ = clearance.get();
+  }
+  bool is_changed = std::exchange(review_is_due_, false);
+  if (next_map_ && !map_) {
+    prepare_next_map(blind_m);
+    is_changed = true;
+  }
+  return is_changed;
+}
+
+void BackgroundPlanner::prepare_next_map(std::span<const Vec2> blind_m) {
+  auto prepare = [this, map = std::move(*next_map_),
+                  blind = std::vector<Vec2>(blind_m.begin(), blind_m.end())]() mutable {
+    const auto field = std::make_shared<const ObstacleField>(std::move(map));
+    planner_->use_map(field, blind);
+    return clearance_on(field);
+  };
+  next_map_.reset();
+  map_ = {.clearance = worker_.run(std::move(prepare)), .due = step_ + arrival_.steps};
+  if (plan_) plan_->is_on_old_map = true;
+}
+
+void BackgroundPlanner::ask(TripQuery query) {
+  drop();
+  PlanRequest request = query.request;
+  std::stop_source dropped;
+  auto plan = [this, query = std::move(query), is_dropped = dropped.get_token()] {
+    return is_dropped.stop_requested() ? TripPlan{PathNotFound{}, std::nullopt} : planner_->plan(query);
+  };
+  plan_ = {.request = std::move(request),
+           .answer = worker_.run(std::move(plan)),
+           .dropped = std::move(dropped),
+           .due = step_ + arrival_.steps};
+}
+
+/// On a robot, the worker skips a dropped plan that it has not begun: the next one must not wait for it. In a
+/// replay it makes all of them, as the planner keeps its margins from one to the next.
+void BackgroundPlanner::drop() {
+  if (plan_ && !arrival_.waits) plan_->dropped.request_stop();
+  plan_.reset();
+}
+
+std::optional<TripPlan> BackgroundPlanner::take() {
+  if (!plan_ || !has_arrived(*plan_, plan_->answer)) return std::nullopt;
+  AwaitedPlan arrived = std::move(*plan_);
+  plan_.reset();
+  review_is_due_ = arrived.is_on_old_map;
+  return arrived.answer.get();
+}
+
+}  // namespace lodestar

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "localization/filter/belief.hpp"
+
+// The robot's pose as a belief has it, for the corrections of belief.cpp and belief_keyframe.cpp.
+namespace lodestar {
+
+/// The robot's pose (x_m, y_m, yaw_rad): that of the readings, and their lag times the velocity.
+Eigen::Vector3d pose_of(const Belief& belief);
+
+/// Its derivative by the state. That of the velocity's direction is left out: the lag's way is 1 cm at most.
+Eigen::Matrix<double, 3, 13> pose_by_state(const Belief& belief);
+
+/// Covariance between the robot's pose and the one that the readings give: of their rounding, and of their
+/// jitter in time. It is independent at each time and must not accumulate along the way, as it would in
+/// moved().
+Eigen::Matrix3d reading_covariance(const Belief& belief, const PoseFilterOptions& options);
+
+}  // namespace lodestar

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planning/corners.hpp"
+#include "planning/tile_distances.hpp"
+
+namespace lodestar {
+
+/// A point where a path may turn; one without a corner lies on open ground, where it may turn either way.
+struct TurnPlace {
+  Vec2 position = Vec2::Zero();
+  std::optional<Vec2> corner;
+};
+
+/// Chooses, on maps with very many corners, the turn points that are worth a search: those where a path must
+/// bend, a fraction of the radius apart, in the order of the length of the shortest path through each. That
+/// length is measured over tiles, in both directions, with obstacles: much sharper than an ellipse about
+/// start and goal. Memory is kept between queries.
+class TurnPointChoice {
+ public:
+  /// Space and turn points must outlive it.
+  TurnPointChoice(const CollisionChecker& space, std::span<const TurnPoint> turn_points);
+
+  /// For paths from the first to the last of the known points of at most this length. Without turns counted,
+  /// only tight points. At most `most`; valid until the next call.
+  const std::vector<TurnPlace>& choose(std::span<const Vec2> known, double longest_cells, bool counts_turns,
+                                       std::size_t most);
+
+  /// After choose(): the length over tiles to the start and to the goal; a large one where there is none.
+  [[nodiscard]] double to_start_cells(const Vec2& point) const { return measured(from_start_, point); }
+  [[nodiscard]] double to_goal_cells(const Vec2& point) const { return measured(from_goal_, point); }
+
+  /// Bounds between a length over tiles and that of a straight or any-angle path.
+  [[nodiscard]] double at_least_cells(double over_tiles) const;
+  [[nodiscard]] double at_most_cells(double straight) const;
+
+ private:
+  struct Ranked {
+    std::int32_t through = 0;  ///< length of the shortest path through it, in eighths of a tile's side
+    bool tight = false;
+    std::uint32_t index = 0;  ///< of the turn point, or of the tile
+  };
+  struct Earlier;
+
+  [[nodiscard]] double measured(const TileDistances& distances, const Vec2& point) const;
+  void measure(const Vec2& start, const Vec2& goal, double longest_cells);
+  void rank(bool counts_turns, double longest_cells);
+  void choose_corners(std::size_t most);
+  void choose_open(std::size_t most, double longest_cells);
+  [[nodiscard]] std::optional<std::int32_t> through(Cell tile, double longest_cells) const;
+  [[nodiscard]] bool is_apart(const TurnPoint& point) const;
+  [[nodiscard]] bool lets_bend(const TurnPoint& point) const;
+
+  const CollisionChecker& space_;
+  std::span<const TurnPoint> turn_points_;
+  TileMap tiles_;
+  TileDistances from_start_;
+  TileDistances from_goal_;
+  std::vector<Ranked> ranked_;
+  std::vector<TurnPlace> chosen_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,302 @@
+#include "planning/two_way_turn_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+/// The cost to the goal is that of an actual path, which another turn into it may improve by about this much.
+constexpr double improvement_s = 1.5;
+
+}  // namespace
+
+/// Least total first; ties by place and origin, so that the search is deterministic.
+struct TwoWayTurnSearch::Later {
+  bool operator()(const Open& a, const Open& b) const {
+    if (a.total != b.total) return a.total > b.total;
+    return a.place != b.place ? a.place > b.place : a.from > b.from;
+  }
+};
+
+TwoWayTurnSearch::TwoWayTurnSearch(const CollisionChecker& space, std::span<const TurnPoint> turn_points,
+                                   const TurnSearchLimits& limits)
+    : space_(space), limits_(limits), choice_(space, turn_points) {}
+
+TurnPath TwoWayTurnSearch::find(std::span<const Vec2> known, const EndHeadings& headings,
+                                const PathCost& cost) {
+  cost_ = &cost;
+  headings_ = headings;
+  const double known_cost = cost.path(known, headings);
+  limit_ = known_cost * (1.0 - negligible_saving);
+  work_ = 0;
+  expanded_ = 0;
+  complete_.clear();
+  gather_places(known);
+  search_backwards();
+  search_forwards();
+  TurnPath found = best_paths();
+  if (found.points.empty()) return {{known.begin(), known.end()}, known_cost, expanded_};
+  found.expanded = expanded_;
+  return found;
+}
+
+/// The cheapest path, and the next ones that turn at clearly different places.
+TurnPath TwoWayTurnSearch::best_paths() {
+  constexpr std::size_t most = 4;
+  std::ranges::sort(complete_, [](const Open& a, const Open& b) { return Later{}(b, a); });
+  TurnPath found;
+  const double apart = 4.0 * space_.radius_cells();
+  const auto is_like = [&](const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+    return std::ranges::equal(a, b, [&](const Vec2& p, const Vec2& q) { return (p - q).norm() < apart; });
+  };
+  for (const Open& each : complete_) {
+    std::vector<Vec2> points = points_over(each.from);
+    if (found.points.empty()) {
+      found.points = std::move(points);
+      found.cost = each.total;
+      continue;
+    }
+    if (is_like(points, found.points) ||
+        std::ranges::any_of(found.others, [&](const auto& other) { return is_like(points, other); }))
+      continue;
+    if (found.others.size() + 1 >= most) break;
+    found.others.push_back(std::move(points));
+  }
+  return found;
+}
+
+void TwoWayTurnSearch::gather_places(std::span<const Vec2> known) {
+  const std::vector<TurnPlace>& chosen =
+      choice_.choose(known, cost_->longest(limit_), cost_->counts_turns(), limits_.candidates);
+  places_.clear();
+  add_place({known.back(), std::nullopt});
+  add_place({known.front(), std::nullopt});
+  for (const Vec2& point : known.subspan(1, known.size() - 2)) add_place({point, std::nullopt});
+  for (const TurnPlace& place : chosen) add_place(place);
+  legs_.resize(std::max(legs_.size(), places_.size()));
+  for (std::vector<Leg>& legs : legs_) legs.clear();
+  sights_.assign(places_.size() * places_.size(), Sight::unknown);
+}
+
+void TwoWayTurnSearch::add_place(const TurnPlace& at) {
+  const Vec2& position = at.position;
+  Place place{.position = position, .corner = at.corner};
+  place.to_start_cells = choice_.to_start_cells(position);
+  place.to_goal_cells = choice_.to_goal_cells(position);
+  const auto least = [&](std::uint32_t end, double over_tiles) {
+    if (places_.size() <= end) return 0.0;
+    const double straight = (position - places_[end].position).norm();
+    return cost_->at_least(std::max(straight, choice_.at_least_cells(over_tiles)));
+  };
+  place.least_to_goal = least(goal, place.to_goal_cells);
+  place.least_from_start = least(start, place.to_start_cells);
+  if (places_.size() > start && place.least_from_start + place.least_to_goal >= limit_) return;
+  places_.push_back(place);
+}
+
+/// Listed when a place is expanded first.
+const std::vector<TwoWayTurnSearch::Leg>& TwoWayTurnSearch::legs_from(std::uint32_t place) {
+  std::vector<Leg>& legs = legs_[place];
+  if (!legs.empty()) return legs;
+  const Place& from = places_[place];
+  for (std::uint32_t to = 0; to < places_.size(); ++to) {
+    const Vec2 way = places_[to].position - from.position;
+    const double length_cells = way.norm();
+    if (to == place || way.isZero(0.0) || !may_see(from, places_[to], length_cells)) continue;
+    Sight& sight = sight_between(place, to);
+    if (sight == Sight::unknown)
+      sight = space_.is_surely_blocked(from.position, places_[to].position) ? Sight::blocked : Sight::perhaps;
+    if (sight == Sight::blocked) continue;
+    legs.push_back({.cost = cost_->at_least(length_cells),
+                    .heading_rad = cost_->counts_turns() ? heading_of(way) : 0.0,
+                    .to = to});
+  }
+  work_ += 2 * places_.size() + 10 * legs.size();
+  return legs;
+}
+
+/// False when the paths over tiles differ by more than a straight leg between the two can.
+bool TwoWayTurnSearch::may_see(const Place& from, const Place& to, double length_cells) const {
+  const double most = choice_.at_most_cells(length_cells);
+  return std::abs(from.to_start_cells - to.to_start_cells) <= most &&
+         std::abs(from.to_goal_cells - to.to_goal_cells) <= most;
+}
+
+/// False for a turn away from the place's corner: such a path could be cut short.
+bool TwoWayTurnSearch::is_taut(const Place& at, const Vec2& from, const Vec2& to) const {
+  if (!at.corner) return true;
+  const Vec2 arrival = at.position - from;
+  const Vec2 way = to - at.position;
+  const Vec2 to_corner = *at.corner - at.position;
+  const double turn = cross(arrival, way);
+  return turn * cross(arrival, to_corner) >= 0.0 && turn * cross(way, to_corner) >= 0.0;
+}
+
+/// Each line of sight is checked once.
+bool TwoWayTurnSearch::sees(std::uint32_t from, std::uint32_t to) {
+  Sight& sight = sight_between(from, to);
+  if (sight == Sight::unknown || sight == Sight::perhaps) {
+    const Vec2& begin = places_[from].position;
+    const Vec2& end = places_[to].position;
+    constexpr std::size_t units = 30;
+    work_ += units + static_cast<std::size_t>((end - begin).norm());
+    sight = space_.along(begin, end) ? Sight::clear : Sight::blocked;
+  }
+  return sight == Sight::clear;
+}
+
+/// What a clear leg costs above its least cost; nothing when it is blocked.
+std::optional<double> TwoWayTurnSearch::extra_cost(std::uint32_t from, std::uint32_t to) {
+  if (!sees(from, to)) return std::nullopt;
+  if (!cost_->counts_cells()) return 0.0;
+  const Vec2& begin = places_[from].position;
+  const Vec2& end = places_[to].position;
+  const double length_cells = (end - begin).norm();
+  work_ += static_cast<std::size_t>(length_cells);
+  return cost_->leg(begin, end) - cost_->at_least(length_cells);
+}
+
+void TwoWayTurnSearch::push(const Open& open) {
+  open_.push_back(open);
+  std::ranges::push_heap(open_, Later{});
+}
+
+TwoWayTurnSearch::Open TwoWayTurnSearch::pop() {
+  const Open open = open_.front();
+  std::ranges::pop_heap(open_, Later{});
+  open_.pop_back();
+  return open;
+}
+
+/// Nine tenths of the work at most.
+void TwoWayTurnSearch::search_backwards() {
+  open_.clear();
+  places_[goal].next = goal;
+  expand_backwards(goal);
+  while (!open_.empty() && work_ < limits_.work / 10 * 9) {
+    Open next = pop();
+    Place& place = places_[next.place];
+    if (place.next != none) continue;
+    if (!next.looked_at) {
+      const std::optional<double> extra = extra_cost(next.place, next.from);
+      if (!extra) continue;
+      next.looked_at = true;
+      next.cost += *extra;
+      next.total += *extra;
+      if (*extra > 0.0) {
+        push(next);
+        continue;
+      }
+    }
+    place.next = next.from;
+    place.cost_to_goal = next.cost;
+    place.heading_on_rad = next.heading_rad;
+    if (next.place != start) expand_backwards(next.place);
+  }
+}
+
+void TwoWayTurnSearch::expand_backwards(std::uint32_t place) {
+  const Place& to = places_[place];
+  const std::vector<Leg>& legs = legs_from(place);
+  work_ += legs.size();
+  ++expanded_;
+  for (const Leg& leg : legs) {
+    const Place& from = places_[leg.to];
+    if (from.next != none) continue;
+    Open open{.cost = to.cost_to_goal + leg.cost, .place = leg.to, .from = place};
+    if (open.cost + from.least_from_start >= limit_) continue;
+    if (place != goal && !is_taut(to, from.position, places_[to.next].position)) continue;
+    if (cost_->counts_turns()) {
+      open.heading_rad = wrap_angle(leg.heading_rad + std::numbers::pi);
+      open.cost += turn_at(place, open.heading_rad);
+    }
+    open.total = open.cost;
+    if (open.cost + from.least_from_start < limit_) push(open);
+  }
+}
+
+/// Cost of the turn from an arrival into the cheapest path on to the goal.
+double TwoWayTurnSearch::turn_at(std::uint32_t place, double arrival_rad) const {
+  if (place != goal) return cost_->turn(arrival_rad, places_[place].heading_on_rad);
+  return headings_.goal_rad ? cost_->turn(arrival_rad, *headings_.goal_rad) : 0.0;
+}
+
+void TwoWayTurnSearch::search_forwards() {
+  open_.clear();
+  labels_.clear();
+  labels_.push_back({.heading_rad = headings_.start_rad.value_or(0.0), .place = start});
+  expand_forwards(0);
+  const double slack = cost_->counts_turns() ? improvement_s : 0.0;
+  while (!open_.empty() && work_ < limits_.work) {
+    Open next = pop();
+    if (next.total >= limit_ + slack) break;
+    if (is_dominated(next)) continue;
+    if (!next.looked_at) {
+      const std::optional<double> extra = extra_cost(labels_[next.from].place, next.place);
+      if (!extra) continue;
+      next.looked_at = true;
+      next.cost += *extra;
+      next.total += *extra;
+      if (*extra > 0.0) {
+        push(next);
+        continue;
+      }
+    }
+    const auto label = static_cast<std::uint32_t>(labels_.size());
+    Place& at = places_[next.place];
+    labels_.push_back({next.cost, next.heading_rad, next.place, next.from, at.newest_label});
+    at.newest_label = label;
+    limit_ = std::min(limit_, next.total);
+    complete_.push_back({.total = next.total, .place = next.place, .from = label});
+    if (next.place != goal) expand_forwards(label);
+  }
+}
+
+void TwoWayTurnSearch::expand_forwards(std::uint32_t label) {
+  const Label from = labels_[label];
+  const std::vector<Leg>& legs = legs_from(from.place);
+  work_ += legs.size();
+  ++expanded_;
+  const double slack = cost_->counts_turns() ? improvement_s : 0.0;
+  for (const Leg& leg : legs) {
+    const Place& to = places_[leg.to];
+    if (to.next == none || leg.to == start) continue;
+    Open open{.cost = from.cost + leg.cost, .heading_rad = leg.heading_rad, .place = leg.to, .from = label};
+    if (open.cost + to.cost_to_goal >= limit_ + slack) continue;
+    if (sight_between(from.place, leg.to) == Sight::blocked) continue;
+    if (from.place != start &&
+        !is_taut(places_[from.place], places_[labels_[from.parent].place].position, to.position))
+      continue;
+    if (cost_->counts_turns() && (from.place != start || headings_.start_rad))
+      open.cost += cost_->turn(from.heading_rad, leg.heading_rad);
+    open.total =
+        open.cost + to.cost_to_goal + (cost_->counts_turns() ? turn_at(leg.to, leg.heading_rad) : 0.0);
+    if (open.total < limit_ + slack && !is_dominated(open)) push(open);
+  }
+}
+
+/// Is another label of the same place, plus a turn on the spot, as cheap within the slack?
+bool TwoWayTurnSearch::is_dominated(const Open& open) const {
+  const double slack = cost_->counts_turns() && open.place != goal ? as_good_s : 0.0;
+  for (std::uint32_t i = places_[open.place].newest_label; i != none; i = labels_[i].older_label) {
+    if (labels_[i].cost + cost_->turn(labels_[i].heading_rad, open.heading_rad) <= open.cost + slack)
+      return true;
+  }
+  return false;
+}
+
+/// The way to a label and its place's cheapest path on.
+std::vector<Vec2> TwoWayTurnSearch::points_over(std::uint32_t label) const {
+  std::vector<Vec2> points;
+  for (std::uint32_t i = label; i != none; i = labels_[i].parent)
+    points.push_back(places_[labels_[i].place].position);
+  std::ranges::reverse(points);
+  for (std::uint32_t place = labels_[label].place; place != goal;) {
+    place = places_[place].next;
+    points.push_back(places_[place].position);
+  }
+  return points;
+}
+
+}  // namespace lodestar

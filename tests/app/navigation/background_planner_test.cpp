@@ -1,0 +1,259 @@
+#include "app/navigation/background_planner.hpp"
+
+#include <gtest/gtest.h>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/app/navigation/lab.hpp"
+
+namespace lodestar {
+namespace {
+
+const Vec2 near_m{2.2, 5.0};
+const Vec2 far_m{13.0, 2.0};
+
+TripPlannerOptions planner_options() {
+  const NavigationOptions options = navigation_options(lab().robot);
+  return {.planner = options.planner, .route = options.route, .drive = options.drive};
+}
+
+TripQuery query_to(const Vec2& goal_m) {
+  return {.request = {.kind = PlanKind::new_goal, .goal_m = goal_m},
+          .trip = {RotateThenDrive({}, std::nullopt, planner_options().drive), std::nullopt, false},
+          .map_from_base = lab().start};
+}
+
+OccupancyMap with_wall(OccupancyMap map, double x_m) {
+  for (double y_m = 0.0; y_m < 7.4; y_m += 0.5 * map.resolution_m)
+    map.cells[map.index(map.cell_at({x_m, y_m}))] = OccupancyMap::occupied;
+  return map;
+}
+
+/// The steps until the awaited plan is taken; its own number counts too.
+int steps_until_taken(BackgroundPlanner& planner, std::optional<TripPlan>& plan) {
+  for (int steps = 1;; ++steps) {
+    planner.begin_step({});
+    if (plan = planner.take(); plan) return steps;
+  }
+}
+
+TEST(TaskThread, does_its_tasks_in_turn_and_hands_on_what_they_throw) {
+  TaskThread worker;
+  std::vector<int> done;
+  worker.run([&] { done.push_back(1); });
+  std::future<void> failed = worker.run([&] { throw std::runtime_error("no memory"); });
+  std::future<int> last = worker.run([&] {
+    done.push_back(2);
+    return 3;
+  });
+  EXPECT_THROW(failed.get(), std::runtime_error);
+  EXPECT_EQ(last.get(), 3);
+  EXPECT_EQ(done, (std::vector{1, 2}));
+}
+
+TEST(BackgroundPlanner, has_a_plan_arrive_at_the_stated_step_however_long_it_takes) {
+  for (const std::uint64_t steps : {0U, 1U, 5U, 12U}) {
+    BackgroundPlanner planner(lab().map.map, planner_options(), {.steps = steps, .waits = true});
+    planner.begin_step({});
+    planner.ask(query_to(far_m));
+    std::optional<TripPlan> plan;
+    if (steps == 0) {
+      plan = planner.take();
+      ASSERT_TRUE(plan);
+    } else {
+      EXPECT_FALSE(planner.take());
+      EXPECT_EQ(steps_until_taken(planner, plan), static_cast<int>(steps));
+    }
+    ASSERT_TRUE(plan->update);
+    EXPECT_EQ(plan->update->route.path.waypoints_m.back(), far_m);
+  }
+}
+
+TEST(BackgroundPlanner, that_does_not_wait_hands_out_no_plan_before_its_step) {
+  BackgroundPlanner planner(lab().map.map, planner_options(), {.steps = 5, .waits = false});
+  planner.begin_step({});
+  planner.ask(query_to(near_m));
+  std::optional<TripPlan> plan;
+  for (int step = 0; !plan; ++step) {
+    plan = planner.take();
+    ASSERT_TRUE(!plan || step >= 5) << step;
+    planner.begin_step({});
+    std::this_thread::yield();
+  }
+  EXPECT_TRUE(std::holds_alternative<PathFound>(plan->answer));
+}
+
+TEST(BackgroundPlanner, says_why_there_is_no_path) {
+  BackgroundPlanner planner(with_wall(lab().map.map, 8.9), planner_options(), {});
+  planner.ask(query_to(far_m));
+  std::optional<TripPlan> plan;
+  steps_until_taken(planner, plan);
+  EXPECT_TRUE(std::holds_alternative<PathNotFound>(plan->answer));
+  ASSERT_TRUE(plan->update);
+  EXPECT_EQ(plan->update->failure, PlanFailure::no_path);
+}
+
+TEST(BackgroundPlanner, answers_only_the_newest_request) {
+  BackgroundPlanner planner(lab().map.map, planner_options(), {});
+  planner.ask(query_to(near_m));
+  planner.begin_step({});
+  planner.ask(query_to(far_m));
+  EXPECT_FALSE(planner.awaits(query_to(near_m).request));
+  EXPECT_TRUE(planner.awaits(query_to(far_m).request));
+  std::optional<TripPlan> plan;
+  EXPECT_EQ(steps_until_taken(planner, plan), 5);
+  EXPECT_EQ(plan->update->route.path.waypoints_m.back(), far_m);
+}
+
+TEST(BackgroundPlanner, never_hands_out_a_dropped_plan) {
+  BackgroundPlanner planner(lab().map.map, planner_options(), {});
+  planner.ask(query_to(near_m));
+  planner.drop();
+  for (int step = 0; step < 20; ++step) {
+    planner.begin_step({});
+    EXPECT_FALSE(planner.take());
+  }
+}
+
+TEST(BackgroundPlanner, plans_on_a_new_map_and_has_what_was_asked_before_reviewed) {
+  const OccupancyMap map = lab().map.map;
+  BackgroundPlanner planner(map, planner_options(), {});
+  const Pose2 towards_wall{{8.0, 3.4}, 0.0};
+  const double before_m = planner.forward_clearance().ahead_m(towards_wall, 3.0);
+  planner.ask(query_to(far_m));
+  planner.use_map(with_wall(map, 8.9));
+  EXPECT_TRUE(planner.begin_step({})) << "the map is another from here on";
+  std::optional<TripPlan> plan;
+  EXPECT_EQ(steps_until_taken(planner, plan), 4);
+  EXPECT_TRUE(std::holds_alternative<PathFound>(plan->answer)) << "asked before the wall was known";
+  EXPECT_EQ(planner.forward_clearance().ahead_m(towards_wall, 3.0), before_m);
+  EXPECT_TRUE(planner.begin_step({})) << "that plan needs a review";
+  EXPECT_LT(planner.forward_clearance().ahead_m(towards_wall, 3.0), before_m);
+  EXPECT_FALSE(planner.begin_step({}));
+  planner.ask(query_to(far_m));
+  steps_until_taken(planner, plan);
+  EXPECT_TRUE(std::holds_alternative<PathNotFound>(plan->answer));
+}
+
+TEST(BackgroundPlanner, prepares_only_the_newest_of_many_maps) {
+  const OccupancyMap map = lab().map.map;
+  BackgroundPlanner planner(map, planner_options(), {});
+  int changes = 0;
+  for (int step = 0; step < 10; ++step) {  // one each step, more than are prepared
+    planner.use_map(with_wall(map, step < 9 ? 3.0 : 8.9));
+    changes += planner.begin_step({}) ? 1 : 0;
+  }
+  for (int step = 0; step < 10; ++step) changes += planner.begin_step({}) ? 1 : 0;
+  EXPECT_EQ(changes, 3) << "the first, the newest five steps later, and the last";
+  EXPECT_LT(planner.forward_clearance().ahead_m({{8.0, 3.4}, 0.0}, 3.0), 1.0);
+}
+
+/// A robot in the lab that knows where it is and stands.
+class PlanAwaited : public testing::Test {
+ protected:
+  void SetUp() override { run(100); }
+
+  void run(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      step = navigation.step(sense(world, simulation, base));
+      base.command(step.command);
+      moves = moves || step.command.forward_mps != 0.0 || step.command.turn_radps != 0.0;
+      if (step.reroute) updates.push_back(*step.reroute);
+    }
+  }
+
+  Lab world;
+  Simulation simulation = world.simulation();
+  BaseDriver base{simulation.can()};
+  Navigation navigation{world.known, navigation_options(world.site.robot)};
+  NavigationStep step;
+  std::vector<RouteUpdate> updates;
+  bool moves = false;
+};
+
+TEST_F(PlanAwaited, arrives_the_stated_number_of_steps_after_the_step_that_asked) {
+  navigation.go_to({far_m, std::nullopt});
+  run(5);
+  EXPECT_TRUE(updates.empty());
+  EXPECT_FALSE(moves);
+  run(1);
+  ASSERT_EQ(updates.size(), 1U);
+  EXPECT_EQ(updates.front().change, RouteChange::new_goal);
+  run(5);
+  EXPECT_TRUE(moves);
+}
+
+TEST_F(PlanAwaited, is_dropped_when_the_trip_is_cancelled) {
+  navigation.go_to({far_m, std::nullopt});
+  run(3);
+  navigation.cancel();
+  run(50);
+  EXPECT_TRUE(updates.empty());
+  EXPECT_FALSE(moves);
+}
+
+TEST_F(PlanAwaited, is_dropped_when_the_robot_is_halted) {
+  navigation.go_to({far_m, std::nullopt});
+  run(3);
+  navigation.halt();
+  run(50);
+  EXPECT_TRUE(updates.empty());
+  EXPECT_FALSE(moves);
+}
+
+TEST_F(PlanAwaited, is_asked_for_again_after_a_pause) {
+  navigation.go_to({far_m, std::nullopt});
+  run(3);
+  navigation.pause();
+  run(50);
+  EXPECT_TRUE(updates.empty());
+  EXPECT_FALSE(moves);
+  navigation.resume();
+  run(6);
+  EXPECT_EQ(updates.size(), 1U);
+}
+
+TEST_F(PlanAwaited, to_the_goal_before_is_never_driven) {
+  navigation.go_to({near_m, std::nullopt});
+  run(3);
+  navigation.go_to({far_m, std::nullopt});
+  run(5);
+  EXPECT_TRUE(updates.empty());
+  run(20);
+  ASSERT_EQ(updates.size(), 1U);
+  EXPECT_EQ(updates.front().route.path.waypoints_m.back(), far_m);
+}
+
+TEST_F(PlanAwaited, to_an_occupied_goal_says_so) {
+  navigation.go_to({{0.0, 0.0}, std::nullopt});
+  run(6);
+  ASSERT_EQ(updates.size(), 1U);
+  EXPECT_EQ(updates.front().failure, PlanFailure::goal_occupied);
+  EXPECT_FALSE(moves);
+}
+
+/// Where the robot was in eight seconds with a plan in them.
+std::vector<Vec2> drive_with(PlannerKind planner) {
+  Lab world;
+  Simulation simulation = world.simulation();
+  BaseDriver base(simulation.can());
+  NavigationOptions options = navigation_options(world.site.robot);
+  options.planner.kind = planner;
+  Navigation navigation(world.known, options);
+  std::vector<Vec2> places_m;
+  for (int i = 0; i < 400; ++i) {
+    const NavigationStep step = navigation.step(sense(world, simulation, base));
+    base.command(step.command);
+    if (i == 100) navigation.go_to({far_m, std::nullopt});
+    if (step.estimate) places_m.push_back(step.estimate->map_from_base.position_m);
+  }
+  return places_m;
+}
+
+TEST(Navigation, drives_the_same_again_however_long_its_planner_takes) {
+  EXPECT_EQ(drive_with(PlannerKind::fastest), drive_with(PlannerKind::fastest));
+  EXPECT_EQ(drive_with(PlannerKind::bitstar), drive_with(PlannerKind::bitstar));
+}
+
+}  // namespace
+}  // namespace lodestar
