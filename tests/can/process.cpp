@@ -91,7 +91,8 @@ void Process::listen(const std::stop_token& stop) {
       lines_.push_back({now, begun.substr(0, end)});
       begun.erase(0, end + 1);
     }
-    if (static_cast<std::size_t>(size) < bytes.size()) read_until_ = before;  // the pipe was empty after `before`
+    if (static_cast<std::size_t>(size) < bytes.size())
+      read_until_ = before;  // the pipe was empty after `before`
   }
   read_until_ = Stamp::max();
 }

@@ -30,8 +30,8 @@ class Process {
 
   void say(const std::string& line);
   void signal(int number) const;
-  /// Its exit code, or minus the signal that ended it, once all its output is here; nothing when it does not end
-  /// in time.
+  /// Its exit code, or minus the signal that ended it, once all its output is here; nothing when it does not
+  /// end in time.
   std::optional<int> wait(Duration longest);
   /// Ends it by SIGTERM and returns all its output.
   std::string end();
