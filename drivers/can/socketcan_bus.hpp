@@ -20,8 +20,9 @@ struct SocketCanOptions {
   Duration check_period = std::chrono::milliseconds(200);
   Duration stalled_after = std::chrono::milliseconds(100);  ///< time without the confirmation of a frame
   int stalled_after_refusals = 3;                           ///< consecutive frames refused by the kernel
-  /// A reported bus-off is dropped when frames still arrive this long after the report.
-  Duration bus_off_expires_after = std::chrono::seconds(5);
+  /// A reported bus-off is dropped when frames still arrive this long after the report: longer than any that
+  /// came before it wait to be read, shorter than an operator waits before trying again.
+  Duration bus_off_expires_after = std::chrono::seconds(2);
   /// A frame that is never confirmed blocks its successors no longer than this.
   Duration forget_after = std::chrono::seconds(1);
 };

@@ -73,6 +73,14 @@ TEST_F(Interface, bus_off_until_the_controller_restarts) {
   expect_latched_until_resume("bus-off", back);
 }
 
+/// As an error frame that a bad cable forged: a controller that is off the bus would receive nothing.
+TEST_F(Interface, bus_off_that_is_contradicted_by_frames_is_dropped) {
+  drive();
+  const Stamp forged = monotonic_now();
+  ASSERT_TRUE(shell("cansend vcan0 20000040#0000000000000000"));
+  expect_latched_until_resume("bus-off", forged + 200ms);
+}
+
 TEST_F(Interface, error_passive_makes_it_slow) {
   drive("4.2,5.5");
   const Stamp passive = monotonic_now();
