@@ -10,6 +10,7 @@
 #include "control/behaviour.hpp"
 #include "drivers/base/base_driver.hpp"
 #include "maps/frame.hpp"
+#include "maps/scan.hpp"
 #include "planning/route.hpp"
 
 namespace lodestar {
@@ -46,6 +47,7 @@ struct SensorInput {
   Stamp now;
   std::vector<Frame> frames;
   BaseFeedback base;
+  std::vector<Scan> scans;
 };
 
 /// How exactly a person says where the robot is; by default as with a click on the map.

@@ -129,6 +129,17 @@ void read_base_settings(StrictYaml yaml, Robot& robot) {
   yaml.finish();
 }
 
+void read_scanner(StrictYaml yaml, Robot& robot) {
+  RobotScanner scanner;
+  const double x_m = yaml.number("x_m", -10.0, 10.0);
+  const double y_m = yaml.number("y_m", -10.0, 10.0);
+  scanner.mount.height_m = yaml.number("z_m", 0.0, 3.0);
+  scanner.mount.base_from_scanner = {{x_m, y_m}, wrap_angle(read_angle(yaml, "yaw_deg"))};
+  scanner.protective_deceleration_mps2 = yaml.number("protective_deceleration_mps2", 0.2, 10.0);
+  yaml.finish();
+  robot.scanner = scanner;
+}
+
 void read_arrival(StrictYaml yaml, Robot& robot) {
   robot.arrival_distance_m = yaml.number("distance_m", 0.001, 1.0);
   robot.arrival_heading_rad = radians(yaml.number("heading_deg", 0.1, 90.0));
@@ -212,6 +223,7 @@ Robot load_robot(const std::filesystem::path& file) {
   read_arrival(yaml.mapping("arrival"), robot);
   if (yaml.has("motors")) read_motors(yaml.mapping("motors"), robot);
   if (yaml.has("wheels")) read_wheels(yaml.mapping("wheels"), robot);
+  if (yaml.has("scanner")) read_scanner(yaml.mapping("scanner"), robot);
   if (yaml.has("base")) read_base_settings(yaml.mapping("base"), robot);
   robot.preferred_clearance_m = yaml.number("preferred_clearance_m", 0.0, 5.0);
   if (yaml.has("pass_corners_within_m"))

@@ -13,6 +13,7 @@
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/motion.hpp"
+#include "maps/scan.hpp"
 
 namespace lodestar {
 
@@ -24,6 +25,13 @@ struct BaseSettings {
       modes;  ///< of AgileX: meaning of the control mode's values 0, 1 ...; empty: the model's
   std::filesystem::path file;  ///< and line, for messages
   int line = 0;
+};
+
+/// A laser scanner on the robot, and how hard the robot may brake before what it sees.
+struct RobotScanner {
+  ScannerMount mount;
+  /// Measured on this base and floor: what it reaches whenever the protective field stops it.
+  double protective_deceleration_mps2 = 1.5;
 };
 
 /// The robot, as robot.yaml describes it.
@@ -55,6 +63,7 @@ struct Robot {
   std::optional<double> encoder_step_m;
   std::optional<double> wheel_noise_m_per_sqrt_m;
   BaseSettings base;
+  std::optional<RobotScanner> scanner;
 };
 
 /// How the real base is connected.
