@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/coverage_gaps.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -65,9 +67,14 @@ std::vector<Lane> coverage_lanes(const CollisionChecker& roomy, const CollisionC
   if (!passable.at(start)) return {};
   const Floor floor{roomy, passable, passable.region(start)};
   Eigen::AlignedBox2i free;
-  for (int row = 0; row < map.rows; ++row)
-    for (int column = 0; column < map.columns; ++column)
-      if (floor.has({column, row})) free.extend(Eigen::Vector2i(column, row));
+  std::vector<bool> is_floor(map.cells.size(), false);
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      if (!floor.has({column, row})) continue;
+      is_floor[map.index({column, row})] = true;
+      free.extend(Eigen::Vector2i(column, row));
+    }
+  }
   if (free.isEmpty()) return {};
   const int spacing = std::max(1, static_cast<int>(options.spacing_m / map.resolution_m));
   std::vector<Lane> lanes;
@@ -75,6 +82,10 @@ std::vector<Lane> coverage_lanes(const CollisionChecker& roomy, const CollisionC
     append_line(floor, {true, row}, options, lanes);
   for (const int column : middles_of_strips(free.min().x(), free.max().x(), spacing))
     append_line(floor, {false, column}, options, lanes);
+  // In the open, the next lane is half a spacing away.
+  const double reach_m = 0.5 * options.spacing_m + map.resolution_m;
+  const std::vector<Lane> more = lanes_through_gaps(roomy, is_floor, lanes, reach_m);
+  lanes.insert(lanes.end(), more.begin(), more.end());
   return lanes;
 }
 

@@ -14,14 +14,14 @@ struct Lane {
 
 struct CoverageLanesOptions {
   double spacing_m = 2.0;   ///< between parallel lanes
-  double shortest_m = 0.8;  ///< shorter stretches are left out
+  double shortest_m = 0.8;  ///< shorter stretches are left out, but where no lane comes near
   double longest_m = 4.0;   ///< longer ones are divided
 };
 
 /// Lanes along the map's rows, and others across them along its columns, over all floor where the disc of
 /// `roomy` has room and from which that of `passable` (no larger: it may go through doors) can reach
-/// `start_m`. The pattern that ties a survey together best: a boustrophedon each way. Empty where the start
-/// has no room.
+/// `start_m`. The pattern that ties a survey together best: a boustrophedon each way; and a stretch or a
+/// place in each corner that it leaves out. Empty where the start has no room.
 std::vector<Lane> coverage_lanes(const CollisionChecker& roomy, const CollisionChecker& passable,
                                  const Vec2& start_m, const CoverageLanesOptions& options = {});
 
