@@ -254,9 +254,9 @@ Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOpt
   Belief result = expected;
   result.mean += gain * innovation.error;
   result.mean[2] = wrap_angle(result.mean[2]);
-  // Joseph form: keeps the covariance symmetric and positive, and is correct for any gain.
-  result.covariance = keep * expected.covariance * keep.transpose() +
-                      gain * own_covariance(expected, fix, options) * gain.transpose();
+  // Joseph form: keeps the covariance positive, and is correct for any gain.
+  result.covariance = symmetric(keep * expected.covariance * keep.transpose() +
+                                gain * own_covariance(expected, fix, options) * gain.transpose());
   return result;
 }
 

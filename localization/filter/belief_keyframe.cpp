@@ -85,7 +85,7 @@ Belief corrected(const Belief& belief, const VisualOdometryIncrement& motion, bo
   const WithFramePose::Covariance keep = WithFramePose::Covariance::Identity() - gain * innovation.by_state;
   both.mean += gain * innovation.error;
   both.covariance =
-      (keep * both.covariance * keep.transpose() + gain * motion.covariance * gain.transpose()).eval();
+      symmetric(keep * both.covariance * keep.transpose() + gain * motion.covariance * gain.transpose());
   Belief result = belief;
   result.mean = both.mean.head<13>();
   result.covariance = both.covariance.topLeftCorner<13, 13>();

@@ -16,4 +16,12 @@ Eigen::Matrix<double, 3, 13> pose_by_state(const Belief& belief);
 /// moved().
 Eigen::Matrix3d reading_covariance(const Belief& belief, const PoseFilterOptions& options);
 
+/// Half of what rounding makes two triangles differ by goes to each. Where a correction is sharp along one
+/// direction, the difference would grow fivefold with each, and within seconds the covariance were none.
+template <typename Square>
+typename Square::PlainObject symmetric(const Square& covariance) {
+  const typename Square::PlainObject whole = covariance;
+  return 0.5 * (whole + whole.transpose());
+}
+
 }  // namespace lodestar

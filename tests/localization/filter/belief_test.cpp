@@ -154,5 +154,22 @@ TEST(Belief, takes_fewer_markers_to_err_as_these_did_and_by_more) {
   EXPECT_NEAR(after.covariance(0, 6), -0.5 * 9e-6, 1e-7) << "half of it is in the pose";
 }
 
+/// Else what rounding makes of them grows, on some drives until the covariance is none
+/// (`ExploredReplay`).
+TEST(Belief, covariances_are_symmetric_after_each_correction) {
+  const PoseFilterOptions options;
+  const PlanarFix fix{.covariance = 1e-6 * Eigen::Matrix3d::Identity()};
+  const VisualOdometryIncrement motion{.covariance = 1e-6 * Eigen::Matrix3d::Identity(), .sway_m = 0.003};
+  Belief belief = belief_from(fix, {}, initial_scales(options), options);
+  belief = moved(with_keyframe(belief, motion.sway_m, options), {{}, 0.1, 0.2}, options);
+  belief.covariance(2, 8) += 1e-9;
+  const auto asymmetry = [](const Belief& of) {
+    return (of.covariance - of.covariance.transpose()).cwiseAbs().maxCoeff();
+  };
+  EXPECT_EQ(asymmetry(corrected(belief, fix, options)), 0.0);
+  EXPECT_EQ(asymmetry(corrected(belief, motion, false, options)), 0.0);
+  EXPECT_EQ(asymmetry(corrected(belief, motion, true, options)), 0.0);
+}
+
 }  // namespace
 }  // namespace lodestar
