@@ -68,6 +68,43 @@ std::vector<Vec2> lab_lanes_and_cross() {
   return joined(mower_lanes(15.0, 7.5, 1.5, 0.8), cross_lanes(15.0, 7.5, 2.2, 0.8));
 }
 
+/// Frames in which a marker is seen.
+std::vector<std::size_t> frames_with(int id, const SurveyLog& log) {
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i < log.frames.size(); ++i)
+    if (std::ranges::find(log.frames[i].markers, id, &SightedMarker::id) != log.frames[i].markers.end())
+      frames.push_back(i);
+  return frames;
+}
+
+/// Two markers change places when half of the first one's sightings are done, for a quarter of the drive. Had
+/// they hung the other way round whenever they were seen, nobody could know.
+void swap_two_ids(SurveyLog& log, Random& random) {
+  const auto any_id = [&] {
+    const std::vector<SightedMarker>* markers = nullptr;
+    do markers = &log.frames[random.below(log.frames.size())].markers;
+    while (markers->empty());
+    return (*markers)[random.below(markers->size())].id;
+  };
+  const int a = any_id();
+  int b = a;
+  while (b == a) b = any_id();
+  const std::vector<std::size_t> with_a = frames_with(a, log);
+  const std::size_t begin = with_a[with_a.size() / 2];
+  const std::size_t end = std::min(log.frames.size(), begin + log.frames.size() / 4);
+  for (std::size_t i = begin; i < end; ++i) {
+    for (SightedMarker& marker : log.frames[i].markers) {
+      if (marker.id != a && marker.id != b) continue;
+      marker.id = marker.id == a ? b : a;
+      // What does not belong to the other's dots is left out, as a reader would.
+      MarkerDots kept;
+      for (const MarkerDot& dot : marker.dots)
+        if (has_dot(marker.id, dot.cell)) kept.push_back(dot);
+      marker.dots = kept;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<SurveyScenario> survey_scenarios() {
@@ -137,7 +174,7 @@ std::vector<Spoiling> all_spoilings() {
           Spoiling::lens,       Spoiling::moved_anchor, Spoiling::print_scale};
 }
 
-bool SpoiledTrial::is_silently_wrong() const {
+bool SpoiledTrial::is_wrong() const {
   constexpr double least_probability = 1e-6;
   return !refused && nees > chi_square_quantile(1.0 - least_probability, freedom);
 }
@@ -158,29 +195,16 @@ SpoiledTrial try_spoiled(Spoiling spoiling, std::uint64_t seed) {
   SurveyDrive drive = drive_survey(world, scenario.way_m, seed);
   Anchors anchors{.anchors = corner_anchors(world.markers, scenario, seed),
                   .print_scale = {1.0, print_sigma}};
+  std::size_t moved = 0;
+  double moved_m = 0.0;
   if (spoiling == Spoiling::moved_anchor) {
-    auto& anchor = std::get<MarkerAnchor>(anchors.anchors[random.below(anchors.anchors.size())].what);
+    moved = random.below(anchors.anchors.size());
     const double direction = random.uniform(-std::numbers::pi, std::numbers::pi);
-    anchor.position_m += random.uniform(0.0, 0.3) * Vec2(std::cos(direction), std::sin(direction));
+    moved_m = random.uniform(0.0, 0.3);
+    std::get<MarkerAnchor>(anchors.anchors[moved].what).position_m +=
+        moved_m * Vec2(std::cos(direction), std::sin(direction));
   }
-  if (spoiling == Spoiling::swapped_id) {
-    // Two IDs change places in a part of the drive.
-    const int a = world.markers[random.below(world.markers.size())].id;
-    const int b = world.markers[random.below(world.markers.size())].id;
-    const std::size_t frames = drive.log.frames.size();
-    const std::size_t begin = random.below(frames);
-    for (std::size_t i = begin; i < std::min(frames, begin + frames / 4); ++i)
-      for (SightedMarker& marker : drive.log.frames[i].markers) {
-        const int id = marker.id;
-        if (id == a) marker.id = b;
-        if (id == b) marker.id = a;
-        // What does not belong to the other's dots is left out, as a reader would.
-        std::vector<MarkerDot> kept;
-        for (const MarkerDot& dot : marker.dots)
-          if (has_dot(marker.id, dot.cell)) kept.push_back(dot);
-        marker.dots.assign(kept.begin(), kept.end());
-      }
-  }
+  if (spoiling == Spoiling::swapped_id) swap_two_ids(drive.log, random);
   const MarkerSurvey survey =
       survey_markers(std::span(&drive.log, 1), world.camera, world.belief, anchors, SurveyOptions{});
   SpoiledTrial trial{.refused = !survey.flaws.empty()};
@@ -191,6 +215,10 @@ SpoiledTrial try_spoiled(Spoiling spoiling, std::uint64_t seed) {
   const SurveyErrors errors = survey_errors(survey, world.markers);
   trial.nees = errors.nees;
   trial.freedom = errors.freedom;
+  if (spoiling == Spoiling::moved_anchor)
+    trial.is_said_unnoticeable = moved_m < survey.anchor_checks.at(moved).noticeable_m;
+  if (spoiling == Spoiling::print_scale)
+    trial.is_said_unnoticeable = std::abs(options.print_scale - 1.0) < survey.noticeable_print_scale;
   return trial;
 }
 

@@ -46,8 +46,12 @@ struct SpoiledTrial {
   std::string why;
   double nees = 0.0;
   int freedom = 0;
+  /// What was spoiled is smaller than what the survey's report says would have been noticed.
+  bool is_said_unnoticeable = false;
   /// Less likely than 1e-6, and written all the same.
-  [[nodiscard]] bool is_silently_wrong() const;
+  [[nodiscard]] bool is_wrong() const;
+  /// And the report does not say that this might be so.
+  [[nodiscard]] bool is_silently_wrong() const { return is_wrong() && !is_said_unnoticeable; }
 };
 SpoiledTrial try_spoiled(Spoiling spoiling, std::uint64_t seed);
 

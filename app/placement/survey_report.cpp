@@ -116,8 +116,8 @@ std::string text_report(const MarkerSurvey& survey) {
       degrees(angles.yaw_rad));
   text += fmt::format("wheels: left {:.4f}, right {:.4f} of what they report; track {:.4f} m\n",
                       survey.mount.left_scale, survey.mount.right_scale, survey.mount.track_width_m);
-  text += fmt::format("residuals over sigmas squared: dots {:.2f}, wheels {:.2f}\n\n", survey.dots_factor,
-                      survey.wheels_factor);
+  text += fmt::format("residuals over sigmas squared: dots {:.2f}, wheels {:.2f}, anchors {:.2f}\n\n",
+                      survey.dots_factor, survey.wheels_factor, survey.gauge_factor);
   text += "  ID       x m       y m      z m   yaw deg  sigma mm   deg  places\n";
   for (std::size_t m = 0; m < survey.markers.size(); ++m) {
     const RegisteredMarker& marker = survey.markers[m];
@@ -148,6 +148,7 @@ nlohmann::ordered_json json_report(const MarkerSurvey& survey) {
           {"worst_sigma_m", worst_sigma_m(survey)},
           {"dots_factor", survey.dots_factor},
           {"wheels_factor", survey.wheels_factor},
+          {"gauge_factor", survey.gauge_factor},
           {"print_scale", survey.print_scale},
           {"print_scale_sigma", survey.print_scale_sigma},
           {"noticeable_print_scale", finite(survey.noticeable_print_scale)},
@@ -198,9 +199,11 @@ std::string provenance_yaml(const MarkerSurvey& survey, std::span<const SurveyLo
     text += fmt::format("  - {{name: '{}', frames: {}, wheel_readings: {}}}\n", log.name, log.frames.size(),
                         log.wheels.size());
   if (!anchors.empty()) text += fmt::format("anchors: '{}'\n", anchors.filename().string());
-  text += fmt::format("gauge: {}\nkeyframes: {}\ndots_factor: {:.4f}\nwheels_factor: {:.4f}\n",
-                      survey.gauge == SurveyGauge::anchored ? "anchored" : "free", survey.keyframes,
-                      survey.dots_factor, survey.wheels_factor);
+  text += fmt::format(
+      "gauge: {}\nkeyframes: {}\ndots_factor: {:.4f}\nwheels_factor: {:.4f}\n"
+      "gauge_factor: {:.4f}\n",
+      survey.gauge == SurveyGauge::anchored ? "anchored" : "free", survey.keyframes, survey.dots_factor,
+      survey.wheels_factor, survey.gauge_factor);
   text +=
       fmt::format("print_scale: {{scale: {:.7f}, sigma: {:.7f}}}\nk1_off: {{value: {:.6f}, sigma: {:.6f}}}\n",
                   survey.print_scale, survey.print_scale_sigma, survey.k1_off, survey.k1_sigma);

@@ -1,5 +1,6 @@
 #include "localization/survey/anchor_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -7,10 +8,24 @@
 #include "maps/chi_square.hpp"
 
 namespace lodestar {
+
+bool holds(const Anchors& anchors) {
+  return std::ranges::any_of(anchors.anchors, [](const Anchor& anchor) {
+    return !std::holds_alternative<DistanceAnchor>(anchor.what);
+  });
+}
+
 namespace {
 
 std::string in_words(const Anchor& anchor) {
   return fmt::format("{} (line {})", to_string(anchor), anchor.line);
+}
+
+/// Numbers that anchors give beyond the three that place and turn the registry.
+int spare_numbers(const SurveyProblem& problem, const SurveyBundle& bundle) {
+  int numbers = 0;
+  for (const ResidualSum& sum : bundle.sums_by_anchor()) numbers += sum.count;
+  return numbers - (holds(problem.anchors) ? 3 : 0);
 }
 
 double sigma_of(const Anchor& anchor) {
@@ -19,41 +34,42 @@ double sigma_of(const Anchor& anchor) {
 
 }  // namespace
 
+SurveyFit fit_of_anchors(const SurveyProblem& problem, const SurveyBundle& bundle, double chi2_without) {
+  return {bundle.chi2() - chi2_without, static_cast<double>(spare_numbers(problem, bundle))};
+}
+
 std::optional<SurveyRefusal> false_anchor(const SurveyProblem& problem, const SurveyBundle& bundle,
-                                          double cost) {
-  int equations = 0;
+                                          const SurveyFit& fit) {
+  const int spare = spare_numbers(problem, bundle);
+  if (spare <= 0 || fit.chi2 <= chi_square_quantile(1.0 - problem.options.least_probability, spare))
+    return std::nullopt;
   double worst = 0.0;
   std::string culprit;
   const std::vector<ResidualSum> sums = bundle.sums_by_anchor();
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    equations += sums[i].count;
     if (sums[i].chi2 / sums[i].count <= worst) continue;
     worst = sums[i].chi2 / sums[i].count;
-    const Anchor& anchor = problem.anchors.anchors[problem.placed[i].anchor];
-    culprit = in_words(anchor);
+    culprit = in_words(problem.anchors.anchors[problem.placed[i].anchor]);
   }
-  if (equations == 0) return std::nullopt;
-  if (cost <= chi_square_quantile(1.0 - problem.options.least_probability, equations)) return std::nullopt;
   return SurveyRefusal{
       SurveyFlaw::anchors_contradict,
-      fmt::format("anchors and survey are apart by chi2 {:.1f} for {} numbers; the farthest is {}, off by "
-                  "{:.1f} sigmas",
-                  cost, equations, culprit, std::sqrt(worst))};
+      fmt::format("anchors and survey are apart by chi2 {:.1f} for {} spare numbers; the farthest is {}, off "
+                  "by {:.1f} sigmas",
+                  fit.chi2, spare, culprit, std::sqrt(worst))};
 }
 
 void check_anchors(const SurveyProblem& problem, const SurveyBundle& bundle,
                    const std::vector<double>& redundancies, MarkerSurvey& survey) {
-  int numbers = 0;
-  for (const ResidualSum& sum : bundle.sums_by_anchor()) numbers += sum.count;
+  const int spare = spare_numbers(problem, bundle);
   const double probability = problem.options.least_probability;
   for (std::size_t i = 0; i < redundancies.size(); ++i) {
     const Anchor& anchor = problem.anchors.anchors[problem.placed[i].anchor];
     survey.anchor_checks.push_back(
-        {in_words(anchor), sigma_of(anchor) * least_noticeable(redundancies[i], probability, numbers)});
+        {in_words(anchor), sigma_of(anchor) * least_noticeable(redundancies[i], probability, spare)});
   }
-  const double believed = problem.anchors.print_scale.sigma;
+  const double believed = std::sqrt(survey.gauge_factor) * problem.anchors.print_scale.sigma;
   survey.noticeable_print_scale =
-      believed * least_noticeable(1.0 - square(survey.print_scale_sigma / believed), probability, numbers);
+      believed * least_noticeable(1.0 - square(survey.print_scale_sigma / believed), probability, spare);
 }
 
 }  // namespace lodestar

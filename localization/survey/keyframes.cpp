@@ -98,6 +98,30 @@ class Chooser {
   std::set<std::pair<std::size_t, std::size_t>> kept_;
 };
 
+/// No frame beside this one shows the marker, though one is near enough to.
+bool is_seen_once(const SurveyLog& log, std::size_t at, int id) {
+  constexpr Duration near = std::chrono::milliseconds(250);
+  bool is_looked_for = false;
+  for (const std::size_t beside : {at - 1, at + 1}) {
+    if (beside >= log.frames.size()) continue;  // at - 1 of the first wraps
+    const SurveyFrame& frame = log.frames[beside];
+    if (std::chrono::abs(frame.stamp - log.frames[at].stamp) > near) continue;
+    if (std::ranges::find(frame.markers, id, &SightedMarker::id) != frame.markers.end()) return false;
+    is_looked_for = true;
+  }
+  return is_looked_for;
+}
+
+/// IDs that are seen longer somewhere: elsewhere one frame alone of theirs is a misreading.
+std::set<int> ids_seen_longer(std::span<const SurveyLog> logs) {
+  std::set<int> ids;
+  for (const SurveyLog& log : logs)
+    for (std::size_t i = 0; i < log.frames.size(); ++i)
+      for (const SightedMarker& marker : log.frames[i].markers)
+        if (!ids.contains(marker.id) && !is_seen_once(log, i, marker.id)) ids.insert(marker.id);
+  return ids;
+}
+
 void number_markers(SurveyKeyframes& keyframes) {
   std::set<int> ids;
   for (const int id : keyframes.ids) ids.insert(id);
@@ -118,6 +142,7 @@ SurveyKeyframes choose_keyframes(std::span<const SurveyLog> logs, std::span<cons
                                  const CameraModel& camera, const SurveyBelief& belief,
                                  const SurveyOptions& options) {
   SurveyKeyframes result;
+  const std::set<int> seen_longer = ids_seen_longer(logs);
   const std::vector<std::vector<std::size_t>> chosen =
       Chooser(logs, kept, options, belief).of_all(options.most_keyframes);
   for (std::size_t log = 0; log < logs.size(); ++log) {
@@ -129,6 +154,7 @@ SurveyKeyframes choose_keyframes(std::span<const SurveyLog> logs, std::span<cons
       std::vector<int> ids;
       for (const SightedMarker& marker : frame.markers) {
         if (static_cast<int>(marker.dots.size()) < options.least_dots) continue;
+        if (seen_longer.contains(marker.id) && is_seen_once(logs[log], i, marker.id)) continue;
         if (auto view = level_view(marker, camera, belief.base_from_camera)) {
           keyframe.sightings.push_back(std::move(*view));
           ids.push_back(marker.id);

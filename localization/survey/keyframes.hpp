@@ -36,7 +36,8 @@ struct SurveyKeyframes {
 };
 
 /// Frames far enough apart, in all logs. `kept` are stamps (with their logs) near which a frame is kept in
-/// any case.
+/// any case. A marker that one frame shows and those beside it do not is left out of it: that is a
+/// misreading.
 struct KeptStamp {
   std::size_t log = 0;
   Stamp stamp;

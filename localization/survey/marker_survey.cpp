@@ -86,6 +86,20 @@ bool solve_with_factors(SurveyBundle& bundle, MarkerSurvey& survey) {
   return bundle.solve();
 }
 
+/// Adds the anchors, and lets their misfit say how much worse than said they and the print were measured:
+/// what is too little to refuse is not too little to doubt.
+bool solve_with_anchors(const SurveyProblem& problem, SurveyBundle& bundle, MarkerSurvey& survey) {
+  const double chi2_without = bundle.chi2();
+  bundle.place_registry();
+  bundle.add_anchors();
+  if (!bundle.solve()) return false;
+  const SurveyFit fit = fit_of_anchors(problem, bundle, chi2_without);
+  if (const auto refusal = false_anchor(problem, bundle, fit)) survey.flaws.push_back(*refusal);
+  survey.gauge_factor = std::max(1.0, fit.factor());
+  bundle.set_gauge_factor(survey.gauge_factor);
+  return bundle.solve();
+}
+
 /// Squared residuals of each marker's dots over their number.
 std::vector<double> dots_fit(const SurveyKeyframes& keyframes, const SurveyBundle& bundle) {
   std::vector<ResidualSum> sums(keyframes.ids.size());
@@ -124,12 +138,6 @@ void refuse_contradictions(const SurveyKeyframes& keyframes, const SurveyOptions
                      "sides, or a clock of their own",
                      std::sqrt(survey.wheels_factor), survey.wheels_factor)});
   }
-}
-
-bool holds(const Anchors& anchors) {
-  return std::ranges::any_of(anchors.anchors, [](const Anchor& anchor) {
-    return !std::holds_alternative<DistanceAnchor>(anchor.what);
-  });
 }
 
 void take_registry(const SurveyKeyframes& keyframes, const SurveyState& state, const SurveyBelief& belief,
@@ -248,7 +256,8 @@ MarkerSurvey survey_markers(std::span<const SurveyLog> logs, const CameraModel& 
   const auto refuse = [&flaws](SurveyFlaw flaw, std::string_view found) {
     flaws.push_back({flaw, fmt::format("{}", found)});
   };
-  SurveyKeyframes keyframes = choose_keyframes(logs, kept_stamps(anchors, logs), camera, belief, options);
+  const SurveyKeyframes keyframes =
+      choose_keyframes(logs, kept_stamps(anchors, logs), camera, belief, options);
   if (keyframes.frames.empty()) {
     refuse(SurveyFlaw::too_few_sightings, "no frame shows a marker");
     return survey;
@@ -261,13 +270,12 @@ MarkerSurvey survey_markers(std::span<const SurveyLog> logs, const CameraModel& 
       place_anchors(anchors, logs, keyframes, belief.track_width_m, flaws);
   if (!flaws.empty()) return survey;
 
-  std::optional<SurveyStart> start = start_survey(keyframes, belief, options);
+  const std::optional<SurveyStart> start = start_survey(keyframes, belief, options);
   if (start) {
-    const SightingCheck check = check_sightings(keyframes, *start);
-    if (check.refusal) flaws.push_back(*check.refusal);
-    if (check.removed > 0) start = start_survey(keyframes, belief, options);
+    if (const auto refusal = check_sightings(keyframes, *start)) flaws.push_back(*refusal);
+  } else {
+    refuse(SurveyFlaw::no_convergence, "frames and wheels do not determine a start");
   }
-  if (!start) refuse(SurveyFlaw::no_convergence, "frames and wheels do not determine a start");
   if (!flaws.empty()) return survey;
 
   const SurveyProblem problem{keyframes, camera, belief, options, anchors, placed};
@@ -282,16 +290,9 @@ MarkerSurvey survey_markers(std::span<const SurveyLog> logs, const CameraModel& 
   if (!is_settled && flaws.empty()) refuse(SurveyFlaw::no_convergence, "the least squares do not settle");
   if (!flaws.empty()) return survey;
 
-  const double chi2_alone = bundle.chi2();
-  if (!placed.empty()) {
-    bundle.place_registry();
-    bundle.add_anchors();
-    if (!bundle.solve()) {
-      refuse(SurveyFlaw::no_convergence, "the least squares with anchors do not settle");
-      return survey;
-    }
-    if (const auto refusal = false_anchor(problem, bundle, bundle.chi2() - chi2_alone))
-      flaws.push_back(*refusal);
+  if (!placed.empty() && !solve_with_anchors(problem, bundle, survey)) {
+    refuse(SurveyFlaw::no_convergence, "the least squares with anchors do not settle");
+    return survey;
   }
   take_registry(keyframes, bundle.state(), belief, survey);
   take_robot(bundle.state(), belief, survey);

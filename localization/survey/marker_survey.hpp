@@ -88,6 +88,7 @@ struct MarkerSurvey {
   double dots_factor = 1.0;     ///< variance factor of the dots' residuals
   double wheels_factor = 1.0;   ///< and of the wheels'
   double ceiling_factor = 1.0;  ///< and of the ceiling's own motion's
+  double gauge_factor = 1.0;    ///< and of what anchors and print leave
   std::vector<Pose2> path;      ///< of the robot, keyframe by keyframe
 
   std::vector<SurveyRefusal> flaws;  ///< the registry may be used when there are none

@@ -8,10 +8,9 @@ namespace {
 
 constexpr double apart_m = 0.25;  // markers hang farther apart than that, and the start is better than that
 constexpr double apart_rad = radians(20.0);
-constexpr std::size_t most_misreadings = 2;
+constexpr std::size_t most_of_start = 2;  // so few may be the start's errors: the least squares judge them
 
 struct Stray {
-  std::size_t keyframe = 0;
   Vec2 position_m = Vec2::Zero();
   double off_m = 0.0;
 };
@@ -20,22 +19,14 @@ std::vector<std::vector<Stray>> strays_by_marker(const SurveyKeyframes& keyframe
   std::vector<std::vector<Stray>> strays(keyframes.ids.size());
   for (std::size_t i = 0; i < keyframes.frames.size(); ++i) {
     for (const KeyframeSighting& sighting : keyframes.frames[i].sightings) {
-      Pose2 base_from_marker = sighting.base_from_marker;
-      const Pose2 seen = start.map_from_base[i] * base_from_marker;
+      const Pose2 seen = start.map_from_base[i] * sighting.base_from_marker;
       const Pose2& marker = start.map_from_marker[sighting.marker];
       const double off_m = (seen.position_m - marker.position_m).norm();
       if (off_m > apart_m || std::abs(wrap_angle(seen.yaw_rad - marker.yaw_rad)) > apart_rad)
-        strays[sighting.marker].push_back({i, seen.position_m, off_m});
+        strays[sighting.marker].push_back({seen.position_m, off_m});
     }
   }
   return strays;
-}
-
-std::size_t remove(SurveyKeyframes& keyframes, std::size_t marker, const std::vector<Stray>& strays) {
-  for (const Stray& stray : strays)
-    std::erase_if(keyframes.frames[stray.keyframe].sightings,
-                  [marker](const KeyframeSighting& sighting) { return sighting.marker == marker; });
-  return strays.size();
 }
 
 SurveyRefusal refusal_of(const SurveyKeyframes& keyframes, const SurveyStart& start, std::size_t marker,
@@ -55,21 +46,19 @@ SurveyRefusal refusal_of(const SurveyKeyframes& keyframes, const SurveyStart& st
 
 }  // namespace
 
-SightingCheck check_sightings(SurveyKeyframes& keyframes, const SurveyStart& start) {
+std::optional<SurveyRefusal> check_sightings(const SurveyKeyframes& keyframes, const SurveyStart& start) {
   const std::vector<std::vector<Stray>> strays = strays_by_marker(keyframes, start);
-  SightingCheck check;
+  std::optional<SurveyRefusal> refusal;
   double farthest_m = 0.0;
   for (std::size_t m = 0; m < strays.size(); ++m) {
-    if (strays[m].size() <= most_misreadings) continue;
+    if (strays[m].size() <= most_of_start) continue;
     // Others stray too, pulled by the one that is at two places; it strays farthest.
     const Stray& worst = *std::ranges::max_element(strays[m], {}, &Stray::off_m);
     if (worst.off_m <= farthest_m) continue;
     farthest_m = worst.off_m;
-    check.refusal = refusal_of(keyframes, start, m, worst);
+    refusal = refusal_of(keyframes, start, m, worst);
   }
-  if (check.refusal) return check;
-  for (std::size_t m = 0; m < strays.size(); ++m) check.removed += remove(keyframes, m, strays[m]);
-  return check;
+  return refusal;
 }
 
 }  // namespace lodestar

@@ -8,12 +8,7 @@
 namespace lodestar {
 
 /// Finds an ID that is read at two places: its sightings, as the start has the robot's poses, lie apart by
-/// more than any survey is off. Few single frames of it are misreadings and are removed from `keyframes`.
-/// Nothing when all agree.
-struct SightingCheck {
-  std::optional<SurveyRefusal> refusal;
-  std::size_t removed = 0;
-};
-SightingCheck check_sightings(SurveyKeyframes& keyframes, const SurveyStart& start);
+/// more than any survey is off. Nothing when all agree.
+std::optional<SurveyRefusal> check_sightings(const SurveyKeyframes& keyframes, const SurveyStart& start);
 
 }  // namespace lodestar

@@ -1,11 +1,11 @@
 #include "localization/survey/survey_bundle.hpp"
 
 #include <algorithm>
-#include <ceres/loss_function.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <cmath>
 
+#include "localization/survey/inverse_variance.hpp"
 #include "localization/survey/normal_inverse.hpp"
 #include "localization/survey/redundancy.hpp"
 #include "localization/survey/rigid_motion.hpp"
@@ -30,25 +30,11 @@ ceres::Problem::Options keeping_losses() {
 }  // namespace
 
 struct SurveyBundle::Ceres {
-  /// Scales squared residuals by the inverse of a variance factor that may change.
-  class InverseVariance : public ceres::LossFunction {
-   public:
-    void set(double factor) { weight_ = 1.0 / factor; }
-    [[nodiscard]] double weight() const { return weight_; }
-    void Evaluate(double squares, double out[3]) const override {
-      out[0] = weight_ * squares;
-      out[1] = weight_;
-      out[2] = 0.0;
-    }
-
-   private:
-    double weight_ = 1.0;
-  };
-
   ceres::Problem problem{keeping_losses()};
   InverseVariance dots_factor;
   InverseVariance wheels_factor;
   InverseVariance ceiling_factor;
+  InverseVariance gauge_factor;
   std::vector<std::vector<Block>> dots;  ///< of each keyframe's sightings
   std::vector<Block> wheels;
   std::vector<Block> ceiling;
@@ -56,13 +42,28 @@ struct SurveyBundle::Ceres {
   Block gauge = nullptr;
   int freedom = 0;  ///< residuals less unknowns
 
-  [[nodiscard]] ResidualSum sum_of(const std::vector<Block>& blocks) {
+  /// Weighted, block by block.
+  [[nodiscard]] std::vector<ResidualSum> sums_of(const std::vector<Block>& blocks) {
     ceres::Problem::EvaluateOptions options;
     options.residual_blocks = blocks;
-    double cost = 0.0;  // Ceres halves the sum of squares
     std::vector<double> residuals;
-    if (blocks.empty() || !problem.Evaluate(options, &cost, &residuals, nullptr, nullptr)) return {};
-    return {2.0 * cost, static_cast<int>(residuals.size())};
+    if (blocks.empty() || !problem.Evaluate(options, nullptr, &residuals, nullptr, nullptr)) return {};
+    std::vector<ResidualSum> sums;
+    const double* next = residuals.data();
+    for (const Block block : blocks) {
+      const int count = problem.GetCostFunctionForResidualBlock(block)->num_residuals();
+      sums.push_back({Eigen::Map<const Eigen::VectorXd>(next, count).squaredNorm(), count});
+      next += count;
+    }
+    return sums;
+  }
+  [[nodiscard]] ResidualSum sum_of(const std::vector<Block>& blocks) {
+    ResidualSum all;
+    for (const ResidualSum& sum : sums_of(blocks)) {
+      all.chi2 += sum.chi2;
+      all.count += sum.count;
+    }
+    return all;
   }
   [[nodiscard]] Eigen::SparseMatrix<double, Eigen::RowMajor> jacobian(
       const ceres::Problem::EvaluateOptions& options) {
@@ -140,8 +141,8 @@ void SurveyBundle::add_beliefs() {
   const SurveyOptions& options = problem_.options;
   ceres::Problem& ceres = ceres_->problem;
   const auto near = [&ceres](auto& block, int first, const Eigen::VectorXd& mean,
-                             const Eigen::VectorXd& sigmas) {
-    ceres.AddResidualBlock(new Near(static_cast<int>(block.size()), first, mean, sigmas), nullptr,
+                             const Eigen::VectorXd& sigmas, ceres::LossFunction* factor = nullptr) {
+    ceres.AddResidualBlock(new Near(static_cast<int>(block.size()), first, mean, sigmas), factor,
                            block.data());
   };
   for (SurveyState::Place& place : state.places)
@@ -156,7 +157,8 @@ void SurveyBundle::add_beliefs() {
   near(state.mount_turn_rad, 0, Vec3::Zero(),
        Vec3(options.mount_tilt_sigma_rad, options.mount_tilt_sigma_rad, options.mount_yaw_sigma_rad));
   const PrintScale& print = problem_.anchors.print_scale;
-  near(state.scale_and_k1, 0, Vec2(print.scale, 0.0), Vec2(print.sigma, options.lens_sigma));
+  near(state.scale_and_k1, 0, all(print.scale, 1), all(print.sigma, 1), &ceres_->gauge_factor);
+  near(state.scale_and_k1, 1, all(0.0, 1), all(options.lens_sigma, 1));
   if (!ceres_->ceiling.empty()) near(state.ceiling, 0, all(1.0, 1), all(options.ceiling_sigma, 1));
   const double track_m = problem_.belief.track_width_m;
   near(state.wheels, 0, Vec3(1.0, 0.0, track_m), options.wheel_sigma * Vec3(1.0, 1.0, track_m));
@@ -199,6 +201,7 @@ void SurveyBundle::place_registry() {
 void SurveyBundle::add_anchors() {
   SurveyState& state = unknowns_.state;
   const auto marker = [&](int id) { return state.markers[marker_index(id)].data(); };
+  ceres::LossFunction* const factor = &ceres_->gauge_factor;
   bool holds = false;
   for (const PlacedAnchor& placed : problem_.placed) {
     const auto& what = problem_.anchors.anchors[placed.anchor].what;
@@ -206,14 +209,14 @@ void SurveyBundle::add_anchors() {
     if (const auto* const m = std::get_if<MarkerAnchor>(&what)) {
       holds = true;
       block = ceres_->problem.AddResidualBlock(new PoseNear({m->position_m, m->sigma_m, m->yaw, {}}, 6, 3),
-                                               nullptr, marker(m->id));
+                                               factor, marker(m->id));
     } else if (const auto* const r = std::get_if<RobotAnchor>(&what)) {
       holds = true;
       block = ceres_->problem.AddResidualBlock(
-          new PoseNear({r->position_m, r->sigma_m, r->yaw, placed.keyframe_from_robot}, 5, 2), nullptr,
+          new PoseNear({r->position_m, r->sigma_m, r->yaw, placed.keyframe_from_robot}, 5, 2), factor,
           state.places[placed.keyframe].data());
     } else if (const auto* const d = std::get_if<DistanceAnchor>(&what)) {
-      block = ceres_->problem.AddResidualBlock(new MarkersApart(d->distance_m, d->sigma_m), nullptr,
+      block = ceres_->problem.AddResidualBlock(new MarkersApart(d->distance_m, d->sigma_m), factor,
                                                marker(d->first), marker(d->second));
     }
     ceres_->anchors.push_back(block);
@@ -243,11 +246,18 @@ void SurveyBundle::set_factors(double dots, double wheels, double ceiling) {
   ceres_->ceiling_factor.set(ceiling);
 }
 
+void SurveyBundle::set_gauge_factor(double factor) {
+  ceres_->gauge_factor.set(factor);
+}
+
 bool SurveyBundle::solve() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = problem_.options.most_iterations;
   options.function_tolerance = 1e-9;
+  // The start is a least-squares one, from which Gauss-Newton's steps are good. Damped as Ceres' 1e4 says,
+  // long soft shapes, as rows without lanes across, hardly move: 60 iterations where this takes 10.
+  options.initial_trust_region_radius = 1e11;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_->problem, &summary);
@@ -279,18 +289,19 @@ SurveyFit SurveyBundle::fit_of_ceiling() const {
 }
 
 std::vector<std::vector<ResidualSum>> SurveyBundle::sums_by_sighting() const {
+  const std::vector<ResidualSum> in_order = ceres_->sums_of(ceres_->all_dots());
   std::vector<std::vector<ResidualSum>> sums;
+  auto next = in_order.begin();
   for (const std::vector<Block>& of_frame : ceres_->dots) {
-    sums.emplace_back();
-    for (const Block block : of_frame) sums.back().push_back(ceres_->sum_of({block}));
+    const auto end = next + static_cast<std::ptrdiff_t>(in_order.empty() ? 0 : of_frame.size());
+    sums.emplace_back(next, end);
+    next = end;
   }
   return sums;
 }
 
 std::vector<ResidualSum> SurveyBundle::sums_by_anchor() const {
-  std::vector<ResidualSum> sums;
-  for (const Block block : ceres_->anchors) sums.push_back(ceres_->sum_of({block}));
-  return sums;
+  return ceres_->sums_of(ceres_->anchors);
 }
 
 std::optional<SurveyCovariance> SurveyBundle::covariance() const {

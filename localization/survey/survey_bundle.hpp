@@ -61,6 +61,9 @@ class SurveyBundle {
   /// Divides the weights of dots, wheels and the ceiling's motion by these variance factors.
   void set_factors(double dots, double wheels, double ceiling);
 
+  /// The same of what people measured: the anchors and the print's scale.
+  void set_gauge_factor(double factor);
+
   [[nodiscard]] const SurveyState& state() const { return unknowns_.state; }
   /// Twice the cost: all squared residuals.
   [[nodiscard]] double chi2() const;

@@ -41,7 +41,7 @@ struct SurveyOptions {
   double most_dots_factor = 2.0;             ///< what fits leave of the dots over what they should (chi2/dof)
   double most_marker_factor = 4.0;           ///< the same of one marker's
   double most_wheels_factor = 50.0;          ///< the same of the wheels: floors differ
-  double least_probability = 1e-6;           ///< of a marker's or an anchor's residuals
+  double least_probability = 1e-4;           ///< of what anchors leave; what is likelier widens the sigmas
   int most_iterations = 60;
 };
 
