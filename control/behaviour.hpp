@@ -94,6 +94,9 @@ struct Moved {
 /// The command of the state, and the state after it.
 Moved moved(Behaviour before, const Facts& facts, const BehaviourOptions& options);
 
+/// After another velocity was sent than the state's command: the state's drive goes on from there.
+Behaviour after_sending(Behaviour moved, const BodyVelocity& sent, Duration elapsed);
+
 /// A step's report to the operator: why the robot stops, and whether it backtracks.
 struct Shown {
   std::optional<StopReason> stop;

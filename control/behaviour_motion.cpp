@@ -87,6 +87,19 @@ Outcome move(Resting state, const Facts&, const BehaviourOptions&, Backtrack&) {
   return {BodyVelocity{}, state};
 }
 
+/// What moves the robot; null where nothing does.
+RotateThenDrive* drive_in(BehaviourState& state) {
+  if (auto* backtracking = std::get_if<Backtracking>(&state)) return &backtracking->way;
+  auto* paused = std::get_if<Paused>(&state);
+  if (paused != nullptr && paused->way_back) return &*paused->way_back;
+  return std::visit(
+      [](auto& some) -> RotateThenDrive* {
+        if constexpr (requires { some.trip; }) return &some.trip.drive;
+        return nullptr;
+      },
+      state);
+}
+
 bool goes_back(const BehaviourState& state) {
   const auto* braking = std::get_if<Braking>(&state);
   const auto* paused = std::get_if<Paused>(&state);
@@ -112,6 +125,11 @@ Moved moved(Behaviour before, const Facts& facts, const BehaviourOptions& option
       [&](auto&& state) { return move(std::forward<decltype(state)>(state), facts, options, before.places); },
       std::move(before.state));
   return {outcome.command, {std::move(outcome.state), std::move(before.places)}};
+}
+
+Behaviour after_sending(Behaviour moved, const BodyVelocity& sent, Duration elapsed) {
+  if (RotateThenDrive* const drive = drive_in(moved.state)) drive->was_sent(sent, elapsed);
+  return moved;
 }
 
 Shown shown(const Behaviour& decided, const Behaviour& moved, const Facts& facts) {

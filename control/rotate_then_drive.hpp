@@ -35,6 +35,10 @@ class RotateThenDrive {
   /// The velocity nearest to the wanted one within the acceleration limits; keeps the path.
   BodyVelocity steer(const BodyVelocity& wanted, Duration elapsed);
 
+  /// Another velocity was sent in place of the last one, such as a protective field allows: the speed goes on
+  /// from there.
+  void was_sent(const BodyVelocity& sent, Duration elapsed);
+
   /// Takes over the other's last command and pending motion, so that the speed does not jump.
   void take_over_from(const RotateThenDrive& other);
 
