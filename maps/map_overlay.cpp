@@ -41,8 +41,8 @@ MapExplanation::MapExplanation(const ObstacleField& field, const Eigen::Matrix3d
 
 bool MapExplanation::explains(const Vec2& hit_in_map, double range_m) const {
   const OccupancyMap& map = field_->map();
-  const double sigma_m = std::sqrt(position_variance_m2_ + heading_variance_ * square(range_m) +
-                                   square(options_.range_sigma_m));
+  const double sigma_m =
+      std::sqrt(position_variance_m2_ + heading_variance_ * square(range_m) + square(options_.range_sigma_m));
   const double within_m = std::min(options_.sigmas * sigma_m + map.resolution_m, options_.most_m);
   const Cell cell = map.cell_at(hit_in_map);
   if (!map.contains(cell)) return false;

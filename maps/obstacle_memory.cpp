@@ -75,7 +75,8 @@ void ObstacleMemory::count_free(const DeskewedScan& scan) {
   const RayFan fan(scan);
   for (Seen& seen : seen_) {
     if (seen.hit_now) continue;
-    if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m)) ++seen.times_free;
+    if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m))
+      ++seen.times_free;
   }
 }
 
@@ -122,7 +123,8 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
   std::vector<std::size_t> thing;
   const auto end_thing = [&] {
     const auto still = std::ranges::count_if(thing, [&](std::size_t i) { return stands[i]; });
-    const bool is_still = static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
+    const bool is_still =
+        static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
     if (!is_still)
       for (const std::size_t i : thing) stands[i] = false;
     thing.clear();
@@ -130,7 +132,8 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     const Ray& ray = scan.rays[i];
     if (!ends_at_something(ray)) continue;
-    const bool joins = thing.empty() || (ray.end_m - scan.rays[thing.back()].end_m).norm() <= options_.joins_m;
+    const bool joins =
+        thing.empty() || (ray.end_m - scan.rays[thing.back()].end_m).norm() <= options_.joins_m;
     if (!joins) end_thing();
     stands[i] = stands_at(ray.end_m, scan.newest);
     thing.push_back(i);

@@ -15,9 +15,10 @@ struct ObstacleMemoryOptions {
   /// Rays clear up to this far before their end: 3 standard deviations of the range (1.5 cm) and half the
   /// diagonal of a cell.
   double kept_before_end_m = 0.08;
-  int scans_to_clear = 2;                                ///< in a row, seen free and not hit
-  Duration to_stand = std::chrono::seconds(1);           ///< hit for so long, it stands
-  Duration longest_unseen = std::chrono::milliseconds(350);  ///< while it comes to stand: three scans at 10 Hz
+  int scans_to_clear = 2;                       ///< in a row, seen free and not hit
+  Duration to_stand = std::chrono::seconds(1);  ///< hit for so long, it stands
+  Duration longest_unseen =
+      std::chrono::milliseconds(350);  ///< while it comes to stand: three scans at 10 Hz
   /// Out of sight, what stood is remembered as long as a detour around it takes (chosen by hand), what moved
   /// as long as someone takes to leave a step's width.
   Duration remembered_standing = std::chrono::seconds(30);
@@ -27,7 +28,8 @@ struct ObstacleMemoryOptions {
 };
 
 /// What the scanner has seen around the robot: a rolling grid in the odometry frame, of which only the cells
-/// that hold something are visited. A cell that rays pass through twice is free again, also where it had stood.
+/// that hold something are visited. A cell that rays pass through twice is free again, also where it had
+/// stood.
 class ObstacleMemory {
  public:
   explicit ObstacleMemory(const ObstacleMemoryOptions& options = {});
@@ -35,7 +37,8 @@ class ObstacleMemory {
   /// The scan's rays clear, its hits are remembered. Frame of everything here: that of the rays.
   void add(const DeskewedScan& scan);
 
-  /// Has something been hit here, or in a cell beside it, for a second in nearly every scan that could see it?
+  /// Has something been hit here, or in a cell beside it, for a second in nearly every scan that could see
+  /// it?
   [[nodiscard]] bool stands_at(const Vec2& point_m, Stamp now) const;
 
   /// For each ray of the newest scan: does it end at something that stands? Of what is hit in one piece a

@@ -58,7 +58,8 @@ bool RayFan::passes(const Vec2& point_m, double aside_m, double before_end_m) co
       const Line& line = lines_[static_cast<std::size_t>(at)];
       const Vec2 offset = point_m - line.origin_m;
       const double along_m = offset.dot(line.way);
-      if (along_m > 0.0 && along_m < line.length_m - before_end_m && std::abs(cross(line.way, offset)) < aside_m)
+      if (along_m > 0.0 && along_m < line.length_m - before_end_m &&
+          std::abs(cross(line.way, offset)) < aside_m)
         return true;
     }
   }

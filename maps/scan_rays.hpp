@@ -12,8 +12,8 @@ namespace lodestar {
 struct Ray {
   Stamp stamp;
   Vec2 origin_m = Vec2::Zero();  ///< of the scanner
-  /// What was hit; for `nothing` the end of the scanner's range, for `too_near` the end of its blind zone, for
-  /// `invalid` a point 1 m away that only tells the direction.
+  /// What was hit; for `nothing` the end of the scanner's range, for `too_near` the end of its blind zone,
+  /// for `invalid` a point 1 m away that only tells the direction.
   Vec2 end_m = Vec2::Zero();
   Echo echo = Echo::invalid;
 };

@@ -17,9 +17,9 @@ struct OwnOutline {
   double margin_m = 0.03;
 };
 
-/// The scan in the odometry frame, each beam from where the robot was when it was measured. Without those that
-/// hit the robot itself, by geometry: a scanner's least range says nothing about the robot around it. Nothing
-/// when the wheels' readings do not cover the scan.
+/// The scan in the odometry frame, each beam from where the robot was when it was measured. Without those
+/// that hit the robot itself, by geometry: a scanner's least range says nothing about the robot around it.
+/// Nothing when the wheels' readings do not cover the scan.
 std::optional<DeskewedScan> deskewed(const Scan& scan, const ScannerMount& mount, const WheelTrack& track,
                                      const OwnOutline& own);
 

@@ -33,7 +33,8 @@ void WheelTrack::add(const WheelTravel& travel) {
 std::optional<Pose2> WheelTrack::pose_at(Stamp stamp) const {
   if (marks_.empty() || stamp < marks_.front().travel.stamp) return std::nullopt;
   if (stamp > marks_.back().travel.stamp + options_.ahead) return std::nullopt;
-  const auto after = std::ranges::lower_bound(marks_, stamp, {}, [](const Mark& mark) { return mark.travel.stamp; });
+  const auto after =
+      std::ranges::lower_bound(marks_, stamp, {}, [](const Mark& mark) { return mark.travel.stamp; });
   if (after == marks_.begin()) return after->odom_from_base;
   // Ahead of the newest reading the last arc goes on.
   const bool is_ahead = after == marks_.end();

@@ -20,8 +20,8 @@ struct WheelTrackOptions {
   Duration ahead = std::chrono::milliseconds(60);
 };
 
-/// The robot's way by its wheels alone, in the odometry frame: the base frame at the first reading. It drifts,
-/// but never jumps, so that what was seen a second ago is where it was seen.
+/// The robot's way by its wheels alone, in the odometry frame: the base frame at the first reading. It
+/// drifts, but never jumps, so that what was seen a second ago is where it was seen.
 class WheelTrack {
  public:
   explicit WheelTrack(const WheelTrackOptions& options = {}) : options_(options) {}
