@@ -36,6 +36,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
 
       {"localization/detection", {"maps"}},
       {"localization/ceiling", {"maps"}},
+      {"localization/scan", {"maps"}},
       {"localization/pose", {"localization/detection"}},
       {"localization/filter", {"localization/pose", "localization/ceiling"}},
       {"localization/integrity", {"localization/filter"}},

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "maps/stamp.hpp"
+
+namespace lodestar {
+
+/// What may come towards the robot, and how long the robot takes to be at rest. The rule is functional, never
+/// certified: docs/decisions/0013-protective-field.md.
+struct ProtectiveFieldOptions {
+  /// Greatest speed of a person. 1.6 m/s is ISO 13855's; of recorded walkers 5 % are faster than 1.9 to 2.0.
+  double person_mps = 2.0;
+  /// A scanner at shin height sees legs that swing under a body: recorded walkers, 456 replays: 27 contacts
+  /// with 5 cm, 1 with 25 cm.
+  double swing_m = 0.25;
+  /// Something that has stood for a second may be a person who begins to walk: reach a t^2 / 2. The centre of
+  /// mass is moved by some 10 cm in the first half second of a step.
+  double start_mps2 = 1.0;
+  double standing_margin_m = 0.02;  ///< a good standard deviation of the range (1.5 cm)
+  /// Up to this speed what stands is passed like a wall: without it the noise of the range would end the
+  /// drive in a gap that leaves 11 cm a side.
+  double standing_creep_mps = 0.12;
+  double mapped_margin_m = 0.01;  ///< the way's clearance is planned with elsewhere
+  /// Someone may step out from behind what hides them, at the speed at which people walk off (chosen by hand,
+  /// half of the greatest). Before they can touch it the robot is down to the contact speed, not to rest.
+  double hidden_mps = 1.0;
+  double hidden_contact_mps = 0.35;  ///< at most this in a contact that nobody could foresee
+
+  /// From a command to its effect: the control step and the base's lag and latency (robot.yaml, response_s).
+  /// The scan's turn and delivery are in the age of its beams.
+  double control_step_s = 0.02;
+  double response_s = 0.12;
+  double deceleration_mps2 = 1.5;                          ///< protective, of its own: robot.yaml, measured
+  double turn_deceleration_radps2 = 2.0;                   ///< likewise; the base's own limit
+  Duration max_scan_age = std::chrono::milliseconds(300);  ///< three turns of a scanner at 10 Hz
+};
+
+}  // namespace lodestar

@@ -1,0 +1,154 @@
+#include "control/protective_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace lodestar {
+namespace {
+
+constexpr int halvings = 6;  ///< the share is found to 1/64, from below
+
+BodyVelocity operator*(double share, const BodyVelocity& velocity) {
+  return {share * velocity.forward_mps, share * velocity.turn_radps};
+}
+
+bool is_still(Presence presence) {
+  return presence == Presence::mapped || presence == Presence::standing;
+}
+
+FieldReason reason_for(Presence presence) {
+  if (presence == Presence::person) return FieldReason::person_near;
+  return presence == Presence::hidden ? FieldReason::hidden_corner : FieldReason::obstacle_ahead;
+}
+
+}  // namespace
+
+std::string_view to_string(FieldReason reason) {
+  switch (reason) {
+    case FieldReason::person_near:
+      return "person near";
+    case FieldReason::obstacle_ahead:
+      return "obstacle ahead";
+    case FieldReason::hidden_corner:
+      return "hidden corner";
+    case FieldReason::no_scan:
+      break;
+  }
+  return "no scan";
+}
+
+ProtectiveField::ProtectiveField(RobotShape shape, const ProtectiveFieldOptions& options)
+    : shape_(std::move(shape)), options_(options) {}
+
+double ProtectiveField::reach_m(Presence presence, double time_s) const {
+  switch (presence) {
+    case Presence::mapped:
+      return 0.0;
+    case Presence::standing:
+      return std::min(options_.person_mps * time_s, 0.5 * options_.start_mps2 * square(time_s));
+    case Presence::person:
+      return options_.person_mps * time_s;
+    case Presence::hidden:
+      break;
+  }
+  return options_.hidden_mps * time_s;
+}
+
+double ProtectiveField::margin_m(Presence presence) const {
+  switch (presence) {
+    case Presence::mapped:
+      return options_.mapped_margin_m;
+    case Presence::standing:
+      return options_.standing_margin_m;
+    case Presence::person:
+      return options_.swing_m;
+    case Presence::hidden:
+      break;
+  }
+  return 0.0;
+}
+
+/// Nothing farther away than this can limit: all ways and times are longest at the faster of both velocities.
+double ProtectiveField::within_m(const BodyVelocity& measured, const BodyVelocity& wanted) const {
+  const BrakingPath path(measured, wanted, shape_, options_);
+  const double age_s = 2.0 * seconds(options_.max_scan_age);  // of the oldest beam of the oldest scan
+  return shape_.outer_radius_m() + path.travel_m() + options_.swing_m +
+         std::max(options_.person_mps, options_.hidden_mps) * (age_s + path.until_rest_s());
+}
+
+FieldLimit ProtectiveField::limit(const std::optional<FieldScan>& scan, Stamp now,
+                                  const Pose2& odom_from_base, const BodyVelocity& measured,
+                                  const BodyVelocity& wanted) const {
+  if (!scan || now - scan->newest > options_.max_scan_age)
+    return {.share = 0.0, .reason = FieldReason::no_scan, .nearest = std::nullopt};
+  return limit(seen_from(odom_from_base, now, *scan, within_m(measured, wanted)), measured, wanted);
+}
+
+/// Each hit lowers the share as far as it must. A slower robot is later at the same place, so the hits before
+/// are asked again until all agree.
+FieldLimit ProtectiveField::limit(std::span<const FieldHit> hits, const BodyVelocity& measured,
+                                  const BodyVelocity& wanted) const {
+  FieldLimit result;
+  BrakingPath path(measured, wanted, shape_, options_);
+  if (path.steps().empty()) return result;
+  std::vector<double> distances_m(hits.size());
+  double least_room_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    distances_m[i] = shape_.distance_m(hits[i].point_in_base);
+    if (is_still(hits[i].presence)) least_room_m = std::min(least_room_m, distances_m[i]);
+  }
+  const auto is_safe_at = [&](double share, std::size_t i) {
+    return is_safe(BrakingPath(measured, share * wanted, shape_, options_), hits[i], distances_m[i],
+                   least_room_m);
+  };
+  for (bool has_changed = true; has_changed && result.share > 0.0;) {
+    has_changed = false;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (is_safe(path, hits[i], distances_m[i], least_room_m)) continue;
+      double safe = 0.0;
+      double unsafe = result.share;
+      for (int halving = 0; halving < halvings; ++halving) {
+        const double middle = 0.5 * (safe + unsafe);
+        (is_safe_at(middle, i) ? safe : unsafe) = middle;
+      }
+      result = {safe, reason_for(hits[i].presence), hits[i]};
+      if (safe == 0.0) return result;
+      path = BrakingPath(measured, safe * wanted, shape_, options_);
+      has_changed = true;
+    }
+  }
+  return result;
+}
+
+bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, double distance_m,
+                              double least_room_m) const {
+  const double margin = margin_m(hit.presence);
+  const double most_m = path.travel_m() + reach_m(hit.presence, hit.age_s + path.until_rest_s()) + margin;
+  if (distance_m > most_m) return true;
+  if (!is_still(hit.presence)) return rests_in_time(path, hit);
+  // Up to the creeping speed, what stands is passed like what is mapped.
+  const bool is_passed = hit.presence == Presence::mapped || path.speed_mps() <= options_.standing_creep_mps;
+  return is_passed ? stays_clear(path, hit, std::min(margin, least_room_m)) : rests_in_time(path, hit);
+}
+
+bool ProtectiveField::stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const {
+  constexpr double rounding_m = 1e-9;
+  return std::ranges::all_of(path.steps(), [&](const BrakingPath::Step& step) {
+    return shape_.distance_m(inverse(step.end) * hit.point_in_base) >= room_m - rounding_m;
+  });
+}
+
+bool ProtectiveField::rests_in_time(const BrakingPath& path, const FieldHit& hit) const {
+  const double margin = margin_m(hit.presence);
+  const double slow_mps = hit.presence == Presence::hidden ? options_.hidden_contact_mps : 0.0;
+  return std::ranges::all_of(path.steps(), [&](const BrakingPath::Step& step) {
+    if (step.speed_mps <= slow_mps) return true;
+    const double distance_m = shape_.distance_m(inverse(step.middle) * hit.point_in_base);
+    return distance_m - step.sway_m > reach_m(hit.presence, hit.age_s + step.until_s) + margin;
+  });
+}
+
+}  // namespace lodestar

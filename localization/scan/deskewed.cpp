@@ -1,0 +1,47 @@
+#include "localization/scan/deskewed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+/// Where a ray ends that hits nothing and whose scanner does not say how far it sees.
+constexpr double far_m = 100.0;
+
+double length_m(const Beam& beam, const Scan& scan) {
+  switch (beam.echo) {
+    case Echo::hit:
+      return beam.range_m;
+    case Echo::nothing:
+      return std::min(scan.max_range_m, far_m);
+    case Echo::too_near:
+      return scan.min_range_m;
+    case Echo::invalid:
+      break;
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+std::optional<DeskewedScan> deskewed(const Scan& scan, const ScannerMount& mount, const WheelTrack& track,
+                                     const OwnOutline& own) {
+  if (scan.beams.empty()) return std::nullopt;
+  DeskewedScan result{.newest = scan.beams.front().stamp, .rays = {}};
+  result.rays.reserve(scan.beams.size());
+  for (const Beam& beam : scan.beams) {
+    const std::optional<Pose2> odom_from_base = track.pose_at(beam.stamp);
+    if (!odom_from_base) return std::nullopt;
+    const Vec2 way(std::cos(beam.angle_rad), std::sin(beam.angle_rad));
+    const Vec2 end_in_base = mount.base_from_scanner * Vec2(length_m(beam, scan) * way);
+    result.newest = std::max(result.newest, beam.stamp);
+    const Ray ray{beam.stamp, *odom_from_base * mount.base_from_scanner.position_m,
+                  *odom_from_base * end_in_base, beam.echo};
+    if (ends_at_something(ray) && own.shape.distance_m(end_in_base) < own.margin_m) continue;
+    result.rays.push_back(ray);
+  }
+  return result;
+}
+
+}  // namespace lodestar

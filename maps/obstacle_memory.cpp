@@ -1,0 +1,152 @@
+#include "maps/obstacle_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "maps/occupancy_map.hpp"
+#include "maps/ray_fan.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr int wraps = 512;  ///< cells a side of the index; twice the half extent must be less
+
+std::size_t wrapped(int column, int row) {
+  constexpr auto mask = static_cast<unsigned>(wraps - 1);
+  return (static_cast<unsigned>(row) & mask) * wraps + (static_cast<unsigned>(column) & mask);
+}
+
+}  // namespace
+
+ObstacleMemory::ObstacleMemory(const ObstacleMemoryOptions& options)
+    : options_(options),
+      half_cells_(std::clamp(static_cast<int>(options.half_extent_m / options.cell_m), 1, wraps / 2 - 1)),
+      index_(static_cast<std::size_t>(wraps) * wraps, -1) {}
+
+ObstacleMemory::Place ObstacleMemory::place_of(const Vec2& point_m) const {
+  const Cell cell = cell_at(point_m / options_.cell_m);
+  return {cell.column, cell.row};
+}
+
+Vec2 ObstacleMemory::center_m(Place place) const {
+  return options_.cell_m * Vec2(place.column + 0.5, place.row + 0.5);
+}
+
+const ObstacleMemory::Seen* ObstacleMemory::at(Place place) const {
+  const std::int32_t index = index_[wrapped(place.column, place.row)];
+  if (index < 0) return nullptr;
+  const Seen& seen = seen_[static_cast<std::size_t>(index)];
+  return seen.place == place ? &seen : nullptr;
+}
+
+void ObstacleMemory::add(const DeskewedScan& scan) {
+  if (scan.rays.empty()) return;
+  const Place middle = place_of(scan.rays.back().origin_m);
+  forget(scan.newest, middle);
+  for (Seen& seen : seen_) seen.hit_now = false;
+  mark_hits(scan, middle);
+  count_free(scan);
+  forget(scan.newest, middle);
+}
+
+void ObstacleMemory::mark_hits(const DeskewedScan& scan, const Place& middle) {
+  for (const Ray& ray : scan.rays) {
+    if (!ends_at_something(ray)) continue;
+    if ((ray.end_m - center_m(middle)).lpNorm<Eigen::Infinity>() > options_.half_extent_m) continue;
+    hit(place_of(ray.end_m), ray.stamp);
+  }
+}
+
+void ObstacleMemory::hit(Place place, Stamp stamp) {
+  std::int32_t& index = index_[wrapped(place.column, place.row)];
+  if (index < 0) {
+    index = static_cast<std::int32_t>(seen_.size());
+    seen_.push_back({.place = place, .first_hit = stamp, .last_hit = stamp});
+  }
+  Seen& seen = seen_[static_cast<std::size_t>(index)];
+  if (!has_stood(seen) && stamp - seen.last_hit > options_.longest_unseen) seen.first_hit = stamp;
+  seen.last_hit = std::max(seen.last_hit, stamp);
+  seen.times_free = 0;
+  seen.hit_now = true;
+}
+
+/// What is hit in the same scan is not free, however many rays pass beside it: a leg is thinner than a cell.
+void ObstacleMemory::count_free(const DeskewedScan& scan) {
+  const RayFan fan(scan);
+  for (Seen& seen : seen_) {
+    if (seen.hit_now) continue;
+    if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m))
+      ++seen.times_free;
+  }
+}
+
+void ObstacleMemory::forget(Stamp now, const Place& middle) {
+  for (std::size_t i = 0; i < seen_.size();) {
+    const Seen& seen = seen_[i];
+    const bool is_here = std::abs(seen.place.column - middle.column) <= half_cells_ &&
+                         std::abs(seen.place.row - middle.row) <= half_cells_;
+    if (is_here && seen.times_free < options_.scans_to_clear && is_remembered(seen, now)) {
+      ++i;
+      continue;
+    }
+    index_[wrapped(seen.place.column, seen.place.row)] = -1;
+    if (i + 1 < seen_.size()) {
+      const Place moved = seen_.back().place;
+      index_[wrapped(moved.column, moved.row)] = static_cast<std::int32_t>(i);
+      seen_[i] = seen_.back();
+    }
+    seen_.pop_back();
+  }
+}
+
+bool ObstacleMemory::has_stood(const Seen& seen) const {
+  return seen.last_hit - seen.first_hit >= options_.to_stand;
+}
+
+bool ObstacleMemory::is_remembered(const Seen& seen, Stamp now) const {
+  return now - seen.last_hit <= (has_stood(seen) ? options_.remembered_standing : options_.remembered_moving);
+}
+
+bool ObstacleMemory::stands_at(const Vec2& point_m, Stamp now) const {
+  const Place middle = place_of(point_m);
+  for (int row = middle.row - 1; row <= middle.row + 1; ++row) {
+    for (int column = middle.column - 1; column <= middle.column + 1; ++column) {
+      const Seen* const seen = at({column, row});
+      if (seen != nullptr && has_stood(*seen) && is_remembered(*seen, now)) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
+  std::vector<bool> stands(scan.rays.size(), false);
+  std::vector<std::size_t> thing;
+  const auto end_thing = [&] {
+    const auto still = std::ranges::count_if(thing, [&](std::size_t i) { return stands[i]; });
+    const bool is_still =
+        static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
+    if (!is_still)
+      for (const std::size_t i : thing) stands[i] = false;
+    thing.clear();
+  };
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    const Ray& ray = scan.rays[i];
+    if (!ends_at_something(ray)) continue;
+    const bool joins =
+        thing.empty() || (ray.end_m - scan.rays[thing.back()].end_m).norm() <= options_.joins_m;
+    if (!joins) end_thing();
+    stands[i] = stands_at(ray.end_m, scan.newest);
+    thing.push_back(i);
+  }
+  end_thing();
+  return stands;
+}
+
+std::vector<Vec2> ObstacleMemory::occupied_m(Stamp now) const {
+  std::vector<Vec2> points_m;
+  for (const Seen& seen : seen_)
+    if (is_remembered(seen, now)) points_m.push_back(center_m(seen.place));
+  return points_m;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,69 @@
+#include "maps/ray_fan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+constexpr int bins = 1024;
+constexpr double full_turn = 4.0;
+
+/// Grows with the angle, by 1 a quarter turn, and by at most 1 a radian: cheaper than an arc tangent.
+double turn_of(const Vec2& way) {
+  const double sum = std::abs(way.x()) + std::abs(way.y());
+  if (sum == 0.0) return 0.0;
+  const double part = way.y() / sum;
+  if (way.x() < 0.0) return 2.0 - part;
+  return part < 0.0 ? full_turn + part : part;
+}
+
+int bin_of(double turn) {
+  return std::min(static_cast<int>(turn * (bins / full_turn)), bins - 1);
+}
+
+}  // namespace
+
+RayFan::RayFan(const DeskewedScan& scan) {
+  lines_.reserve(scan.rays.size());
+  for (const Ray& ray : scan.rays) {
+    const Vec2 way = ray.end_m - ray.origin_m;
+    const double length_m = way.norm();
+    if (ray.echo == Echo::invalid || length_m == 0.0) continue;
+    lines_.push_back({ray.origin_m, way / length_m, length_m, turn_of(way)});
+    middle_m_ += ray.origin_m;
+  }
+  if (!lines_.empty()) middle_m_ /= static_cast<double>(lines_.size());
+  for (const Line& line : lines_) spread_m_ = std::max(spread_m_, (line.origin_m - middle_m_).norm());
+  std::ranges::sort(lines_, {}, &Line::turn);
+  first_.assign(bins + 1, static_cast<std::int32_t>(lines_.size()));
+  for (std::size_t i = lines_.size(); i-- > 0;)
+    first_[static_cast<std::size_t>(bin_of(lines_[i].turn))] = static_cast<std::int32_t>(i);
+  for (std::size_t bin = bins; bin-- > 0;) first_[bin] = std::min(first_[bin], first_[bin + 1]);
+}
+
+bool RayFan::passes(const Vec2& point_m, double aside_m, double before_end_m) const {
+  const Vec2 to_point = point_m - middle_m_;
+  const double away_m = to_point.norm();
+  const double room_m = aside_m + spread_m_;
+  if (lines_.empty() || away_m <= 2.0 * room_m) return false;  // under the scanner: it sees nothing there
+  const double turn = turn_of(to_point);
+  // The arc sine of up to a half is less than 1.05 times its argument.
+  const double window = 1.05 * room_m / away_m;
+  const int from = static_cast<int>(std::floor((turn - window) * (bins / full_turn)));
+  const int to = static_cast<int>(std::floor((turn + window) * (bins / full_turn)));
+  for (int i = from; i <= to; ++i) {
+    const auto bin = static_cast<std::size_t>((i % bins + bins) % bins);
+    for (std::int32_t at = first_[bin]; at < first_[bin + 1]; ++at) {
+      const Line& line = lines_[static_cast<std::size_t>(at)];
+      const Vec2 offset = point_m - line.origin_m;
+      const double along_m = offset.dot(line.way);
+      if (along_m > 0.0 && along_m < line.length_m - before_end_m &&
+          std::abs(cross(line.way, offset)) < aside_m)
+        return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace lodestar

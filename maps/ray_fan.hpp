@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "maps/scan_rays.hpp"
+
+namespace lodestar {
+
+/// The rays of a scan by their direction, to find those that look at a point without asking all.
+class RayFan {
+ public:
+  explicit RayFan(const DeskewedScan& scan);
+
+  /// Does a ray pass the point within `aside_m` and go on for more than `before_end_m`?
+  [[nodiscard]] bool passes(const Vec2& point_m, double aside_m, double before_end_m) const;
+
+ private:
+  struct Line {
+    Vec2 origin_m;
+    Vec2 way;  ///< of length 1
+    double length_m = 0.0;
+    double turn = 0.0;  ///< pseudo-angle in [0, 4)
+  };
+
+  std::vector<Line> lines_;          ///< by their turn
+  std::vector<std::int32_t> first_;  ///< of each bin
+  Vec2 middle_m_ = Vec2::Zero();     ///< of the origins
+  double spread_m_ = 0.0;            ///< the farthest origin from there
+};
+
+}  // namespace lodestar
