@@ -142,6 +142,13 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
   return stands;
 }
 
+std::vector<Vec2> ObstacleMemory::standing_m(Stamp now) const {
+  std::vector<Vec2> points_m;
+  for (const Seen& seen : seen_)
+    if (has_stood(seen) && is_remembered(seen, now)) points_m.push_back(center_m(seen.place));
+  return points_m;
+}
+
 std::vector<Vec2> ObstacleMemory::occupied_m(Stamp now) const {
   std::vector<Vec2> points_m;
   for (const Seen& seen : seen_)

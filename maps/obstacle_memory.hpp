@@ -45,6 +45,9 @@ class ObstacleMemory {
   /// good part must stand: the flank of someone who walks across stays in the same cells for a while.
   [[nodiscard]] std::vector<bool> standing(const DeskewedScan& scan) const;
 
+  /// Centres of the cells in which something stands, also where it has not been seen for a while.
+  [[nodiscard]] std::vector<Vec2> standing_m(Stamp now) const;
+
   /// Centres of the cells that are hit now or remembered.
   [[nodiscard]] std::vector<Vec2> occupied_m(Stamp now) const;
 

@@ -8,15 +8,18 @@ namespace lodestar {
 BackgroundPlanner::BackgroundPlanner(const OccupancyMap& map, const TripPlannerOptions& options,
                                      const PlanArrivalOptions& arrival)
     : robot_(options.planner), arrival_(arrival) {
-  const auto field = std::make_shared<const ObstacleField>(map);
-  forward_clearance_ = clearance_on(field);
-  planner_.emplace(field, options);
+  prepared_ = prepared_on(std::make_shared<const ObstacleField>(map));
+  planner_.emplace(prepared_.map, options);
 }
 
-BackgroundPlanner::Clearance BackgroundPlanner::clearance_on(
-    std::shared_ptr<const ObstacleField> field) const {
-  return robot_.footprint ? std::make_shared<const ForwardClearance>(std::move(field), *robot_.footprint)
-                          : std::make_shared<const ForwardClearance>(std::move(field), robot_.radius_m);
+BackgroundPlanner::Prepared BackgroundPlanner::prepared_on(std::shared_ptr<const ObstacleField> map) const {
+  return {map, robot_.footprint ? std::make_shared<const ForwardClearance>(map, *robot_.footprint)
+                                : std::make_shared<const ForwardClearance>(map, robot_.radius_m)};
+}
+
+void BackgroundPlanner::use_obstacles(std::vector<Vec2> occupied_in_map) {
+  if (!next_) next_.emplace();
+  next_->obstacles_in_map = std::move(occupied_in_map);
 }
 
 template <typename Awaited, typename Result>
@@ -27,28 +30,29 @@ bool BackgroundPlanner::has_arrived(const Awaited& awaited, const std::future<Re
 
 bool BackgroundPlanner::begin_step(std::span<const Vec2> blind_m) {
   ++step_;
-  if (map_ && has_arrived(*map_, map_->clearance)) {
-    std::future<Clearance> clearance = std::move(map_->clearance);
-    map_.reset();
-    forward_clearance_ = clearance.get();
+  if (awaited_ && has_arrived(*awaited_, awaited_->prepared)) {
+    std::future<Prepared> prepared = std::move(awaited_->prepared);
+    awaited_.reset();
+    prepared_ = prepared.get();
   }
   bool is_changed = std::exchange(review_is_due_, false);
-  if (next_map_ && !map_) {
-    prepare_next_map(blind_m);
+  if (next_ && !awaited_) {
+    prepare_next(blind_m);
     is_changed = true;
   }
   return is_changed;
 }
 
-void BackgroundPlanner::prepare_next_map(std::span<const Vec2> blind_m) {
-  auto prepare = [this, map = std::move(*next_map_),
+void BackgroundPlanner::prepare_next(std::span<const Vec2> blind_m) {
+  auto prepare = [this, ground = std::move(*next_), before = prepared_,
                   blind = std::vector<Vec2>(blind_m.begin(), blind_m.end())]() mutable {
-    const auto field = std::make_shared<const ObstacleField>(std::move(map));
-    planner_->use_map(field, blind);
-    return clearance_on(field);
+    const Prepared prepared =
+        ground.map ? prepared_on(std::make_shared<const ObstacleField>(std::move(*ground.map))) : before;
+    planner_->use_map(prepared.map, ground.obstacles_in_map, blind);
+    return prepared;
   };
-  next_map_.reset();
-  map_ = {.clearance = worker_.run(std::move(prepare)), .due = step_ + arrival_.steps};
+  next_.reset();
+  awaited_ = {.prepared = worker_.run(std::move(prepare)), .due = step_ + arrival_.steps};
   if (plan_) plan_->is_on_old_map = true;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <vector>
 
 #include "app/navigation/task_thread.hpp"
 #include "app/navigation/trip_planner.hpp"
@@ -33,8 +34,13 @@ class BackgroundPlanner {
   /// Call first in each step. Is the path to be reviewed, as all plans from now on are made on another map?
   bool begin_step(std::span<const Vec2> blind_m);
 
-  /// Prepares another map. While one is being prepared, the newest waits and replaces those before it.
-  void use_map(OccupancyMap map) { next_map_ = std::move(map); }
+  /// Prepares another map, without obstacles that it lacks. While one is being prepared, the newest waits and
+  /// replaces those before it.
+  void use_map(OccupancyMap map) { next_ = Ground{std::move(map), {}}; }
+
+  /// Plans around these points of the map frame from some steps on: what the map lacks. The clearance ahead
+  /// stays that of the map.
+  void use_obstacles(std::vector<Vec2> occupied_in_map);
 
   /// Is the answer to this request on its way?
   [[nodiscard]] bool awaits(const PlanRequest& request) const { return plan_ && plan_->request == request; }
@@ -45,10 +51,19 @@ class BackgroundPlanner {
   std::optional<TripPlan> take();
 
   /// On the newest map that is prepared and due.
-  [[nodiscard]] const ForwardClearance& forward_clearance() const { return *forward_clearance_; }
+  [[nodiscard]] const ForwardClearance& forward_clearance() const { return *prepared_.forward_clearance; }
+  [[nodiscard]] const ObstacleField& map() const { return *prepared_.map; }
 
  private:
-  using Clearance = std::shared_ptr<const ForwardClearance>;
+  /// What to plan on: the map, or the one before, and what it lacks.
+  struct Ground {
+    std::optional<OccupancyMap> map;
+    std::vector<Vec2> obstacles_in_map;
+  };
+  struct Prepared {
+    std::shared_ptr<const ObstacleField> map;
+    std::shared_ptr<const ForwardClearance> forward_clearance;
+  };
   struct AwaitedPlan {
     PlanRequest request;
     std::future<TripPlan> answer;
@@ -56,22 +71,22 @@ class BackgroundPlanner {
     std::uint64_t due = 0;  ///< step
     bool is_on_old_map = false;
   };
-  struct AwaitedMap {
-    std::future<Clearance> clearance;
+  struct AwaitedGround {
+    std::future<Prepared> prepared;
     std::uint64_t due = 0;
   };
 
   template <typename Awaited, typename Result>
   [[nodiscard]] bool has_arrived(const Awaited& awaited, const std::future<Result>& result) const;
-  [[nodiscard]] Clearance clearance_on(std::shared_ptr<const ObstacleField> field) const;
-  void prepare_next_map(std::span<const Vec2> blind_m);
+  [[nodiscard]] Prepared prepared_on(std::shared_ptr<const ObstacleField> map) const;
+  void prepare_next(std::span<const Vec2> blind_m);
 
   GridPlannerOptions robot_;
   PlanArrivalOptions arrival_;
   std::uint64_t step_ = 0;
-  Clearance forward_clearance_;
-  std::optional<OccupancyMap> next_map_;
-  std::optional<AwaitedMap> map_;
+  Prepared prepared_;
+  std::optional<Ground> next_;
+  std::optional<AwaitedGround> awaited_;
   std::optional<AwaitedPlan> plan_;
   bool review_is_due_ = false;
   std::optional<TripPlanner> planner_;  ///< once constructed, only the worker uses it

@@ -2,20 +2,41 @@
 
 #include <utility>
 
+#include "maps/map_overlay.hpp"
+
 namespace lodestar {
 
 TripPlanner::TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options)
     : options_(options) {
-  use_map(std::move(field), {});
+  use_map(std::move(field), {}, {});
+}
+
+void TripPlanner::use_map(std::shared_ptr<const ObstacleField> map, std::span<const Vec2> obstacles_in_map,
+                          std::span<const Vec2> blind_m) {
+  map_ = std::move(map);
+  obstacles_in_map_.assign(obstacles_in_map.begin(), obstacles_in_map.end());
+  plan_around(blind_m);
+}
+
+void TripPlanner::plan_around(std::span<const Vec2> blind_m) {
+  map_alone_.reset();
+  if (obstacles_in_map_.empty()) {
+    context_.emplace(context_on(map_, blind_m));
+    return;
+  }
+  map_alone_.emplace(context_on(map_, blind_m));
+  context_.emplace(context_on(
+      std::make_shared<const ObstacleField>(overlaid(map_->map(), obstacles_in_map_)), blind_m));
 }
 
 /// After the pose was too uncertain, or with blind places, margins are wide. Where no marker was found, the
 /// robot drives again only if every other path is far longer.
-void TripPlanner::use_map(std::shared_ptr<const ObstacleField> field, std::span<const Vec2> blind_m) {
+PlanningContext TripPlanner::context_on(std::shared_ptr<const ObstacleField> field,
+                                        std::span<const Vec2> blind_m) const {
   GridPlannerOptions options = options_.planner;
   options.avoided.places_m.assign(blind_m.begin(), blind_m.end());
   const bool is_unsure = prefers_wide_margins_ || !blind_m.empty();
-  context_.emplace(std::move(field), options, is_unsure ? Margins::wide : Margins::usual);
+  return {std::move(field), options, is_unsure ? Margins::wide : Margins::usual};
 }
 
 TripPlan TripPlanner::plan(const TripQuery& query) {
@@ -24,7 +45,7 @@ TripPlan TripPlanner::plan(const TripQuery& query) {
   const bool begins_anew = request.kind == PlanKind::new_goal && needs_other_context;
   if (begins_anew || request.kind == PlanKind::another_way) {
     prefers_wide_margins_ = trip.prefers_wide_margins;
-    use_map(context_->field, blind_m);
+    plan_around(blind_m);
   }
   switch (request.kind) {
     case PlanKind::review:
@@ -68,7 +89,9 @@ TripPlan TripPlanner::another_way(const Trip& trip, const Pose2& pose) const {
 
 TripPlan TripPlanner::to_goal(const PlanRequest& request, const Pose2& pose) const {
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = request.goal_heading_rad};
-  const PlanResult result = context_->planner.plan(pose.position_m, request.goal_m, headings);
+  PlanResult result = context_->planner.plan(pose.position_m, request.goal_m, headings);
+  if (map_alone_ && std::holds_alternative<PlanFailure>(result))
+    result = map_alone_->planner.plan(pose.position_m, request.goal_m, headings);
   RouteUpdate update{.route = {{}, request.goal_heading_rad}, .change = RouteChange::new_goal, .failure = {}};
   if (const auto* failure = std::get_if<PlanFailure>(&result)) {
     update.failure = *failure;
@@ -102,7 +125,9 @@ TripPlan TripPlanner::way_back(const Vec2& place_m, const Trip& trip, const Pose
 RouteUpdate TripPlanner::route_from(const PlanRequest& request, const Trip& trip, const Pose2& pose) const {
   Route route{trip.drive.path_ahead(), trip.drive.final_heading_rad()};
   if (request.leg_from_here) route.path.waypoints_m.front() = pose.position_m;
-  return updated(route, pose, context_->planner, options_.route);
+  RouteUpdate update = updated(route, pose, context_->planner, options_.route);
+  if (map_alone_ && update.failure) update = updated(route, pose, map_alone_->planner, options_.route);
+  return update;
 }
 
 PathFound TripPlanner::along(const Route& route) const {

@@ -30,16 +30,22 @@ struct TripPlan {
   std::optional<RouteUpdate> update;  ///< when another path is followed from now on, or none
 };
 
-/// Answers the plan requests of the behaviour, on the present map.
+/// Answers the plan requests of the behaviour, on the present map. Where obstacles that the map lacks leave no
+/// way, the answer is that of the map alone: the robot drives up to them and waits, for they may go away.
 class TripPlanner {
  public:
   TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options);
 
-  void use_map(std::shared_ptr<const ObstacleField> field, std::span<const Vec2> blind_m);
+  /// Plans on this map from now on, and around what it lacks: points of the map frame.
+  void use_map(std::shared_ptr<const ObstacleField> map, std::span<const Vec2> obstacles_in_map,
+               std::span<const Vec2> blind_m);
 
   TripPlan plan(const TripQuery& query);
 
  private:
+  [[nodiscard]] PlanningContext context_on(std::shared_ptr<const ObstacleField> field,
+                                           std::span<const Vec2> blind_m) const;
+  void plan_around(std::span<const Vec2> blind_m);
   [[nodiscard]] TripPlan review(const RouteUpdate& update) const;
   [[nodiscard]] TripPlan replan(const RouteUpdate& update) const;
   [[nodiscard]] TripPlan another_way(const Trip& trip, const Pose2& pose) const;
@@ -49,6 +55,9 @@ class TripPlanner {
   [[nodiscard]] PathFound along(const Route& route) const;
 
   TripPlannerOptions options_;
+  std::shared_ptr<const ObstacleField> map_;
+  std::vector<Vec2> obstacles_in_map_;
+  std::optional<PlanningContext> map_alone_;  ///< where there are obstacles
   std::optional<PlanningContext> context_;
   bool prefers_wide_margins_ = false;  ///< as the planning context was built for
 };
