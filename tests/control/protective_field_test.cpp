@@ -1,0 +1,144 @@
+#include "control/protective_field.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <vector>
+
+#include "control/field_release.hpp"
+#include "control/hidden_corners.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr double radius_m = 0.25;
+constexpr double age_s = 0.13;  // a scan's turn and its delivery
+const BodyVelocity full{0.6, 0.0};
+
+ProtectiveField disc_field() {
+  return ProtectiveField(RobotShape(radius_m));
+}
+
+FieldHit hit(double x_m, double y_m, Presence presence) {
+  return {{x_m, y_m}, age_s, presence};
+}
+
+TEST(ProtectiveField, NothingAroundLimitsNothing) {
+  const FieldLimit limit = disc_field().limit({}, full, full);
+  EXPECT_EQ(limit.share, 1.0);
+  EXPECT_FALSE(limit.reason);
+}
+
+/// With T = 0.27 s, b = 1.5 m/s2 and V = 2.0 m/s full speed needs 1.62 m, plus 0.25 m for feet.
+TEST(ProtectiveField, APersonAheadIsKeptAsFarAsTheFormulaSays) {
+  const double needs_m = radius_m + 0.25 + 1.62 - age_s * full.forward_mps;  // it has come nearer since
+  const std::vector<FieldHit> near{hit(needs_m - 0.03, 0.0, Presence::person)};
+  const std::vector<FieldHit> far{hit(needs_m + 0.05, 0.0, Presence::person)};
+  EXPECT_LT(disc_field().limit(near, full, full).share, 1.0);
+  EXPECT_EQ(disc_field().limit(near, full, full).reason, FieldReason::person_near);
+  EXPECT_EQ(disc_field().limit(far, full, full).share, 1.0);
+}
+
+TEST(ProtectiveField, NobodyNearerThanTheirReactionLetsItMove) {
+  const std::vector<FieldHit> hits{hit(0.0, radius_m + 0.7, Presence::person)};
+  EXPECT_EQ(disc_field().limit(hits, {}, full).share, 0.0);
+}
+
+/// A gap that leaves 11 cm a side, seen by the oldest beam of a rotating scanner, with 3 cm of range noise.
+TEST(ProtectiveField, StandingThingsArePassedWith11Centimetres) {
+  std::vector<FieldHit> hits;
+  for (double x_m = -1.0; x_m <= 1.0; x_m += 0.03) {
+    hits.push_back({{x_m, radius_m + 0.08}, 0.23, Presence::standing});
+    hits.push_back({{x_m, -radius_m - 0.11}, 0.23, Presence::standing});
+  }
+  const BodyVelocity creeping{0.11, 0.0};
+  EXPECT_GT(disc_field().limit(hits, creeping, full).share * full.forward_mps, 0.1);
+  EXPECT_EQ(disc_field().limit(hits, creeping, full).reason, FieldReason::obstacle_ahead);
+  for (FieldHit& person : hits) person.presence = Presence::person;
+  EXPECT_EQ(disc_field().limit(hits, creeping, full).share, 0.0);
+}
+
+TEST(ProtectiveField, WhatIsMappedAheadStopsItAndLetsItLeave) {
+  for (const Presence presence : {Presence::mapped, Presence::standing}) {
+    const std::vector<FieldHit> hits{hit(radius_m + 0.005, 0.0, presence)};  // nearer than the margin
+    EXPECT_EQ(disc_field().limit(hits, {}, {0.1, 0.0}).share, 0.0);
+    EXPECT_EQ(disc_field().limit(hits, {}, {-0.1, 0.0}).share, 1.0);
+    EXPECT_EQ(disc_field().limit(hits, {}, {0.0, 0.5}).share, 1.0);
+  }
+}
+
+/// The corner of a long robot swings 0.5 m out.
+TEST(ProtectiveField, AFootprintDoesNotTurnIntoWhatIsBesideIt) {
+  const Footprint footprint({{-0.5, -0.2}, {0.5, -0.2}, {0.5, 0.2}, {-0.5, 0.2}});
+  const ProtectiveField field{RobotShape(footprint)};
+  const std::vector<FieldHit> hits{hit(0.44, 0.26, Presence::mapped)};
+  EXPECT_LT(field.limit(hits, {}, {0.0, 1.0}).share, 0.7);
+  EXPECT_EQ(field.limit(hits, {}, {0.0, -1.0}).reason.has_value(), false);
+  EXPECT_EQ(field.limit(hits, full, full).share, 1.0);
+}
+
+TEST(ProtectiveField, WithoutAScanThereIsNoSpeed) {
+  const Stamp seen(std::chrono::seconds(5));
+  const std::optional<FieldScan> scan{FieldScan{.newest = seen, .points = {}}};
+  const auto limit_after = [&](int ms) {
+    return disc_field().limit(scan, seen + std::chrono::milliseconds(ms), {}, full, full);
+  };
+  EXPECT_EQ(limit_after(300).share, 1.0);
+  EXPECT_EQ(limit_after(301).share, 0.0);
+  EXPECT_EQ(limit_after(301).reason, FieldReason::no_scan);
+  EXPECT_EQ(disc_field().limit(std::nullopt, seen, {}, full, full).reason, FieldReason::no_scan);
+}
+
+TEST(ProtectiveField, AtAHiddenCornerItIsSlowButNotStuck) {
+  const std::vector<FieldHit> hits{hit(0.4, 0.4, Presence::hidden)};
+  const FieldLimit limit = disc_field().limit(hits, {0.3, 0.0}, full);
+  EXPECT_LE(limit.share * full.forward_mps, 0.36);
+  EXPECT_GT(limit.share * full.forward_mps, 0.3);
+  EXPECT_EQ(limit.reason, FieldReason::hidden_corner);
+}
+
+TEST(FieldRelease, FallsAtOnceAndRisesGentlyAfterAWhile) {
+  FieldRelease release;
+  const auto at = [](double s) { return Stamp(from_seconds(s)); };
+  EXPECT_EQ(release.released_mps(at(0.0), FieldRelease::none_mps), FieldRelease::none_mps);
+  EXPECT_EQ(release.released_mps(at(0.02), 0.1), 0.1);
+  double before_mps = 0.1;
+  for (double s = 0.04; s < 1.0; s += 0.02) {
+    const double released_mps = release.released_mps(at(s), FieldRelease::none_mps);
+    if (s < 0.31) {
+      EXPECT_EQ(released_mps, 0.1) << s;
+    }
+    EXPECT_LE(released_mps, before_mps + 0.5 * 0.02 + 1e-9);
+    before_mps = released_mps;
+  }
+  EXPECT_NEAR(before_mps, 0.1 + 0.5 * 0.66, 0.02);
+}
+
+/// Seen from the origin, a wall at x = 1 up to `top_m`, behind it another one at x = 4.
+DeskewedScan wall_before_wall(double bottom_m, double top_m) {
+  DeskewedScan scan;
+  for (int i = -90; i <= 90; ++i) {
+    const Vec2 way(std::cos(0.5 * radians(i)), std::sin(0.5 * radians(i)));
+    const double height_m = way.y() / way.x();
+    const double x_m = height_m > bottom_m && height_m < top_m ? 1.0 : 4.0;
+    scan.rays.push_back({{}, Vec2::Zero(), way * (x_m / way.x()), Echo::hit});
+  }
+  return scan;
+}
+
+TEST(HiddenCorners, AWallHidesAPersonAtItsEnd) {
+  const auto anywhere = [](const Vec2&) { return true; };
+  const auto corners = hidden_corners(wall_before_wall(-2.0, 0.2), {}, anywhere);
+  ASSERT_EQ(corners.size(), 1U);
+  EXPECT_NEAR((corners.front().point_in_odom - Vec2(1.0, 0.2)).norm(), 0.0, 0.02);
+  EXPECT_EQ(corners.front().presence, Presence::hidden);
+}
+
+TEST(HiddenCorners, ATableLegAndAMappedWallHideNobody) {
+  const auto anywhere = [](const Vec2&) { return true; };
+  EXPECT_TRUE(hidden_corners(wall_before_wall(0.0, 0.06), {}, anywhere).empty());
+  const auto nowhere = [](const Vec2&) { return false; };
+  EXPECT_TRUE(hidden_corners(wall_before_wall(-2.0, 0.2), {}, nowhere).empty());
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,128 @@
+#include "maps/obstacle_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <optional>
+
+#include "maps/map_overlay.hpp"
+#include "maps/random.hpp"
+
+namespace lodestar {
+namespace {
+
+struct Disc {
+  Vec2 center_m;
+  double radius_m = 0.0;
+};
+
+/// A scan from the origin of 720 beams up to 8 m, with 1.5 cm of range noise.
+DeskewedScan scan_of(const std::optional<Disc>& disc, double at_s, Random& random) {
+  DeskewedScan scan{.newest = Stamp(from_seconds(at_s)), .rays = {}};
+  for (int i = 0; i < 720; ++i) {
+    const Vec2 way(std::cos(0.5 * radians(i)), std::sin(0.5 * radians(i)));
+    const double along_m = disc ? disc->center_m.dot(way) : 0.0;
+    const double aside_m = disc ? cross(disc->center_m, way) : 0.0;
+    const bool is_hit = along_m > 0.0 && std::abs(aside_m) < disc->radius_m;
+    const double half_m = is_hit ? std::sqrt(square(disc->radius_m) - square(aside_m)) : 0.0;
+    const double range_m = is_hit ? along_m - half_m + 0.015 * random.normal() : 8.0;
+    scan.rays.push_back({scan.newest, Vec2::Zero(), range_m * way, is_hit ? Echo::hit : Echo::nothing});
+  }
+  return scan;
+}
+
+double share_standing(const ObstacleMemory& memory, const DeskewedScan& scan) {
+  const std::vector<bool> stands = memory.standing(scan);
+  const auto hits = std::ranges::count_if(scan.rays, ends_at_something);
+  return static_cast<double>(std::ranges::count(stands, true)) / static_cast<double>(hits);
+}
+
+TEST(ObstacleMemory, ABoxStandsAfterASecond) {
+  Random random(1);
+  ObstacleMemory memory;
+  const Disc box{{2.0, 0.5}, 0.3};
+  for (int scans = 0; scans < 20; ++scans) {
+    const DeskewedScan scan = scan_of(box, 0.1 * scans, random);
+    memory.add(scan);
+    if (scans < 10) {
+      EXPECT_EQ(share_standing(memory, scan), 0.0) << scans;
+    } else if (scans >= 13) {
+      EXPECT_GT(share_standing(memory, scan), 0.97) << scans;
+    }
+  }
+}
+
+TEST(ObstacleMemory, WhatIsSeenFreeIsGoneAfterTwoScans) {
+  Random random(2);
+  ObstacleMemory memory;
+  for (int scans = 0; scans < 30; ++scans) memory.add(scan_of(Disc{{2.0, 0.5}, 0.3}, 0.1 * scans, random));
+  EXPECT_GT(memory.occupied_m(Stamp(from_seconds(2.9))).size(), 5U);
+  memory.add(scan_of(std::nullopt, 3.0, random));
+  memory.add(scan_of(std::nullopt, 3.1, random));
+  EXPECT_TRUE(memory.occupied_m(Stamp(from_seconds(3.1))).empty());
+  EXPECT_FALSE(memory.stands_at({1.71, 0.43}, Stamp(from_seconds(3.1))));
+}
+
+/// Of 0.5 m radius, across the view: in both directions, also turning back.
+TEST(ObstacleMemory, AMovingDiscNeverStandsAndLeavesNoTrail) {
+  for (const double speed_mps : {0.5, 0.7, 1.2, 2.0}) {
+    Random random(3);
+    ObstacleMemory memory;
+    for (int scans = 0; scans < 80; ++scans) {
+      const double way = std::fmod(speed_mps * 0.1 * scans, 4.0);
+      const Disc disc{{2.0, way < 2.0 ? way - 1.0 : 3.0 - way}, 0.5};
+      const DeskewedScan scan = scan_of(disc, 0.1 * scans, random);
+      memory.add(scan);
+      EXPECT_EQ(share_standing(memory, scan), 0.0) << speed_mps << " m/s, scan " << scans;
+      for (const Vec2& cell_m : memory.occupied_m(scan.newest)) {
+        // In two scans the disc moves on by 0.2 s.
+        EXPECT_LT((cell_m - disc.center_m).norm(), 0.5 + 0.2 * speed_mps + 0.1);
+      }
+    }
+  }
+}
+
+TEST(ObstacleMemory, OutOfSightWhatMovedIsForgottenBeforeWhatStood) {
+  Random random(4);
+  ObstacleMemory memory;
+  memory.add(scan_of(Disc{{2.0, 0.0}, 0.3}, 0.0, random));
+  EXPECT_FALSE(memory.occupied_m(Stamp(from_seconds(1.4))).empty());
+  EXPECT_TRUE(memory.occupied_m(Stamp(from_seconds(1.6))).empty());
+  for (int scans = 20; scans < 50; ++scans) memory.add(scan_of(Disc{{2.0, 0.0}, 0.3}, 0.1 * scans, random));
+  EXPECT_TRUE(memory.stands_at({1.7, 0.0}, Stamp(from_seconds(34.0))));
+  EXPECT_FALSE(memory.stands_at({1.7, 0.0}, Stamp(from_seconds(35.0))));
+}
+
+/// 4 m x 4 m at 5 cm, an occupied column at x = 2, all beyond x = 3 unknown.
+OccupancyMap one_wall() {
+  OccupancyMap map{.columns = 80, .rows = 80, .resolution_m = 0.05, .map_from_grid = {}, .cells = {}};
+  map.cells.assign(6400, OccupancyMap::free);
+  for (int row = 0; row < 80; ++row) {
+    map.cells[map.index({40, row})] = OccupancyMap::occupied;
+    for (int column = 60; column < 80; ++column) map.cells[map.index({column, row})] = OccupancyMap::unknown;
+  }
+  return map;
+}
+
+TEST(MapExplanation, OnlyWhatIsNearAnOccupiedCellIsExplained) {
+  const ObstacleField field(one_wall());
+  const MapExplanation certain(field, Eigen::Matrix3d::Zero());  // 3 x 15 mm + 50 mm
+  EXPECT_TRUE(certain.explains({1.91, 2.0}, 1.0));
+  EXPECT_FALSE(certain.explains({1.89, 2.0}, 1.0));
+  EXPECT_FALSE(certain.explains({3.5, 2.0}, 1.0));  // unknown explains nothing
+  EXPECT_FALSE(certain.explains({-5.0, 2.0}, 1.0));
+  const MapExplanation uncertain(field, Eigen::Vector3d(1e-3, 1e-3, 0.0).asDiagonal().toDenseMatrix());
+  EXPECT_TRUE(uncertain.explains({1.86, 2.0}, 1.0));
+  const MapExplanation lost(field, Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal().toDenseMatrix());
+  EXPECT_FALSE(lost.explains({1.79, 2.0}, 1.0));
+}
+
+TEST(Overlaid, MarksTheCellsAndPassesOverWhatIsBeside) {
+  const std::vector<Vec2> points_m{{0.52, 0.52}, {-1.0, 0.0}};
+  const OccupancyMap map = overlaid(one_wall(), points_m);
+  EXPECT_EQ(map.at({10, 10}), OccupancyMap::occupied);
+  EXPECT_EQ(std::ranges::count(map.cells, OccupancyMap::occupied), 81);
+}
+
+}  // namespace
+}  // namespace lodestar
