@@ -29,18 +29,24 @@ void walk_grid(const Vec2& from_in_grid, const Vec2& to_in_grid, Visit visit) {
   double next_row = first_border(from_in_grid.y(), way.y(), cell.row);
   const double per_column = way.x() == 0.0 ? never : std::abs(1.0 / way.x());
   const double per_row = way.y() == 0.0 ? never : std::abs(1.0 / way.y());
+  int columns_left = std::abs(last.column - cell.column);
+  int rows_left = std::abs(last.row - cell.row);
   double enters = 0.0;
-  // Counted, so that rounding at a corner can never lead past the end for good.
-  for (int left = std::abs(last.column - cell.column) + std::abs(last.row - cell.row); left >= 0; --left) {
-    const double leaves = left == 0 ? 1.0 : std::min(next_column, next_row);
-    if (!visit(cell, enters, leaves)) return;
+  // Counted, so that rounding where a border ends the way leads neither past it nor elsewhere.
+  for (;;) {
+    if (columns_left == 0) next_column = never;
+    if (rows_left == 0) next_row = never;
+    const double leaves = std::min({next_column, next_row, 1.0});
+    if (!visit(cell, enters, leaves) || columns_left + rows_left == 0) return;
     enters = leaves;
-    if (next_column < next_row) {
+    if (columns_left > 0 && next_column <= next_row) {
       next_column += per_column;
       cell.column += step_column;
+      --columns_left;
     } else {
       next_row += per_row;
       cell.row += step_row;
+      --rows_left;
     }
   }
 }
