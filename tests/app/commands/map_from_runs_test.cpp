@@ -1,6 +1,7 @@
 #include "app/commands/map_from_runs.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

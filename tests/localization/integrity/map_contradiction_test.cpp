@@ -69,7 +69,7 @@ double alarms(const OccupancyMap& map, Off off, double hidden_share, int places,
     MapContradiction contradiction;
     const Random things = random.stream(1);
     for (int k = 0; k < 5; ++k) {
-      Scan scan = cast_scan(map, {}, Stamp{}, [&](Stamp) { return truth; }, random);
+      Scan scan = cast_scan(map, {}, Stamp{}, [&](Stamp) { return truth; }, random, {.beams = 720});
       Random same_things = things;
       hide(scan, hidden_share, same_things);
       contradiction.update(scan, poses_of(scan, believed), map, sigmas);
