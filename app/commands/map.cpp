@@ -268,7 +268,8 @@ std::vector<Command> map_commands(CLI::App& lodestar) {
   return {{visibility_command, [seen] { return visibility(*seen); }},
           {info_command, [arguments] { return info(*arguments); }},
           {slice_command, [arguments] { return slice(*arguments); }},
-          {convert_command, [arguments] { return convert(*arguments); }}};
+          {convert_command, [arguments] { return convert(*arguments); }},
+          map_build_command(*map)};
 }
 
 }  // namespace lodestar

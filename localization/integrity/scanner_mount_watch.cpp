@@ -1,0 +1,61 @@
+#include "localization/integrity/scanner_mount_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestar {
+
+void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_scanner,
+                            const OccupancyMap& map, const DistanceField& field) {
+  const std::size_t beams = std::min(scan.beams.size(), map_from_scanner.size());
+  if (beams == 0) return;
+  const Pose2& now = map_from_scanner.front();
+  if (last_ && (now.position_m - last_->position_m).norm() < options_.between_m &&
+      std::abs(wrap_angle(now.yaw_rad - last_->yaw_rad)) < options_.between_rad)
+    return;
+  last_ = now;
+
+  std::array<double, 2 * steps + 1> cost{};
+  std::array<double, 2 * steps + 1> explained{};
+  std::size_t used = 0;
+  constexpr std::size_t most_used = 120;  // are enough, and bound the time: 3000 look-ups
+  const std::size_t stride = std::max<std::size_t>(1, beams / most_used);
+  for (std::size_t i = 0; i < beams; i += stride) {
+    const Beam& beam = scan.beams[i];
+    if (beam.echo != Echo::hit) continue;
+    ++used;
+    for (std::size_t k = 0; k < cost.size(); ++k) {
+      const double turn_rad = (static_cast<double>(k) - steps) * step_rad;
+      const double heading_rad = map_from_scanner[i].yaw_rad + beam.angle_rad + turn_rad;
+      const Vec2 end =
+          map_from_scanner[i].position_m + beam.range_m * Vec2(std::cos(heading_rad), std::sin(heading_rad));
+      const Cell cell = map.cell_at(end);
+      const double off_m = map.contains(cell) ? field.distance_m(cell) : 0.0;
+      cost[k] += square(std::min(off_m, options_.most_off_m));
+      explained[k] += off_m <= 1.5 * map.resolution_m ? 1.0 : 0.0;
+    }
+  }
+  if (used == 0) return;
+  for (std::size_t k = 0; k < cost.size(); ++k) {
+    cost_[k] += cost[k] / static_cast<double>(used);
+    explained_[k] += explained[k] / static_cast<double>(used);
+  }
+  if (++added_ >= options_.scans) estimate();
+}
+
+/// The minimum of the parabola through the least cost and its neighbours.
+void ScannerMountWatch::estimate() {
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(cost_) - cost_.begin());
+  const bool is_explained = explained_[least] >= options_.least_explained * static_cast<double>(added_);
+  double steps_off = static_cast<double>(least) - steps;
+  if (least > 0 && least + 1 < cost_.size()) {
+    const double bend = cost_[least - 1] - 2.0 * cost_[least] + cost_[least + 1];
+    if (bend > 0.0) steps_off += 0.5 * (cost_[least - 1] - cost_[least + 1]) / bend;
+  }
+  if (is_explained) turned_rad_ = steps_off * step_rad;
+  cost_ = {};
+  explained_ = {};
+  added_ = 0;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "localization/integrity/scanner_mount_watch.hpp"
+#include "maps/motion.hpp"
+#include "maps/scan.hpp"
+
+namespace lodestar {
+
+/// Scanner faults.
+enum class ScannerFault {
+  silent,       ///< no scan has come
+  other_clock,  ///< stamped in the future, far in the past, or out of order
+  late,         ///< scans arrive long after they were measured
+  frozen,       ///< the same ranges again
+  checksums,    ///< the driver refuses much of what arrives
+  motor,        ///< turns too slowly or too fast
+  dirty,        ///< a sector of the window is blind, wherever the robot turns
+  beams_lost,   ///< many beams bring nothing back that can be used
+  turned,       ///< the mount is turned against the map
+};
+
+// Message for the operator.
+std::string_view to_string(ScannerFault fault);
+
+/// What is noticed, when, at 10 scans a second:
+///
+///     silent       0.3 s after the last scan
+///     other_clock  with the first scan that is stamped so
+///     late         with the first scan that comes so
+///     frozen       with the second repeated scan, once the robot has moved 2 cm or turned 1 degree since the
+///                  first; at rest too, where the scanner has shown noise while the robot stood
+///     checksums    within 2 s
+///     motor        with the fifth scan, where it is off by more than 20 %
+///     dirty        once the robot has turned 90 degrees and driven 1 m since the window became dirty
+///     beams_lost   after 1 s
+///     turned       see ScannerMountWatch
+struct ScannerWatchOptions {
+  Duration max_silence = std::chrono::milliseconds(300);  ///< three scans at 10 Hz
+  /// Of the newest beam on arrival: one turn at 10 Hz that a capsule protocol holds back, and 50 ms on the
+  /// way.
+  Duration max_age = std::chrono::milliseconds(150);
+  Duration max_ahead = std::chrono::milliseconds(20);  ///< as of a camera: one step of the navigation
+  Duration another_age = std::chrono::seconds(5);      ///< older is from another clock
+  /// Scans may overlap so far, by what a device's clock is adjusted.
+  Duration max_overlap = std::chrono::milliseconds(10);
+  double track_width_m = 0.4;
+  double moved_m = 0.02;  ///< ranges to things at hand change by more than the step of any scanner
+  double turned_rad = radians(1.0);
+  std::size_t least_hits = 20;  ///< to tell one scan from another
+  /// Share of beams that differ between two scans at rest, from which a scanner has noise.
+  double noisy_share = 0.5;
+  double max_refused_share = 0.05;  ///< of packets; a sound cable has none
+  std::size_t least_packets = 50;   ///< of which the share is judged
+  Duration packets_kept = std::chrono::seconds(2);
+  std::optional<double> turns_per_second;  ///< as the device is set; empty: learned from the first 20 scans
+  double max_motor_error = 0.2;
+  int motor_scans = 5;  ///< in a row
+  double dirt_moved_m = 1.0;
+  double dirt_turned_rad = radians(90.0);
+  int dirty_bins = 3;           ///< of 2 degrees each, side by side: a drop of water on the window
+  double max_lost_share = 0.3;  ///< of all beams; black and glassy surroundings stay below
+  Duration lost_for = std::chrono::seconds(1);
+  /// Angles in the scanner frame that the robot's own parts hide, low to high: never dirt.
+  std::vector<std::pair<double, double>> hidden_rad;
+  ScannerMountWatchOptions mount;
+};
+
+/// Watches for scanner faults. A value type.
+class ScannerWatch {
+ public:
+  explicit ScannerWatch(const ScannerWatchOptions& options = {}) : options_(options), mount_(options.mount) {}
+
+  /// Wheel travel, before the scans that arrive after it.
+  void add_travel(const WheelTravel& travel);
+
+  /// Fault of a scan that has just arrived, by its stamps or because it repeats the last: it must not be
+  /// used.
+  std::optional<ScannerFault> update(const Scan& scan, Stamp now);
+
+  /// What the driver has read and refused since the last call.
+  void add_packets(std::size_t read, std::size_t refused, Stamp now);
+
+  /// A scan whose pose is trusted, one pose for each beam by the mount that robot.yaml has.
+  void add_trusted(const Scan& scan, std::span<const Pose2> map_from_scanner, const OccupancyMap& map,
+                   const DistanceField& field) {
+    mount_.add(scan, map_from_scanner, map, field);
+  }
+
+  /// Current fault of the scanner, the gravest. Silence is no fault before the first scan.
+  [[nodiscard]] std::optional<ScannerFault> fault(Stamp now) const;
+
+  /// How far the mount is turned, once that is known.
+  [[nodiscard]] std::optional<double> mount_turned_rad() const { return mount_.turned_rad(); }
+
+ private:
+  static constexpr std::size_t bins = 180;  ///< of 2 degrees
+  struct Packets {
+    Stamp stamp;
+    std::size_t read = 0;
+    std::size_t refused = 0;
+  };
+  /// Distance driven and angle turned by the wheels, both ways counted.
+  struct Motion {
+    double driven_m = 0.0;
+    double turned_rad = 0.0;
+  };
+
+  [[nodiscard]] std::optional<ScannerFault> clock_fault(const Scan& scan, Stamp now) const;
+  void judge_repeats(const Scan& scan);
+  void judge_motor(const Scan& scan);
+  void judge_window(const Scan& scan);
+  void judge_lost(const Scan& scan, Stamp now);
+  [[nodiscard]] bool is_hidden(double angle_rad) const;
+
+  ScannerWatchOptions options_;
+  ScannerMountWatch mount_;
+  std::optional<WheelTravel> last_travel_;
+  Motion motion_;
+  std::optional<Stamp> last_arrival_;
+  std::optional<Stamp> last_beam_;
+  std::optional<ScannerFault> scan_fault_;  ///< of the newest scan, by its stamps
+  std::vector<double> last_ranges_m_;
+  Motion last_motion_;      ///< when the newest scan came that differs from the one before
+  Motion previous_motion_;  ///< when the newest scan came
+  int repeats_ = 0;         ///< scans in a row like the one before
+  bool has_noise_ = false;
+  std::vector<double> first_speeds_;  ///< while the motor's is learned
+  std::optional<double> turns_per_second_;
+  int motor_wrong_ = 0;
+  std::array<std::optional<Motion>, bins> blind_since_;
+  bool is_dirty_ = false;
+  std::optional<Stamp> lost_since_;
+  bool is_losing_ = false;
+  std::deque<Packets> packets_;
+};
+
+}  // namespace lodestar
