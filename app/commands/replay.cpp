@@ -12,6 +12,7 @@
 #include "app/commands/explored_replay.hpp"
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
+#include "app/commands/lab_site.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/commands/recorded_run.hpp"
 #include "app/common/interruption.hpp"
@@ -54,12 +55,6 @@ struct ReplayArguments {
   bool explore = false;
   ConsoleServiceOptions console;
 };
-
-/// The lab site, from any working directory.
-fs::path default_site() {
-  const fs::path here = fs::path("sites") / "lab";
-  return fs::exists(here / "site.yaml") ? here : fs::path(LODESTAR_SITES_DIR) / "lab";
-}
 
 SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Site& site) {
   SimulatedDriveOptions options{.camera = arguments.camera.empty() ? site.default_camera : arguments.camera,
@@ -243,7 +238,7 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
 }
 
 ExitCode replay_command(const ReplayArguments& arguments) {
-  const Site site = load_site(arguments.site.empty() ? default_site() : fs::path(arguments.site));
+  const Site site = load_site(arguments.site.empty() ? lab_site() : fs::path(arguments.site));
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const SimulatedDriveOptions options = replay_options(arguments, site);
   if (arguments.explore) return replay_exploring(site, options, output_folder(site, arguments));
