@@ -65,7 +65,7 @@ cv::Mat draw_scenario(const Scenario& scenario, const ScenarioRun& run) {
                                   "rest {}",
                                   scenario.site.name, run.seed, run.reason, run.time_s, run.contacts.moving,
                                   run.contacts.excused, run.contacts.at_rest),
-                      22.0, ink);
+                      16.0, ink);
   return canvas.picture();
 }
 

@@ -39,6 +39,7 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
   options.disk = replay.disk;
   options.scanner = replay.scanner;
   options.discs = replay.discs;
+  options.people = replay.people;
   if (site.robot.scanner) brake_as_declared(options, site.robot.scanner->protective_deceleration_mps2);
   return options;
 }

@@ -14,6 +14,7 @@
 #include "drivers/simulation/scoring.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
 #include "drivers/simulation/simulated_scanner.hpp"
+#include "drivers/simulation/walkers.hpp"
 #include "planning/grid_planner.hpp"
 
 namespace lodestar {
@@ -31,6 +32,7 @@ struct SimulatedDriveOptions {
   std::vector<Fault> faults;
   std::shared_ptr<SimulatedDisk> disk;             ///< disk faults act on it, if given
   std::optional<SimulatedScannerOptions> scanner;  ///< without it the robot has none
+  PeopleOptions people;                            ///< who walk about
   std::vector<MovingDisc> discs;                   ///< that no map has
   bool is_placed_at_start = false;                 ///< a person says where it starts, to 2 cm and 1 degree
   /// Asked after each step what the judge of the simulated world says; true ends the drive where it is.

@@ -26,6 +26,7 @@ constexpr std::uint64_t bad_bus_stream = 5;
 constexpr std::uint64_t lamps_stream = 6;
 constexpr std::uint64_t kidnapping_stream = 7;
 constexpr std::uint64_t scanner_stream = 8;
+constexpr std::uint64_t people_stream = 9;
 
 /// Between looks at the discs: at 2 m/s one moves by 2 cm, and straight on to a fraction of a millimetre.
 constexpr Duration disc_period = std::chrono::milliseconds(10);
@@ -71,6 +72,8 @@ struct Simulation::World {
     scorer.record({now, motion.true_map_from_base()});
     next_record += options.scoring_period;
     if (options.scanner) scanner.emplace(map, *options.scanner, seed_for(chosen.seed, scanner_stream));
+    if (options.people.count > 0)
+      people.emplace(map, options.people, options.start, seed_for(chosen.seed, people_stream));
     for (const MovingDisc& disc : options.discs) trajectories.emplace_back(disc);
     move_discs();
   }
@@ -89,10 +92,14 @@ struct Simulation::World {
   }
 
   void move_discs() {
-    if (!scanner && trajectories.empty()) return;
+    if (!scanner && trajectories.empty() && !people) return;
     next_discs += disc_period;
     discs.clear();
     for (FollowedTrajectory& trajectory : trajectories) discs.push_back(trajectory.at(now));
+    if (people) {
+      people->step(disc_period, motion.true_map_from_base());
+      for (const Walker& walker : people->walkers()) discs.push_back(walker.disc);
+    }
     if (scanner) scanner->observe(now, motion.true_map_from_base(), discs);
     scorer.record_discs({now, motion.true_map_from_base()}, discs);
   }
@@ -140,6 +147,7 @@ struct Simulation::World {
   Stamp next_record;
   std::optional<SimulatedScanner> scanner;
   std::vector<FollowedTrajectory> trajectories;
+  std::optional<Walkers> people;
   std::vector<DiscState> discs;
   Stamp next_discs;
   bool was_blocked = false;

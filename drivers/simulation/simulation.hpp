@@ -16,6 +16,7 @@
 #include "drivers/simulation/simulated_camera_options.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
 #include "drivers/simulation/simulated_scanner.hpp"
+#include "drivers/simulation/walkers.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/footprint.hpp"
 #include "maps/marker_registry.hpp"
@@ -38,6 +39,7 @@ struct SimulationOptions {
   std::shared_ptr<SimulatedDisk> disk;  ///< disk of the recorders, if there are any
   /// Of the robot's scanner; without them it has none.
   std::optional<SimulatedScannerOptions> scanner;
+  PeopleOptions people;           ///< besides the discs; they walk about on the true map
   std::vector<MovingDisc> discs;  ///< not on any map; they do not block the robot
   /// What the judge goes by; the scanner's place, range and times are taken from `scanner` if there is one.
   ContactJudgeOptions contacts;

@@ -16,10 +16,10 @@ OccupancyMap hall() {
   return empty_floor(240, 160, 0.05);
 }
 
-/// The hall with a wall at x = 6 m from the floor's edge up to y = 3.5 m.
-OccupancyMap with_corner() {
+/// The hall with a wall at x = 6 m from the floor's edge up to a row of cells of 5 cm.
+OccupancyMap with_corner(int end_row) {
   OccupancyMap map = hall();
-  for (int row = 0; row < 70; ++row) map.cells[map.index({120, row})] = OccupancyMap::occupied;
+  for (int row = 0; row < end_row; ++row) map.cells[map.index({120, row})] = OccupancyMap::occupied;
   return map;
 }
 
@@ -90,18 +90,18 @@ TEST(ContactJudge, excuses_people_who_were_faster_than_two_metres_a_second) {
 }
 
 TEST(ContactJudge, excuses_who_steps_out_from_behind_a_corner_too_late_to_brake) {
-  // The robot passes the end of a wall, 0.25 m away from it; a disc behind the wall comes across.
+  // The robot passes the end of a wall, 5 cm away from it; a disc close behind the wall comes across.
   const auto passing = [](double s) { return Pose2{{4.0 + 0.5 * s, 4.0}, 0.0}; };
   const auto steps_out_at = [](double begin_s) {
-    return [begin_s](double s) { return Vec2(6.6, std::min(4.0, 2.0 + 1.9 * std::max(0.0, s - begin_s))); };
+    return [begin_s](double s) { return Vec2(6.35, std::min(4.0, 2.0 + 1.9 * std::max(0.0, s - begin_s))); };
   };
-  const ContactScore late = judged(with_corner(), 5.0, passing, steps_out_at(3.3));
+  const ContactScore late = judged(with_corner(74), 5.0, passing, steps_out_at(2.77));
   EXPECT_EQ(late.excused, 1);
   EXPECT_EQ(late.moving, 0);
-  const ContactScore early = judged(with_corner(), 6.0, passing, steps_out_at(0.5));
+  const ContactScore early = judged(with_corner(74), 6.0, passing, steps_out_at(0.5));
   EXPECT_EQ(early.moving, 1) << "it had stood in the way for seconds";
   EXPECT_EQ(early.excused, 0);
-  EXPECT_EQ(judged(hall(), 5.0, passing, steps_out_at(3.3)).moving, 1) << "nothing hid it";
+  EXPECT_EQ(judged(hall(), 5.0, passing, steps_out_at(2.77)).moving, 1) << "nothing hid it";
 }
 
 TEST(ContactJudge, does_not_see_beyond_the_scanner_s_range) {
@@ -114,14 +114,14 @@ TEST(ContactJudge, measures_the_least_room_to_discs_and_to_the_map) {
   const auto far_away = [](double) { return Vec2(3.0, 7.5); };
   const ContactScore past_the_disc = judged(hall(), 8.0, driving, far_away);
   EXPECT_NEAR(*past_the_disc.least_clearance_m, 3.5 - robot_m - disc_m, 1e-9);
-  const ContactScore past_the_wall = judged(with_corner(), 10.0, driving, far_away);
+  const ContactScore past_the_wall = judged(with_corner(70), 10.0, driving, far_away);
   EXPECT_NEAR(*past_the_wall.least_clearance_m, 0.5 - robot_m, 1e-3);
 }
 
 TEST(ContactJudge, goes_by_the_footprint) {
   // 1 m long and 0.2 m wide.
   const Footprint plank({{-0.5, -0.1}, {0.5, -0.1}, {0.5, 0.1}, {-0.5, 0.1}});
-  const RobotClearance clearance(with_corner(), robot_m, plank);
+  const RobotClearance clearance(with_corner(70), robot_m, plank);
   EXPECT_NEAR(clearance.to_disc_m({{3.0, 4.0}, 0.0}, {4.0, 4.0}, 0.3), 0.2, 1e-12);
   EXPECT_NEAR(clearance.to_disc_m({{3.0, 4.0}, radians(90.0)}, {4.0, 4.0}, 0.3), 0.6, 1e-12);
   EXPECT_LT(clearance.to_disc_m({{3.0, 4.0}, 0.0}, {3.0, 4.2}, 0.3), 0.0);
