@@ -148,10 +148,18 @@ std::vector<double> StrictYaml::numbers(const std::string& key, std::size_t coun
   const std::string wanted = fmt::format("a list of {} finite numbers", count);
   if (!list.IsSequence()) refuse(key, kind_of(list), wanted);
   if (list.size() != count) refuse(key, fmt::format("{} values", list.size()), wanted);
+  return numbers_at(key, list, count);
+}
+
+std::vector<double> StrictYaml::numbers_at(const std::string& key, const YAML::Node& list,
+                                           std::size_t count) const {
+  const std::string wanted = fmt::format("a list of {} finite numbers", count);
+  if (!list.IsSequence()) refuse_at(list, kind_of(list) + " in '" + key + "'", wanted);
+  if (list.size() != count) refuse_at(list, fmt::format("{} values in '{}'", list.size(), key), wanted);
   std::vector<double> numbers;
   for (const YAML::Node& item : list) {
     const std::optional<double> number = as_number(item);
-    if (!number) throw InputError(file_, line_of(item), kind_of(item) + " in '" + key + "'", wanted);
+    if (!number) refuse_at(item, kind_of(item) + " in '" + key + "'", wanted);
     numbers.push_back(*number);
   }
   return numbers;
@@ -212,6 +220,11 @@ void StrictYaml::refuse(const std::string& key, const std::string& found, const 
   const YAML::Node value = node_[key];
   const std::string name = where_.empty() ? key : where_ + "." + key;
   throw InputError(file_, value.IsDefined() ? line_of(value) : line(), found, wanted + " for '" + name + "'");
+}
+
+void StrictYaml::refuse_at(const YAML::Node& value, const std::string& found,
+                           const std::string& wanted) const {
+  throw InputError(file_, line_of(value), found, wanted);
 }
 
 int StrictYaml::line() const {

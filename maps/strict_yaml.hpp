@@ -26,6 +26,9 @@ class StrictYaml {
   [[nodiscard]] bool boolean(const std::string& key);
   [[nodiscard]] std::string text(const std::string& key);
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count);
+  /// The same of a value below the key, such as an item of a list.
+  [[nodiscard]] std::vector<double> numbers_at(const std::string& key, const YAML::Node& list,
+                                               std::size_t count) const;
   /// A list of [x, y], both in [-most, most].
   [[nodiscard]] std::vector<Vec2> points(const std::string& key, double most);
   [[nodiscard]] StrictYaml mapping(const std::string& key);
@@ -46,6 +49,10 @@ class StrictYaml {
 
   /// Throws InputError with the line of the given key of this mapping.
   [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& wanted) const;
+
+  /// The same with the line of a value below the key.
+  [[noreturn]] void refuse_at(const YAML::Node& value, const std::string& found,
+                              const std::string& wanted) const;
 
   [[nodiscard]] int line() const;
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum MissionPurpose : std::uint64_t { building = 1, faults, registry_errors };
+enum MissionPurpose : std::uint64_t { building = 1, faults, registry_errors, people };
 
 std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
   std::map<std::uint64_t, MissionOutcome> outcomes;
@@ -126,7 +126,8 @@ std::vector<int> campaign_ids() {
   return choose_marker_ids(most, {}, {.min_distance = 3});
 }
 
-CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number) {
+CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number,
+                           bool with_people) {
   const Random random(number);
   CampaignMission mission;
   mission.site = random_site(robot_and_cameras, ids, random.stream(building).bits());
@@ -135,10 +136,15 @@ CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>
                     .goals = mission.site.goals,
                     .faults = random_faults(random.stream(faults).bits())};
   spoil_registry(mission, random.stream(registry_errors));
+  if (!with_people) return mission;
+  constexpr std::uint64_t most_people = 6;
+  mission.replay.people.count = 1 + static_cast<int>(random.stream(people).below(most_people));
+  mission.replay.scanner.emplace();
+  if (mission.site.robot.scanner) mission.replay.scanner->mount = mission.site.robot.scanner->mount;
   return mission;
 }
 
-MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record) {
+MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, bool with_people) {
   const GoalRecord& goal = record.goals.front();
   MissionOutcome outcome{.mission = number};
   for (const FaultEvent& fault : record.faults) outcome.faults.emplace_back(to_string(fault.kind));
@@ -149,6 +155,9 @@ MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record) {
   outcome.driven_s = record.truth.empty() ? 0.0 : seconds(record.truth.back().stamp);
   outcome.noticed_after_s = noticed_after_s(record);
   outcome.stopped_within_m = stopped_within_m(record);
+  const ContactScore& score = record.contact_score;
+  if (with_people)
+    outcome.people = PeopleContacts{score.moving, score.excused, score.at_rest, score.greatest_contact_mps};
   return outcome;
 }
 
@@ -156,15 +165,33 @@ nlohmann::ordered_json as_json(const MissionOutcome& outcome) {
   const auto optional = [](const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
   };
-  return {{"mission", outcome.mission},
-          {"faults", outcome.faults},
-          {"arrived", outcome.arrived},
-          {"error_m", optional(outcome.arrived ? std::optional(outcome.error_m) : std::nullopt)},
-          {"failure", outcome.failure},
-          {"contacts", outcome.contacts},
-          {"driven_s", outcome.driven_s},
-          {"noticed_after_s", optional(outcome.noticed_after_s)},
-          {"stopped_within_m", optional(outcome.stopped_within_m)}};
+  nlohmann::ordered_json json{
+      {"mission", outcome.mission},
+      {"faults", outcome.faults},
+      {"arrived", outcome.arrived},
+      {"error_m", optional(outcome.arrived ? std::optional(outcome.error_m) : std::nullopt)},
+      {"failure", outcome.failure},
+      {"contacts", outcome.contacts},
+      {"driven_s", outcome.driven_s},
+      {"noticed_after_s", optional(outcome.noticed_after_s)},
+      {"stopped_within_m", optional(outcome.stopped_within_m)}};
+  if (outcome.people) {
+    json["people"] = {{"moving", outcome.people->moving},
+                      {"excused", outcome.people->excused},
+                      {"at_rest", outcome.people->at_rest},
+                      {"greatest_mps", outcome.people->greatest_mps}};
+  }
+  return json;
+}
+
+/// Absent where nobody walked about.
+std::optional<PeopleContacts> people_in(const nlohmann::json& json) {
+  if (!json.contains("people")) return std::nullopt;
+  const nlohmann::json& people = json.at("people");
+  constexpr std::uint32_t most = std::numeric_limits<int>::max();
+  const auto count = [&](const char* key) { return static_cast<int>(whole_number(people.at(key), most)); };
+  return PeopleContacts{count("moving"), count("excused"), count("at_rest"),
+                        people.at("greatest_mps").get<double>()};
 }
 
 MissionOutcome outcome_from(const nlohmann::json& json) {
@@ -180,7 +207,8 @@ MissionOutcome outcome_from(const nlohmann::json& json) {
           .contacts = static_cast<int>(whole_number(json.at("contacts"), most_contacts)),
           .driven_s = json.at("driven_s"),
           .noticed_after_s = optional("noticed_after_s"),
-          .stopped_within_m = optional("stopped_within_m")};
+          .stopped_within_m = optional("stopped_within_m"),
+          .people = people_in(json)};
 }
 
 std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const CampaignOptions& options,
@@ -205,11 +233,11 @@ std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const Ca
       outcome = before->second;
     } else {
       if (is_over()) return;
-      CampaignMission mission = mission_of(robot_and_cameras, ids, number);
+      CampaignMission mission = mission_of(robot_and_cameras, ids, number, options.people);
       mission.replay.goes_on = options.goes_on;
       const RunRecord record = simulate_drive(mission.site, mission.replay);
       if (is_over()) return;  // perhaps in the middle of this mission
-      outcome = outcome_of(number, record);
+      outcome = outcome_of(number, record, options.people);
     }
     const std::lock_guard lock(mutex);
     if (before == known.end()) log << as_json(*outcome).dump() << "\n" << std::flush;

@@ -14,6 +14,14 @@ namespace lodestar {
 
 inline constexpr double silently_wrong_m = 0.10;  ///< from the goal, while arrival is reported
 
+/// Contacts with people, each counted once: while the robot moved, of those the excused, and while it stood.
+struct PeopleContacts {
+  int moving = 0;
+  int excused = 0;
+  int at_rest = 0;
+  double greatest_mps = 0.0;  ///< the robot's fastest in any of them
+};
+
 /// The outcome of one mission.
 struct MissionOutcome {
   std::uint64_t mission = 0;  ///< its number, and its seed
@@ -26,8 +34,9 @@ struct MissionOutcome {
   /// From the start of the fault to the first notice or refused fix, for missions with exactly one fault.
   std::optional<double> noticed_after_s;
   std::optional<double> stopped_within_m;  ///< longest stopping distance after a reason to stop
+  std::optional<PeopleContacts> people;    ///< of campaigns in which people walk about
 
-  [[nodiscard]] bool hit_something() const { return contacts > 0; }
+  [[nodiscard]] bool hit_something() const { return contacts > 0 || (people && people->moving > 0); }
   [[nodiscard]] bool silently_wrong() const { return arrived && error_m > silently_wrong_m; }
 };
 
@@ -39,13 +48,16 @@ struct CampaignMission {
   Site site;
   SimulatedDriveOptions replay;
 };
-CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number);
-MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record);
+/// `with_people`: one to six of them, drawn from the number, and a scanner on the robot.
+CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number,
+                           bool with_people = false);
+MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, bool with_people = false);
 
 struct CampaignOptions {
   std::uint64_t first = 1;  ///< number of the first mission
   int missions = 100;
   bool resume = false;                 ///< skip the missions that missions.jsonl already has
+  bool people = false;                 ///< walk about in all buildings
   std::function<bool()> goes_on = {};  ///< asked before and after each mission; false: no more begin
 };
 

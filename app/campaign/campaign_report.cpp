@@ -25,7 +25,8 @@ struct Tally {
   std::map<std::string, int> reasons;  ///< of the safe stops
   std::vector<double> noticed_after_s;
   std::vector<double> stopped_within_m;
-  std::vector<double> errors_m;  ///< at arrivals
+  std::vector<double> errors_m;          ///< at arrivals
+  std::optional<PeopleContacts> people;  ///< sums, and the fastest
 
   void add(const MissionOutcome& outcome) {
     ++missions;
@@ -36,6 +37,13 @@ struct Tally {
     if (!outcome.arrived && !outcome.hit_something()) {
       ++safe_stops;
       ++reasons[outcome.failure];
+    }
+    if (outcome.people) {
+      if (!people) people.emplace();
+      people->moving += outcome.people->moving;
+      people->excused += outcome.people->excused;
+      people->at_rest += outcome.people->at_rest;
+      people->greatest_mps = std::max(people->greatest_mps, outcome.people->greatest_mps);
     }
     if (outcome.noticed_after_s) noticed_after_s.push_back(*outcome.noticed_after_s);
     if (outcome.stopped_within_m) stopped_within_m.push_back(*outcome.stopped_within_m);
@@ -70,15 +78,22 @@ Json spread(const std::vector<double>& values) {
 }
 
 Json as_json(const Tally& tally) {
-  return {{"missions", tally.missions},
-          {"arrivals", tally.arrivals},
-          {"safe_stops", tally.safe_stops},
-          {"contacts", tally.contacts},
-          {"silently_wrong", tally.silently_wrong},
-          {"reasons", tally.reasons},
-          {"error_m", spread(tally.errors_m)},
-          {"noticed_after_s", spread(tally.noticed_after_s)},
-          {"stopped_within_m", spread(tally.stopped_within_m)}};
+  Json json{{"missions", tally.missions},
+            {"arrivals", tally.arrivals},
+            {"safe_stops", tally.safe_stops},
+            {"contacts", tally.contacts},
+            {"silently_wrong", tally.silently_wrong},
+            {"reasons", tally.reasons},
+            {"error_m", spread(tally.errors_m)},
+            {"noticed_after_s", spread(tally.noticed_after_s)},
+            {"stopped_within_m", spread(tally.stopped_within_m)}};
+  if (tally.people) {
+    json["people"] = {{"moving", tally.people->moving},
+                      {"excused", tally.people->excused},
+                      {"at_rest", tally.people->at_rest},
+                      {"greatest_mps", tally.people->greatest_mps}};
+  }
+  return json;
 }
 
 std::vector<MissionOutcome> failures(const std::vector<MissionOutcome>& outcomes) {
@@ -93,18 +108,25 @@ std::string cell(const std::vector<double>& values, double share, double factor)
   return value ? fmt::format("<td>{:.0f}</td>", factor * *value) : "<td></td>";
 }
 
+std::string people_cells(const Tally& tally) {
+  if (!tally.people) return {};
+  return fmt::format("<td>{}</td><td>{}</td><td>{}</td>", tally.people->moving, tally.people->excused,
+                     tally.people->at_rest);
+}
+
 std::string row_of(const std::string& name, const Tally& tally) {
   return fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>", escaped(name),
                      tally.missions, tally.arrivals, tally.safe_stops, tally.contacts, tally.silently_wrong) +
          cell(tally.noticed_after_s, 0.5, ms_per_s) + cell(tally.noticed_after_s, 0.99, ms_per_s) +
          cell(tally.noticed_after_s, 1.0, ms_per_s) + cell(tally.stopped_within_m, 0.99, mm_per_m) +
-         cell(tally.errors_m, 0.99, mm_per_m) + cell(tally.errors_m, 1.0, mm_per_m) + "</tr>\n";
+         cell(tally.errors_m, 0.99, mm_per_m) + cell(tally.errors_m, 1.0, mm_per_m) + people_cells(tally) +
+         "</tr>\n";
 }
 
 }  // namespace
 
 std::string repeat_command(const MissionOutcome& outcome) {
-  return fmt::format("lodestar campaign --mission {}", outcome.mission);
+  return fmt::format("lodestar campaign --mission {}{}", outcome.mission, outcome.people ? " --people" : "");
 }
 
 Json campaign_json(const std::vector<MissionOutcome>& outcomes) {
@@ -126,8 +148,9 @@ std::string campaign_html(const std::vector<MissionOutcome>& outcomes) {
       "{} silently wrong.</p>\n<table><tr><th>Fault</th><th>Missions</th><th>Arrived</th><th>Stopped "
       "safely</th><th>Contacts</th><th>Silently wrong</th><th>Noticed after, ms: "
       "median</th><th>p99</th><th>max</th><th>Stopped within, mm: p99</th><th>Position error at the goal, "
-      "mm: p99</th><th>max</th></tr>\n",
-      all.missions, all.arrivals, all.safe_stops, all.contacts, all.silently_wrong);
+      "mm: p99</th><th>max</th>{}</tr>\n",
+      all.missions, all.arrivals, all.safe_stops, all.contacts, all.silently_wrong,
+      all.people ? "<th>Contacts with people: moving</th><th>excused</th><th>at rest</th>" : "");
   html += row_of("all", all);
   for (const auto& [kind, tally] : by_fault(outcomes)) html += row_of(kind, tally);
   html += "</table>\n<h2>Why it stopped</h2>\n<table><tr><th>Reason</th><th>Missions</th></tr>\n";

@@ -24,6 +24,7 @@ struct CampaignArguments {
   int missions = 100;
   std::optional<std::uint64_t> mission;
   bool resume = false;
+  bool people = false;
   bool quiet = false;
   std::string output = "runs/campaign";
 };
@@ -42,13 +43,13 @@ ExitCode verdict(const std::vector<MissionOutcome>& outcomes) {
   return has_failed ? job_failed : done;
 }
 
-ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const fs::path& output) {
-  CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number);
+ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, bool people, const fs::path& output) {
+  CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number, people);
   RecordedRun recorded(output / fmt::format("mission-{}", number), mission.site, mission.replay.camera,
                        {.can_wait = true});
   mission.replay.watch = recorded.watcher();
   RunRecord record = simulate_drive(mission.site, mission.replay);
-  const MissionOutcome outcome = outcome_of(number, record);
+  const MissionOutcome outcome = outcome_of(number, record, people);
   record.repeat = repeat_command(outcome);
   const RunFolderEnd end = recorded.finish(record);
   if (!end.loss.empty()) throw InputError(end.loss);
@@ -60,7 +61,7 @@ ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const fs::
 ExitCode campaign_command(const CampaignArguments& arguments) {
   const Site site =
       load_site(arguments.site.empty() ? fs::path(LODESTAR_SITES_DIR) / "lab" : fs::path(arguments.site));
-  if (arguments.mission) return run_one(site, *arguments.mission, arguments.output);
+  if (arguments.mission) return run_one(site, *arguments.mission, arguments.people, arguments.output);
   const Interruption interruption;
   std::vector<MissionOutcome> outcomes;
   {
@@ -69,6 +70,7 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
                             {.first = arguments.first,
                              .missions = arguments.missions,
                              .resume = arguments.resume,
+                             .people = arguments.people,
                              .goes_on = [] { return !Interruption::asked(); }},
                             arguments.output, [&progress](double share) { progress.show(share); });
   }
@@ -82,6 +84,10 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
              all["missions"].get<int>(), all["arrivals"].get<int>(), all["safe_stops"].get<int>(),
              all["contacts"].get<int>(), all["silently_wrong"].get<int>(),
              (fs::path(arguments.output) / "campaign.html").string());
+  if (all.contains("people"))
+    fmt::print("contacts with people: {} while moving, {} excused, {} at rest; at {:.2f} m/s at most\n",
+               all["people"]["moving"].get<int>(), all["people"]["excused"].get<int>(),
+               all["people"]["at_rest"].get<int>(), all["people"]["greatest_mps"].get<double>());
   if (outcomes.size() < static_cast<std::size_t>(arguments.missions)) {
     fmt::print(stderr, "lodestar: interrupted after {} of {} missions; --resume continues\n", outcomes.size(),
                arguments.missions);
@@ -102,6 +108,8 @@ std::vector<Command> campaign_commands(CLI::App& lodestar) {
   command->add_option("--site", arguments->site, "Site folder for robot and cameras; default: the lab");
   command->add_option("--first", arguments->first, "Number of the first mission")->capture_default_str();
   command->add_option("--mission", arguments->mission, "Run this mission only, and write its run folder");
+  command->add_flag("--people", arguments->people,
+                    "One to six people walk about in each building, and the robot has a scanner");
   command->add_flag("--resume", arguments->resume, "Continue an interrupted campaign");
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_option("-o,--output", arguments->output, "Folder of the report")->capture_default_str();

@@ -24,6 +24,7 @@ std::vector<Command> bench_commands(CLI::App& lodestar);
 Command bench_localize_command(CLI::App& bench);
 Command bench_survey_command(CLI::App& bench);
 std::vector<Command> run_commands(CLI::App& lodestar);
+std::vector<Command> scenario_commands(CLI::App& lodestar);
 std::vector<Command> survey_commands(CLI::App& lodestar);
 std::vector<Command> doctor_commands(CLI::App& lodestar);
 

@@ -12,6 +12,8 @@
 #include "app/commands/explored_replay.hpp"
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
+#include "app/commands/lab_site.hpp"
+#include "app/commands/people_options.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/commands/recorded_run.hpp"
 #include "app/common/interruption.hpp"
@@ -43,6 +45,7 @@ struct ReplayArguments {
   std::optional<double> pictures_hz;
   UncertaintyConstraintOptions uncertainty_constraint;
   DisturbanceArguments disturbances;
+  PeopleArguments people;
   std::string faults;
   bool realtime = false;
   bool quiet = false;
@@ -55,12 +58,6 @@ struct ReplayArguments {
   ConsoleServiceOptions console;
 };
 
-/// The lab site, from any working directory.
-fs::path default_site() {
-  const fs::path here = fs::path("sites") / "lab";
-  return fs::exists(here / "site.yaml") ? here : fs::path(LODESTAR_SITES_DIR) / "lab";
-}
-
 SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Site& site) {
   SimulatedDriveOptions options{.camera = arguments.camera.empty() ? site.default_camera : arguments.camera,
                                 .seed = arguments.seed,
@@ -72,6 +69,9 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
                                 .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                                 .realtime = arguments.realtime};
   if (!arguments.faults.empty()) options.faults = faults_named(arguments.faults);
+  if (site.robot.scanner && arguments.people.count > 0)
+    options.scanner = SimulatedScannerOptions{.mount = site.robot.scanner->mount};
+  use_people(arguments.people, options);
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
                      "--camera to name one of its cameras");
@@ -104,29 +104,36 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
   }
   if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
-  return command + words_of(arguments.disturbances);
+  return command + words_of(arguments.people) + words_of(arguments.disturbances);
 }
 
 nlohmann::ordered_json as_json(const RunSummary& run) {
   const auto optional = [](const std::optional<double>& value, double scale) {
     return value ? nlohmann::ordered_json(scale * *value) : nlohmann::ordered_json(nullptr);
   };
-  return {{"seed", run.seed},
-          {"goals", run.goals},
-          {"arrivals", run.arrivals},
-          {"worst_position_m", optional(run.worst_position_m, 1.0)},
-          {"worst_heading_deg", optional(run.worst_heading_rad, degrees(1.0))},
-          {"path_p95_m", run.path_p95_m},
-          {"contacts", run.contacts},
-          {"drive_s", run.drive_s},
-          {"travel_s", run.travel_s},
-          {"ideal_s", run.ideal_s},
-          {"nees", run.nees},
-          {"failure", run.failure}};
+  nlohmann::ordered_json json{{"seed", run.seed},
+                              {"goals", run.goals},
+                              {"arrivals", run.arrivals},
+                              {"worst_position_m", optional(run.worst_position_m, 1.0)},
+                              {"worst_heading_deg", optional(run.worst_heading_rad, degrees(1.0))},
+                              {"path_p95_m", run.path_p95_m},
+                              {"contacts", run.contacts},
+                              {"drive_s", run.drive_s},
+                              {"travel_s", run.travel_s},
+                              {"ideal_s", run.ideal_s},
+                              {"nees", run.nees},
+                              {"failure", run.failure}};
+  if (run.people) {
+    json["contacts_moving"] = run.people->moving;
+    json["contacts_excused"] = run.people->excused;
+    json["contacts_at_rest"] = run.people->at_rest;
+  }
+  return json;
 }
 
 bool succeeded(const RunSummary& run) {
-  return run.arrivals == run.goals && run.contacts == 0;
+  const bool hit_people = run.people && run.people->moving > 0;
+  return run.arrivals == run.goals && run.contacts == 0 && !hit_people;
 }
 
 /// CPU time used so far, of all cores.
@@ -190,7 +197,8 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
   const RunFolderEnd end = recorded.finish(record);
   if (!end.loss.empty())
     fmt::print(stderr, "lodestar: warning: the run is not recorded as a whole: {}\n", end.loss);
-  const RunSummary summary = summarize(record);
+  RunSummary summary = summarize(record);
+  if (options.people.count > 0) summary.people = record.contact_score;
   if (arguments.json) {
     fmt::print("{}\n", as_json(summary).dump(2));
   } else {
@@ -198,6 +206,9 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
     fmt::print("seed {}: {} contacts, 95 % of the track within {:.1f} mm of the path; run folder: {}\n",
                record.seed, record.contacts, 1000.0 * summary.path_p95_m,
                end.has_report ? recorded.folder().string() : "not written");
+    if (summary.people)
+      fmt::print("contacts while moving {}, excused {}, at rest {}\n", summary.people->moving,
+                 summary.people->excused, summary.people->at_rest);
   }
   fmt::print(stderr, "{:.1f} s driven in {:.1f} s\n", summary.drive_s, summary.wall_s);
   if (arguments.survey) tell_next_step(site, recorded.folder());
@@ -243,7 +254,7 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
 }
 
 ExitCode replay_command(const ReplayArguments& arguments) {
-  const Site site = load_site(arguments.site.empty() ? default_site() : fs::path(arguments.site));
+  const Site site = load_site(arguments.site.empty() ? lab_site() : fs::path(arguments.site));
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const SimulatedDriveOptions options = replay_options(arguments, site);
   if (arguments.explore) return replay_exploring(site, options, output_folder(site, arguments));
@@ -282,6 +293,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->check(CLI::Range(0.0, 100.0));
   add_uncertainty_constraint_options(*command, arguments->uncertainty_constraint);
   add_disturbance_options(*command, arguments->disturbances);
+  add_people_options(*command, arguments->people);
   command->add_option("--faults", arguments->faults,
                       "Faults to inject: a file, or a name in the fault library such as wheel-slip");
   command

@@ -18,6 +18,7 @@ struct RunRecord : DriveRecord {
   std::vector<double> path_distances_m;  ///< of the true track from the planned curve
   std::vector<FaultEvent> faults;        ///< that were injected
   int contacts = 0;
+  ContactScore contact_score;  ///< contacts as events, those with discs among them
 
   /// The score of a goal of `goals`; nothing where it did not arrive or has no judge.
   [[nodiscard]] std::optional<ArrivalScore> score_of(std::size_t goal) const {

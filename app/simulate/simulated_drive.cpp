@@ -17,6 +17,13 @@ namespace {
 
 constexpr Duration control_period = std::chrono::milliseconds(20);
 
+/// The base can brake as hard as the robot declares, with a third to spare for the lag of its motors.
+void brake_as_declared(SimulationOptions& options, double protective_deceleration_mps2) {
+  options.contacts.protective_deceleration_mps2 = protective_deceleration_mps2;
+  double& most_mps2 = options.base.max_wheel_acceleration_mps2;
+  most_mps2 = std::max(most_mps2, protective_deceleration_mps2 * 4.0 / 3.0);
+}
+
 SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptions& replay) {
   SimulationOptions options;
   options.start = site.start;
@@ -24,9 +31,16 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
   options.robot_radius_m = site.robot.radius_m;
   options.robot_footprint = site.robot.footprint;
   options.base.track_width_m = site.robot.track_width_m;
+  options.base.max_forward_mps = std::max(options.base.max_forward_mps, site.robot.max_forward_mps);
+  options.base.max_turn_radps = std::max(options.base.max_turn_radps, site.robot.max_turn_radps);
+  options.base.max_wheel_mps = std::max(options.base.max_wheel_mps, site.robot.max_wheel_mps);
   options.seed = replay.seed;
   options.faults = replay.faults;
   options.disk = replay.disk;
+  options.scanner = replay.scanner;
+  options.discs = replay.discs;
+  options.people = replay.people;
+  if (site.robot.scanner) brake_as_declared(options, site.robot.scanner->protective_deceleration_mps2);
   return options;
 }
 
@@ -48,6 +62,8 @@ MarkerRegistry markers_over(const Site& site, const SimulatedDriveOptions& optio
 SensorInput sense(Simulation& simulation, BaseDriver& base) {
   SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
   while (std::optional<Frame> frame = simulation.camera().poll()) input.frames.push_back(std::move(*frame));
+  if (Scanner* scanner = simulation.scanner())
+    while (std::optional<Scan> scan = scanner->poll()) input.scans.push_back(std::move(*scan));
   return input;
 }
 
@@ -86,6 +102,8 @@ class SimulatedDrive {
     simulation_.advance(control_period);
     const SensorInput input = sense(simulation_, base_);
     if (options_.on_input) options_.on_input(input);
+    if (options_.is_placed_at_start && !is_placed_)
+      is_placed_ = mission_.place_robot(site_.start, {.position_m = 0.02, .heading_rad = radians(1.0)});
     const Stopwatch computing;
     const MissionStep step = mission_.step(input);
     if (options_.on_step) options_.on_step(computing.elapsed());
@@ -123,12 +141,14 @@ class SimulatedDrive {
     record.truth = scorer.track();
     record.path_distances_m = scorer.path_distances_m();
     record.contacts = scorer.contacts();
+    record.contact_score = scorer.contact_score();
     record.faults = simulation_.faults();
     return record;
   }
 
   Mission& mission() { return mission_; }
   BaseDriver& base() { return base_; }
+  [[nodiscard]] const Scorer& scorer() { return simulation_.scorer(); }
   [[nodiscard]] Stamp now() const { return simulation_.now(); }
   [[nodiscard]] bool recording() const { return recorder_.is_on(); }
 
@@ -186,6 +206,7 @@ class SimulatedDrive {
   RunRecorder recorder_;
   std::vector<std::optional<ArrivalScore>> scores_;
   bool went_back_ = false;
+  bool is_placed_ = false;
   ConductedDrive unrecorded_;
   std::optional<TruePose> last_;
 };
@@ -212,6 +233,7 @@ RunRecord simulate_drive(const Site& site, const SimulatedDriveOptions& options)
   while (!drive.mission().finished()) {
     drive.step();
     if (options.goes_on && !options.goes_on()) break;
+    if (options.is_over && options.is_over(drive.scorer())) break;
     if (options.realtime) pace.keep();
   }
   return drive.end_record();

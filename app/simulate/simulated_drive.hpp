@@ -10,7 +10,11 @@
 #include "app/simulate/disturbances.hpp"
 #include "app/site/site.hpp"
 #include "drivers/simulation/fault.hpp"
+#include "drivers/simulation/moving_disc.hpp"
+#include "drivers/simulation/scoring.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
+#include "drivers/simulation/simulated_scanner.hpp"
+#include "drivers/simulation/walkers.hpp"
 #include "planning/grid_planner.hpp"
 
 namespace lodestar {
@@ -26,10 +30,16 @@ struct SimulatedDriveOptions {
   std::optional<LearnedState> learned;                          ///< in an earlier drive
   Disturbances disturbances;
   std::vector<Fault> faults;
-  std::shared_ptr<SimulatedDisk> disk;  ///< disk faults act on it, if given
-  double pictures_hz = 0.0;             ///< camera frames to keep in the record
-  bool realtime = false;                ///< simulated time runs no faster than wall time
-  std::function<bool()> goes_on;        ///< asked after each step; false ends the drive where it is
+  std::shared_ptr<SimulatedDisk> disk;             ///< disk faults act on it, if given
+  std::optional<SimulatedScannerOptions> scanner;  ///< without it the robot has none
+  PeopleOptions people;                            ///< who walk about
+  std::vector<MovingDisc> discs;                   ///< that no map has
+  bool is_placed_at_start = false;                 ///< a person says where it starts, to 2 cm and 1 degree
+  /// Asked after each step what the judge of the simulated world says; true ends the drive where it is.
+  std::function<bool(const Scorer&)> is_over;
+  double pictures_hz = 0.0;       ///< camera frames to keep in the record
+  bool realtime = false;          ///< simulated time runs no faster than wall time
+  std::function<bool()> goes_on;  ///< asked after each step; false ends the drive where it is
   /// Called after each step of the navigator with the wall time that it took.
   std::function<void(std::chrono::nanoseconds)> on_step;
   std::function<void(double)> progress;              ///< called repeatedly with the completed share, 0..1

@@ -46,7 +46,9 @@ std::vector<RunSummary> simulate_drives(const Site& site, const SimulatedDriveOp
     run.progress = nullptr;
     const RunRecord record = simulate_drive(site, run);
     if (is_over()) return;  // perhaps in the middle of this one
-    summaries[static_cast<std::size_t>(i)] = summarize(record);
+    RunSummary summary = summarize(record);
+    if (options.people.count > 0) summary.people = record.contact_score;
+    summaries[static_cast<std::size_t>(i)] = std::move(summary);
     done(++finished);
   });
   std::vector<RunSummary> whole;

@@ -19,7 +19,8 @@ struct RunSummary {
   std::optional<double> worst_heading_rad;  ///< largest true heading error on arrival, where one was wanted
   double path_p95_m = 0.0;  ///< 95th percentile of the true track's distance from the planned curve
   int contacts = 0;
-  double drive_s = 0.0;   ///< simulated
+  std::optional<ContactScore> people;  ///< where people walk about
+  double drive_s = 0.0;                ///< simulated
   double travel_s = 0.0;  ///< of that, from path planned to arrival reported, summed over goals reached
   double ideal_s = 0.0;   ///< ideal travel time of their paths
   std::vector<NeesSample> nees_samples;

@@ -14,22 +14,53 @@ constexpr double driving_mps = 0.01;
 
 }  // namespace
 
-Scorer::Scorer(const OccupancyMap& map, double robot_radius_m, std::optional<Footprint> footprint)
-    : map_(map), robot_radius_m_(robot_radius_m), footprint_(std::move(footprint)) {}
+Scorer::Scorer(const OccupancyMap& map, double robot_radius_m, std::optional<Footprint> footprint,
+               const ContactJudgeOptions& contacts)
+    : map_(map),
+      robot_radius_m_(robot_radius_m),
+      footprint_(std::move(footprint)),
+      judge_(map, robot_radius_m, footprint_, contacts) {}
 
 void Scorer::record(const TruePose& truth, bool ran_against_obstacle) {
   const Vec2& position_m = truth.map_from_base.position_m;
   const bool overlaps = footprint_ ? !footprint_->is_clear(map_, truth.map_from_base)
                                    : disc_overlaps_obstacle(map_, position_m, robot_radius_m_);
-  if (ran_against_obstacle || overlaps) ++contacts_;
+  const bool touches_map = ran_against_obstacle || overlaps;
+  if (touches_map) ++contacts_;
+  if (touches_map && !touches_map_) {
+    ++map_contacts_;
+    greatest_map_contact_mps_ = std::max(greatest_map_contact_mps_, latest_speed_mps_);
+  }
+  touches_map_ = touches_map;
   if (path_ && has_moved_to(truth)) path_distances_m_.push_back(distance_to_path_m(*path_, position_m));
+  latest_speed_mps_ = speed_to_mps(truth);
   track_.push_back(truth);
 }
 
-bool Scorer::has_moved_to(const TruePose& truth) const {
-  if (track_.empty()) return false;
+void Scorer::record_discs(const TruePose& truth, std::span<const DiscState> discs) {
+  judge_.record(truth.stamp, truth.map_from_base, discs);
+}
+
+void Scorer::change_map(const OccupancyMap& map) {
+  map_ = map;
+  judge_.change_map(map);
+}
+
+ContactScore Scorer::contact_score() const {
+  ContactScore score = judge_.score();
+  score.moving += map_contacts_;
+  score.greatest_contact_mps = std::max(score.greatest_contact_mps, greatest_map_contact_mps_);
+  return score;
+}
+
+double Scorer::speed_to_mps(const TruePose& truth) const {
+  if (track_.empty()) return 0.0;
   const double moved_m = (truth.map_from_base.position_m - track_.back().map_from_base.position_m).norm();
-  return moved_m > driving_mps * seconds(truth.stamp - track_.back().stamp);
+  return moved_m / std::max(seconds(truth.stamp - track_.back().stamp), 1e-9);
+}
+
+bool Scorer::has_moved_to(const TruePose& truth) const {
+  return !track_.empty() && speed_to_mps(truth) > driving_mps;
 }
 
 void Scorer::claim_arrival(const Vec2& goal_m, std::optional<double> heading_rad) {
@@ -47,6 +78,9 @@ void Scorer::forget() {
   arrivals_.clear();
   path_distances_m_.clear();
   contacts_ = 0;
+  judge_.forget();
+  map_contacts_ = 0;
+  greatest_map_contact_mps_ = 0.0;
 }
 
 void Scorer::claim_path(const Path& path) {

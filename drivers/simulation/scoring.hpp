@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "drivers/simulation/contact_judge.hpp"
 #include "maps/footprint.hpp"
 #include "maps/motion.hpp"
 #include "maps/occupancy_map.hpp"
@@ -27,14 +29,18 @@ struct ArrivalScore {
 class Scorer {
  public:
   /// The robot is a disc, or the footprint if there is one.
-  Scorer(const OccupancyMap& map, double robot_radius_m, std::optional<Footprint> footprint = {});
+  Scorer(const OccupancyMap& map, double robot_radius_m, std::optional<Footprint> footprint = {},
+         const ContactJudgeOptions& contacts = {});
 
   /// Called by the simulated world at a fixed rate. `ran_against_obstacle`: since the previous record, an
   /// obstacle blocked the robot.
   void record(const TruePose& truth, bool ran_against_obstacle = false);
 
+  /// Called by a simulated world that has discs or a scanner at a fixed rate of its own.
+  void record_discs(const TruePose& truth, std::span<const DiscState> discs);
+
   /// Replaces the map of obstacles.
-  void change_map(const OccupancyMap& map) { map_ = map; }
+  void change_map(const OccupancyMap& map);
 
   /// The navigator claims to have arrived: scored against the newest record; ends the path followed.
   void claim_arrival(const Vec2& goal_m, std::optional<double> heading_rad);
@@ -52,8 +58,13 @@ class Scorer {
   /// Recorded poses at which the robot overlapped a cell that is not drivable, left the map, or was
   /// blocked by an obstacle.
   [[nodiscard]] int contacts() const { return contacts_; }
+  /// The contacts with discs, and those with the map among the moving ones, each counted once from touch to
+  /// release. Without discs and scanner in the world: those with the map alone, and no clearance.
+  [[nodiscard]] ContactScore contact_score() const;
 
  private:
+  /// Of the origin, since the newest record.
+  [[nodiscard]] double speed_to_mps(const TruePose& truth) const;
   [[nodiscard]] bool has_moved_to(const TruePose& truth) const;
 
   OccupancyMap map_;
@@ -64,6 +75,11 @@ class Scorer {
   std::vector<TruePose> track_;
   std::vector<double> path_distances_m_;
   int contacts_ = 0;
+  ContactJudge judge_;
+  double latest_speed_mps_ = 0.0;
+  bool touches_map_ = false;
+  int map_contacts_ = 0;  ///< counted once each
+  double greatest_map_contact_mps_ = 0.0;
 };
 
 }  // namespace lodestar

@@ -25,9 +25,24 @@ constexpr std::uint64_t bad_camera_stream = 4;
 constexpr std::uint64_t bad_bus_stream = 5;
 constexpr std::uint64_t lamps_stream = 6;
 constexpr std::uint64_t kidnapping_stream = 7;
+constexpr std::uint64_t scanner_stream = 8;
+constexpr std::uint64_t people_stream = 9;
+
+/// Between looks at the discs: at 2 m/s one moves by 2 cm, and straight on to a fraction of a millimetre.
+constexpr Duration disc_period = std::chrono::milliseconds(10);
 
 std::uint64_t seed_for(std::uint64_t seed, std::uint64_t purpose) {
   return Random(seed).stream(purpose).bits();
+}
+
+ContactJudgeOptions contact_options(const SimulationOptions& options) {
+  ContactJudgeOptions contacts = options.contacts;
+  if (!options.scanner) return contacts;
+  contacts.base_from_scanner = options.scanner->mount.base_from_scanner;
+  contacts.range_m = options.scanner->range_m;
+  contacts.scan_period = from_seconds(1.0 / options.scanner->rate_hz);
+  contacts.scan_delay = options.scanner->delay;
+  return contacts;
 }
 
 }  // namespace
@@ -48,7 +63,7 @@ struct Simulation::World {
         faulty_camera(camera, seed_for(chosen.seed, bad_camera_stream)),
         faulty_bus(navigator_end, seed_for(chosen.seed, bad_bus_stream)),
         faults(chosen.faults, seed_for(chosen.seed, schedule_stream)),
-        scorer(map, chosen.robot_radius_m, chosen.robot_footprint) {
+        scorer(map, chosen.robot_radius_m, chosen.robot_footprint, contact_options(chosen)) {
     if (options.physics_step <= Duration::zero()) {
       throw InputError(
           fmt::format("physics step: found {} s, wanted a positive time", seconds(options.physics_step)));
@@ -56,6 +71,11 @@ struct Simulation::World {
     camera.observe(now, motion.true_map_from_base());
     scorer.record({now, motion.true_map_from_base()});
     next_record += options.scoring_period;
+    if (options.scanner) scanner.emplace(map, *options.scanner, seed_for(chosen.seed, scanner_stream));
+    if (options.people.count > 0)
+      people.emplace(map, options.people, options.start, seed_for(chosen.seed, people_stream));
+    for (const MovingDisc& disc : options.discs) trajectories.emplace_back(disc);
+    move_discs();
   }
 
   void step() {
@@ -67,7 +87,21 @@ struct Simulation::World {
     faulty_camera.advance(now);
     base.step(now);
     camera.observe(now, motion.true_map_from_base());
+    if (now >= next_discs) move_discs();
     score();
+  }
+
+  void move_discs() {
+    if (!scanner && trajectories.empty() && !people) return;
+    next_discs += disc_period;
+    discs.clear();
+    for (FollowedTrajectory& trajectory : trajectories) discs.push_back(trajectory.at(now));
+    if (people) {
+      people->step(disc_period, motion.true_map_from_base());
+      for (const Walker& walker : people->walkers()) discs.push_back(walker.disc);
+    }
+    if (scanner) scanner->observe(now, motion.true_map_from_base(), discs);
+    scorer.record_discs({now, motion.true_map_from_base()}, discs);
   }
 
   /// Applies the active faults to all parts.
@@ -111,6 +145,11 @@ struct Simulation::World {
   FaultSchedule faults;
   Scorer scorer;
   Stamp next_record;
+  std::optional<SimulatedScanner> scanner;
+  std::vector<FollowedTrajectory> trajectories;
+  std::optional<Walkers> people;
+  std::vector<DiscState> discs;
+  Stamp next_discs;
   bool was_blocked = false;
 };
 
@@ -137,6 +176,14 @@ CanBus& Simulation::can() {
   return world_->faulty_bus;
 }
 
+Scanner* Simulation::scanner() {
+  return world_->scanner ? &*world_->scanner : nullptr;
+}
+
+const std::vector<DiscState>& Simulation::discs() const {
+  return world_->discs;
+}
+
 SimulatedBase& Simulation::base() {
   return world_->base;
 }
@@ -148,6 +195,7 @@ void Simulation::push(const Pose2& by) {
 void Simulation::change_map(const OccupancyMap& map) {
   world_->motion.change_surroundings(map);
   world_->scorer.change_map(map);
+  if (world_->scanner) world_->scanner->change_map(map);
 }
 
 void Simulation::on_can_frame(std::function<void(const StampedCanFrame&)> listener) {

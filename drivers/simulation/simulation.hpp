@@ -7,11 +7,16 @@
 
 #include "drivers/camera/camera.hpp"
 #include "drivers/can/can_bus.hpp"
+#include "drivers/scanner/scanner.hpp"
+#include "drivers/simulation/contact_judge.hpp"
 #include "drivers/simulation/fault.hpp"
+#include "drivers/simulation/moving_disc.hpp"
 #include "drivers/simulation/scoring.hpp"
 #include "drivers/simulation/simulated_base.hpp"
 #include "drivers/simulation/simulated_camera_options.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
+#include "drivers/simulation/simulated_scanner.hpp"
+#include "drivers/simulation/walkers.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/footprint.hpp"
 #include "maps/marker_registry.hpp"
@@ -32,6 +37,12 @@ struct SimulationOptions {
   std::uint64_t seed = 1;
   std::vector<Fault> faults;
   std::shared_ptr<SimulatedDisk> disk;  ///< disk of the recorders, if there are any
+  /// Of the robot's scanner; without them it has none.
+  std::optional<SimulatedScannerOptions> scanner;
+  PeopleOptions people;           ///< besides the discs; they walk about on the true map
+  std::vector<MovingDisc> discs;  ///< not on any map; they do not block the robot
+  /// What the judge goes by; the scanner's place, range and times are taken from `scanner` if there is one.
+  ContactJudgeOptions contacts;
 };
 
 /// The simulated world as a set of drivers: a camera and a CAN bus, advanced in simulated time. It does not
@@ -51,6 +62,11 @@ class Simulation {
 
   Camera& camera();
   CanBus& can();
+  /// Null when the robot has none.
+  Scanner* scanner();
+
+  /// All discs as they are now, for pictures and live views.
+  [[nodiscard]] const std::vector<DiscState>& discs() const;
 
   /// The base's firmware, to inject events and defects; it has no access to the pose.
   SimulatedBase& base();

@@ -47,7 +47,8 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"drivers/can", {"drivers/system"}},
       {"drivers/base", {"drivers/can"}},
       {"drivers/camera", {"drivers/system"}},
-      {"drivers/simulation", {"drivers/base", "drivers/camera"}},
+      {"drivers/scanner", {"drivers/system"}},
+      {"drivers/simulation", {"drivers/base", "drivers/camera", "drivers/scanner"}},
       {"drivers/stand_in", {"drivers/simulation"}},
 
       {"app/common", {"maps"}},

@@ -119,6 +119,23 @@ TEST(Campaign, takes_no_missions_of_something_else) {
   }
 }
 
+TEST(Campaign, reports_contacts_with_people_where_they_walk_about) {
+  const MissionOutcome met{
+      .mission = 5,
+      .arrived = true,
+      .people = PeopleContacts{.moving = 1, .excused = 2, .at_rest = 3, .greatest_mps = 0.5}};
+  EXPECT_TRUE(met.hit_something()) << "a person, while it moved";
+  const MissionOutcome stood{.mission = 6, .arrived = true, .people = PeopleContacts{.at_rest = 1}};
+  EXPECT_FALSE(stood.hit_something());
+  EXPECT_EQ(as_json(outcome_from(as_json(met))).dump(), as_json(met).dump());
+  const auto report = campaign_json({met, stood});
+  EXPECT_EQ(report["all"]["people"]["moving"], 1);
+  EXPECT_EQ(report["all"]["people"]["at_rest"], 4);
+  EXPECT_EQ(report["failures"][0]["repeat"], "lodestar campaign --mission 5 --people");
+  EXPECT_NE(campaign_html({met}).find("Contacts with people"), std::string::npos);
+  EXPECT_EQ(campaign_html({MissionOutcome{.mission = 1}}).find("Contacts with people"), std::string::npos);
+}
+
 TEST(Campaign, reports_contacts_and_silently_wrong_arrivals_with_the_command_that_repeats_them) {
   const MissionOutcome fine{.mission = 1, .faults = {"can_loss"}, .arrived = true, .error_m = 0.01};
   const MissionOutcome hit{.mission = 2, .faults = {"wheel_slip"}, .failure = "stuck", .contacts = 3};

@@ -44,6 +44,18 @@ TEST(SimulatedBase, never_accelerates_beyond_what_its_motors_can) {
   EXPECT_NEAR(speed_mps, 1.0, 1e-3);
 }
 
+TEST(SimulatedBase, brakes_as_hard_as_a_protective_stop_wants) {
+  SimulatedMotion motion(perfect_base(), {}, 1);
+  motion.set_wheel_targets(0.6, 0.6);
+  for (int i = 0; i < 2000; ++i) motion.step(milliseconds(1));
+  const double begins_m = motion.true_map_from_base().position_m.x();
+  motion.set_wheel_targets(0.0, 0.0);
+  for (int i = 0; i < 2000; ++i) motion.step(milliseconds(1));
+  const double needed_m = motion.true_map_from_base().position_m.x() - begins_m;
+  EXPECT_LT(needed_m, square(0.6) / (2.0 * 1.5)) << "1.5 m/s^2, with the lag of the motors";
+  EXPECT_GT(needed_m, square(0.6) / (2.0 * 2.0)) << "not better than the motors can";
+}
+
 TEST(SimulatedBase, slips_with_the_square_root_of_the_way_whatever_the_step) {
   SimulatedBaseOptions options = perfect_base();
   options.slip_sigma_per_sqrt_m = 0.002;

@@ -1,0 +1,133 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "tests/scenarios/command_line.hpp"
+
+namespace lodestar {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string head = "format: lodestar-scenario\nversion: 1\n";
+const std::string hall = head +
+                         "size_m: [6, 4]\nstart: {x_m: 1, y_m: 2, yaw_deg: 0}\n"
+                         "goal: {x_m: 4, y_m: 2, radius_m: 0.1}\ntime_limit_s: 40\n";
+
+std::vector<nlohmann::ordered_json> lines_of(const Ran& ran) {
+  std::vector<nlohmann::ordered_json> lines;
+  std::istringstream text(ran.out);
+  for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::ordered_json::parse(line));
+  return lines;
+}
+
+Ran run_scenario_text(const ScratchFolder& scratch, const std::string& text, const std::string& options) {
+  write_text(scratch.path() / "world.yaml", text);
+  return run_lodestar("scenario world.yaml " + options, scratch.path());
+}
+
+TEST(Scenario, drives_through_an_empty_hall_and_prints_one_object_a_seed) {
+  const ScratchFolder scratch;
+  const Ran ran = run_scenario_text(scratch, hall, "--json --seed 7 --seeds 2 -o pictures");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err << ran.out;
+  const auto lines = lines_of(ran);
+  ASSERT_EQ(lines.size(), 2U);
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : lines[0].items()) keys.push_back(key);
+  EXPECT_THAT(keys,
+              ElementsAre("seed", "success", "time_s", "length_m", "contacts_moving", "contacts_excused",
+                          "contacts_at_rest", "greatest_contact_mps", "least_clearance_m", "reason"));
+  EXPECT_EQ(lines[0]["seed"], 7);
+  EXPECT_EQ(lines[1]["seed"], 8);
+  EXPECT_EQ(lines[0]["success"], true);
+  EXPECT_EQ(lines[0]["reason"], "arrived");
+  EXPECT_NEAR(lines[0]["length_m"].get<double>(), 3.0, 0.2);
+  EXPECT_GT(lines[0]["time_s"].get<double>(), 5.0) << "3 m at 0.6 m/s at most";
+  EXPECT_TRUE(lines[0]["least_clearance_m"].is_null()) << "there is nothing to come near to";
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "pictures" / "scenario-8.png"));
+  EXPECT_EQ(run_scenario_text(scratch, hall, "--json --seed 7 --seeds 2").out, ran.out)
+      << "repeats by its seed";
+}
+
+TEST(Scenario, counts_a_fast_disc_s_contact_as_excused) {
+  const ScratchFolder scratch;
+  // Faster than anyone the robot promises to stop for, along its way.
+  const Ran ran = run_scenario_text(scratch,
+                                    hall +
+                                        "discs: [{radius_m: 0.3, legs: false, keys: [[0, 5.5, 2], [2, 5.5, "
+                                        "2], [3, 0.4, 2]], loop: true}]\n",
+                                    "--json --seed 1");
+  const auto lines = lines_of(ran);
+  ASSERT_EQ(lines.size(), 1U) << ran.err;
+  EXPECT_EQ(lines[0]["contacts_moving"], 0);
+  EXPECT_GT(lines[0]["contacts_excused"].get<int>() + lines[0]["contacts_at_rest"].get<int>(), 0);
+  EXPECT_LT(lines[0]["least_clearance_m"].get<double>(), 0.0);
+}
+
+TEST(Scenario, gives_up_at_its_time_limit) {
+  const ScratchFolder scratch;
+  std::string text = hall;
+  text.replace(text.find("time_limit_s: 40"), 16, "time_limit_s: 3");
+  const Ran ran = run_scenario_text(scratch, text, "--json");
+  EXPECT_EQ(ran.exit_code, 1);
+  const auto lines = lines_of(ran);
+  ASSERT_EQ(lines.size(), 1U) << ran.err;
+  EXPECT_EQ(lines[0]["success"], false);
+  EXPECT_EQ(lines[0]["reason"], "time limit");
+  EXPECT_NEAR(lines[0]["time_s"].get<double>(), 3.0, 0.05);
+}
+
+TEST(Scenario, starts_without_markers_where_a_person_says) {
+  const ScratchFolder scratch;
+  const Ran ran =
+      run_scenario_text(scratch, hall + "markers: none\nlimits: {max_forward_mps: 0.3}\n", "--json");
+  const auto lines = lines_of(ran);
+  ASSERT_EQ(lines.size(), 1U) << ran.err;
+  EXPECT_EQ(lines[0]["success"], true) << lines[0].dump();
+  EXPECT_GT(lines[0]["time_s"].get<double>(), 10.0) << "3 m at 0.3 m/s";
+}
+
+TEST(Scenario, says_where_its_file_is_wrong) {
+  const ScratchFolder scratch;
+  const auto complaint = [&](const std::string& text) {
+    const Ran ran = run_scenario_text(scratch, text, "--json");
+    EXPECT_EQ(ran.exit_code, 2) << text;
+    EXPECT_EQ(ran.out, "");
+    return ran.err;
+  };
+  EXPECT_THAT(complaint(hall + "speed: 3\n"), HasSubstr("world.yaml:7: found unknown key 'speed'"));
+  EXPECT_THAT(complaint(head + "size_m: [6, 4]\n"), HasSubstr("no key 'start'"));
+  EXPECT_THAT(complaint(hall + "map: lab.yaml\n"), HasSubstr("a size besides a map"));
+  EXPECT_THAT(complaint(hall + "markers: some\n"), HasSubstr("hang or none"));
+  EXPECT_THAT(complaint(hall + "limits: {max_mps: 1}\n"), HasSubstr("unknown key 'max_mps'"));
+  EXPECT_THAT(complaint(hall + "robot: no_such.yaml\n"), HasSubstr("no_such.yaml"));
+  EXPECT_THAT(complaint(hall + "discs:\n  - {radius_m: 0.3, keys: []}\n"), HasSubstr("empty list"));
+  EXPECT_THAT(complaint(hall + "discs:\n  - {radius_m: 0.3, keys: [[0, 1]]}\n"),
+              HasSubstr("world.yaml:8: found 2 values"));
+  EXPECT_THAT(
+      complaint(hall + "discs:\n  - {radius_m: 0.3, keys: [[1, 1, 1],\n            [1, 2, 2]]}\n"),
+      HasSubstr("world.yaml:9: found [1, 2, 2], wanted a list of [t_s, x_m, y_m], their times ascending"));
+  EXPECT_THAT(run_lodestar("scenario", scratch.path()).err, HasSubstr("file"));
+}
+
+TEST(Scenario, reads_the_examples) {
+  const ScratchFolder scratch;
+  for (const char* name : {"crossing-people", "static-clutter", "corridor"}) {
+    // So short a time shows that the files are read, and no more.
+    std::string text = read_text(std::string(LODESTAR_SOURCE_DIR) + "/scenarios/" + name + ".yaml");
+    const std::size_t at = text.find("time_limit_s: ");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, text.find('\n', at) - at, "time_limit_s: 0.5");
+    for (const char* part : {"corridor_map.yaml", "corridor_map.pgm"})
+      write_text(scratch.path() / part, read_text(std::string(LODESTAR_SOURCE_DIR) + "/scenarios/" + part));
+    const Ran ran = run_scenario_text(scratch, text, "--json");
+    EXPECT_EQ(ran.exit_code, 1) << name << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("time limit")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace lodestar
