@@ -46,6 +46,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"drivers/can", {"drivers/system"}},
       {"drivers/base", {"drivers/can"}},
       {"drivers/camera", {"drivers/system"}},
+      {"drivers/scanner", {"drivers/system"}},
       {"drivers/simulation", {"drivers/base", "drivers/camera"}},
       {"drivers/stand_in", {"drivers/simulation"}},
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <deque>
+
+#include "drivers/scanner/byte_stream.hpp"
+#include "drivers/scanner/rplidar_wire.hpp"
+#include "drivers/scanner/scanner_stand_in.hpp"
+
+namespace lodestar {
+
+/// An RPLIDAR at 10 turns of 360 beams a second, with the modes 0 standard, 1 express (typical) and 2 dense.
+class RplidarStandIn final : public ScannerStandIn {
+ public:
+  [[nodiscard]] BeamPattern pattern() const override;
+  Bytes answer(ByteView request, Stamp now) override;
+  std::vector<TimedBytes> packets_of(const Scan& turn) override;
+  void forget_client() override;
+
+ private:
+  Bytes answer_one(const rplidar::Request& request);
+  Bytes begin(rplidar::Answer kind);
+  std::vector<TimedBytes> capsules();
+
+  ByteStream requests_;
+  std::optional<rplidar::Answer> streaming_;
+  bool begins_stream_ = false;
+  std::vector<Beam> waiting_;  ///< not yet enough for a capsule
+};
+
+}  // namespace lodestar
