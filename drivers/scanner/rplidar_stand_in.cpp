@@ -37,7 +37,9 @@ Bytes single(Answer answer, const Bytes& content) {
 }
 
 Bytes setting(ByteView payload) {
-  Bytes content(payload.begin(), payload.begin() + 4);
+  Bytes content;
+  content.reserve(32);
+  append(content, payload.first(4));
   const std::uint16_t mode = payload.size() >= 6 ? number_at<std::uint16_t>(payload, 4) : typical;
   switch (static_cast<Setting>(number_at<std::uint32_t>(payload, 0))) {
     case Setting::mode_count:
@@ -58,7 +60,7 @@ Bytes setting(ByteView payload) {
       break;
     case Setting::mode_name: {
       const std::string_view name = mode == 0 ? "Standard" : mode == 1 ? "Express" : "Dense";
-      content.insert(content.end(), name.begin(), name.end());
+      for (const char letter : name) content.push_back(static_cast<std::uint8_t>(letter));
       content.push_back(0);
       break;
     }
