@@ -18,6 +18,8 @@ void DeviceClock::start(std::uint64_t ticks, Stamp arrival) {
   device_ = block_begin_ = Duration::zero();
   quickest_ = quickest_of_block_ = {Duration::zero(), arrival};
   block_before_.reset();
+  blocks_ = 0;
+  drift_ = 0.0;
   late_since_.reset();
 }
 
@@ -54,9 +56,12 @@ void DeviceClock::learn_drift(const Delivery& delivery) {
     if (on_device >= options_.learning_time / 4) {
       const double seen =
           static_cast<double>((on_robot - on_device).count()) / static_cast<double>(on_device.count());
-      drift_ = std::clamp(drift_ + 0.5 * (seen - drift_), -options_.max_drift, options_.max_drift);
+      const double gain = blocks_ == 1 ? 1.0 : 0.5;
+      drift_ = std::clamp(drift_ + gain * (seen - drift_), -options_.max_drift, options_.max_drift);
     }
   }
+  if (blocks_ < options_.learning_blocks) quickest_ = quickest_of_block_;
+  ++blocks_;
   block_before_ = quickest_of_block_;
   quickest_of_block_ = delivery;
   block_begin_ = delivery.device;
@@ -71,17 +76,14 @@ Stamp DeviceClock::stamp_of(std::uint64_t ticks, Stamp arrival) {
   last_ticks_ = ticks;
   device_ += *since_last;
   const Stamp expected = quickest_.arrival + scaled(device_ - quickest_.device, 1.0 + drift_ + options_.leak);
-  if (seems_restarted(arrival - expected, arrival)) {
+  if (expected - arrival > options_.impossible_lead || seems_restarted(arrival - expected, arrival)) {
     start(ticks, arrival);
     return arrival;
   }
+  const Stamp stamp = std::min(expected, arrival);
+  quickest_ = {device_, stamp};
   learn_drift({device_, arrival});
-  if (expected < arrival) {
-    quickest_ = {device_, expected};
-    return expected;
-  }
-  quickest_ = {device_, arrival};
-  return arrival;
+  return stamp;
 }
 
 }  // namespace lodestar

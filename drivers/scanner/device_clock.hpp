@@ -15,6 +15,9 @@ struct DeviceClockOptions {
   /// drift when it has been learned, low enough to pass over seconds of busy bus.
   double leak = 1e-4;
   Duration learning_time = std::chrono::seconds(5);  ///< between two looks at the drift
+  int learning_blocks = 4;  ///< of that time, in which the offset follows the drift as it is learned
+  /// A count this far ahead of all deliveries so far is another count: nothing arrives before it is measured.
+  Duration impossible_lead = std::chrono::milliseconds(50);
   /// A device that seems this late for so long was restarted: no buffer holds this much.
   Duration restart_lateness = std::chrono::seconds(1);
   Duration restart_patience = std::chrono::seconds(2);
@@ -56,6 +59,7 @@ class DeviceClock {
   Delivery quickest_of_block_;            ///< of the present learning time, by the rate known
   std::optional<Delivery> block_before_;  ///< the quickest of the learning time before
   Duration block_begin_{};
+  int blocks_ = 0;
   std::optional<Stamp> late_since_;
   double drift_ = 0.0;
   int restarts_ = 0;

@@ -11,6 +11,7 @@ class Ld19StandIn final : public ScannerStandIn {
   [[nodiscard]] BeamPattern pattern() const override;
   Bytes answer(ByteView /*request*/, Stamp /*now*/) override { return {}; }
   std::vector<TimedBytes> packets_of(const Scan& turn) override;
+  void forget_client() override { waiting_.clear(); }
 
  private:
   std::vector<Beam> waiting_;  ///< not yet enough for a packet

@@ -17,7 +17,6 @@ constexpr int rplidar_beams = 360;
 constexpr Duration rplidar_turn = std::chrono::milliseconds(100);
 constexpr double max_range_m = 12.0;
 constexpr std::uint16_t modes = 3;
-constexpr std::uint16_t typical = 1;
 
 Answer answer_of_mode(std::uint16_t mode) {
   if (mode == 0) return Answer::nodes;
@@ -36,7 +35,7 @@ Bytes single(Answer answer, const Bytes& content) {
   return bytes;
 }
 
-Bytes setting(ByteView payload) {
+Bytes setting(ByteView payload, std::uint16_t typical) {
   Bytes content;
   content.reserve(32);
   append(content, payload.first(4));
@@ -111,7 +110,9 @@ Bytes RplidarStandIn::answer_one(const rplidar::Request& request) {
       return single(Answer::sample_rate, rates);
     }
     case Command::configuration:
-      return request.payload.size() >= 4 ? single(Answer::configuration, setting(request.payload)) : Bytes();
+      return request.payload.size() >= 4
+                 ? single(Answer::configuration, setting(request.payload, typical_mode_))
+                 : Bytes();
     case Command::motor_support:
       return single(Answer::motor_support, {1, 0, 0, 0});
     case Command::scan:

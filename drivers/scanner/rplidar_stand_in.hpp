@@ -8,9 +8,11 @@
 
 namespace lodestar {
 
-/// An RPLIDAR at 10 turns of 360 beams a second, with the modes 0 standard, 1 express (typical) and 2 dense.
+/// An RPLIDAR at 10 turns of 360 beams a second, with the modes 0 standard, 1 express and 2 dense.
 class RplidarStandIn final : public ScannerStandIn {
  public:
+  explicit RplidarStandIn(std::uint16_t typical_mode = 1) : typical_mode_(typical_mode) {}
+
   [[nodiscard]] BeamPattern pattern() const override;
   Bytes answer(ByteView request, Stamp now) override;
   std::vector<TimedBytes> packets_of(const Scan& turn) override;
@@ -21,6 +23,7 @@ class RplidarStandIn final : public ScannerStandIn {
   Bytes begin(rplidar::Answer kind);
   std::vector<TimedBytes> capsules();
 
+  std::uint16_t typical_mode_;
   ByteStream requests_;
   std::optional<rplidar::Answer> streaming_;
   bool begins_stream_ = false;
