@@ -70,7 +70,9 @@ Bytes setting(ByteView payload, std::uint16_t typical) {
 }  // namespace
 
 BeamPattern RplidarStandIn::pattern() const {
+  // Half a step from zero: clients that sort by whole degrees find one beam in each.
   return {.beams = rplidar_beams,
+          .first_rad = -std::numbers::pi / rplidar_beams,
           .step_rad = -2.0 * std::numbers::pi / rplidar_beams,
           .turn = rplidar_turn,
           .step = rplidar_turn / rplidar_beams,

@@ -33,6 +33,13 @@ inline void PrintTo(Kind kind, std::ostream* out) {
 inline const auto all_kinds = testing::Values(Kind::ld19, Kind::rplidar_standard, Kind::rplidar_express,
                                               Kind::rplidar_dense, Kind::scip, Kind::nanoscan);
 
+/// Not in datagrams, which are never cut.
+inline const auto stream_kinds = testing::Values(Kind::ld19, Kind::rplidar_standard, Kind::rplidar_express,
+                                                 Kind::rplidar_dense, Kind::scip);
+/// With a checksum of their own.
+inline const auto checked_kinds =
+    testing::Values(Kind::ld19, Kind::rplidar_express, Kind::rplidar_dense, Kind::scip);
+
 inline double unit_of(Kind kind) {
   return kind == Kind::rplidar_standard ? 0.00025 : 0.001;
 }

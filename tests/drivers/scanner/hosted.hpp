@@ -16,8 +16,9 @@ inline std::optional<double> uneven_room_m(double angle_rad) {
 /// A stand-in that serves in a thread of its own.
 class Hosted {
  public:
-  Hosted(std::unique_ptr<ScannerStandIn> stand_in, std::unique_ptr<ServedLink> link)
-      : scanner_(std::move(stand_in), std::move(link), uneven_room_m),
+  Hosted(std::unique_ptr<ScannerStandIn> stand_in, std::unique_ptr<ServedLink> link,
+         RangeOfAngle range_m = uneven_room_m)
+      : scanner_(std::move(stand_in), std::move(link), std::move(range_m)),
         thread_([this] { host(scanner_, [this] { return stops_.load(); }); }) {}
   ~Hosted() {
     stops_ = true;
