@@ -29,6 +29,10 @@ Bytes ask_express(std::uint16_t mode) {
   return rplidar::encode({Command::express_scan, {static_cast<std::uint8_t>(mode), 0, 0, 0, 0}});
 }
 
+bool is_known_mode(Answer kind) {
+  return kind == Answer::express || kind == Answer::dense || kind == Answer::hq;
+}
+
 }  // namespace
 
 RplidarProtocol::RplidarProtocol(const RangeLimits& limits) : turns_(limits), clock_(rplidar_clock) {}
@@ -99,7 +103,8 @@ void RplidarProtocol::take(ByteView bytes, Stamp arrival) {
 
 std::size_t RplidarProtocol::take_front(ByteView front, Stamp arrival) {
   if (!streaming_) return take_answer(front);
-  return *streaming_ == Answer::nodes ? take_node(front, arrival) : take_capsule(front, arrival);
+  if (*streaming_ == Answer::nodes) return take_node(front, arrival);
+  return *streaming_ == Answer::hq ? take_hq(front, arrival) : take_capsule(front, arrival);
 }
 
 std::size_t RplidarProtocol::take_answer(ByteView front) {
@@ -126,7 +131,7 @@ std::size_t RplidarProtocol::take_answer(ByteView front) {
 
 void RplidarProtocol::begin_stream(Answer kind) {
   if (stage_ != Stage::scan) return;
-  if (kind != Answer::nodes && kind != Answer::express && kind != Answer::dense) return;
+  if (kind != Answer::nodes && !is_known_mode(kind)) return;
   streaming_ = kind;
   stream_begin_ = stream_.position() + rplidar::descriptor_size;
   if (kind != Answer::nodes) sample_period_ = express_period_;
@@ -166,7 +171,7 @@ void RplidarProtocol::understand_setting(ByteView content) {
     stage_ = Stage::answer_type;
   } else if (stage_ == Stage::answer_type && setting == Setting::answer_type && !value.empty()) {
     const auto kind = static_cast<Answer>(value[0]);
-    mode_is_usable_ = kind == Answer::express || kind == Answer::dense;
+    mode_is_usable_ = is_known_mode(kind);
     stage_ = mode_is_usable_ ? Stage::mode_period : Stage::scan;
   } else if (stage_ == Stage::mode_period && setting == Setting::us_per_sample && value.size() >= 4) {
     const auto q8_us = number_at<std::uint32_t>(value, 0);
@@ -199,6 +204,26 @@ std::size_t RplidarProtocol::take_node(ByteView front, Stamp arrival) {
   add_point(node->angle_q6 / 64.0, node->distance_q2, quarter_mm,
             stamp_of_frame(1, rplidar::node_size, arrival), static_cast<float>(node->quality) / 63.0F);
   return rplidar::node_size;
+}
+
+std::size_t RplidarProtocol::take_hq(ByteView front, Stamp arrival) {
+  if (front.size() < rplidar::hq_size) return 0;
+  const std::optional<rplidar::HqFrame> frame = rplidar::decode_hq(front.first(rplidar::hq_size));
+  if (!frame) {
+    if (front[0] == rplidar::start_byte) ++counts_.checksum_errors;
+    ++counts_.skipped_bytes;
+    return 1;
+  }
+  ++counts_.frames;
+  const Stamp end = stamp_of_frame(rplidar::hq_points, rplidar::hq_size, arrival);
+  for (std::size_t i = 0; i < rplidar::hq_points; ++i) {
+    const rplidar::HqPoint& point = frame->points[i];
+    if (point.begins_turn) turns_.begin_turn();
+    add_point(point.angle_q14 * 90.0 / 16384.0, point.distance_q2, 0.00025,
+              end - sample_period_ * static_cast<int>(rplidar::hq_points - 1 - i),
+              static_cast<float>(point.quality) / 255.0F);
+  }
+  return rplidar::hq_size;
 }
 
 std::size_t RplidarProtocol::take_capsule(ByteView front, Stamp arrival) {

@@ -9,7 +9,7 @@
 namespace lodestar {
 
 /// Slamtec's RPLIDAR. It is asked what it is and how it is, then told to scan in the mode that it calls
-/// typical, where that answers in express or dense capsules, and else in the standard mode, which all know.
+/// typical, where that answers in express, dense or HQ frames, and else in the standard mode, which all know.
 class RplidarProtocol final : public ScannerProtocol {
  public:
   /// RPLIDAR A1 to S2 data sheets: from 0.15 m; 40 m is the longest of them, and each says its own.
@@ -33,6 +33,7 @@ class RplidarProtocol final : public ScannerProtocol {
   std::size_t take_front(ByteView front, Stamp arrival);
   std::size_t take_answer(ByteView front);
   std::size_t take_node(ByteView front, Stamp arrival);
+  std::size_t take_hq(ByteView front, Stamp arrival);
   std::size_t take_capsule(ByteView front, Stamp arrival);
   void understand(rplidar::Answer answer, ByteView content);
   void understand_setting(ByteView content);

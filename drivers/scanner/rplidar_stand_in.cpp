@@ -16,10 +16,11 @@ using rplidar::Setting;
 constexpr int rplidar_beams = 360;
 constexpr Duration rplidar_turn = std::chrono::milliseconds(100);
 constexpr double max_range_m = 12.0;
-constexpr std::uint16_t modes = 3;
+constexpr std::uint16_t modes = 4;
 
 Answer answer_of_mode(std::uint16_t mode) {
   if (mode == 0) return Answer::nodes;
+  if (mode == 3) return Answer::hq;
   return mode == 2 ? Answer::dense : Answer::express;
 }
 
@@ -58,7 +59,10 @@ Bytes setting(ByteView payload, std::uint16_t typical) {
       content.push_back(static_cast<std::uint8_t>(answer_of_mode(mode)));
       break;
     case Setting::mode_name: {
-      const std::string_view name = mode == 0 ? "Standard" : mode == 1 ? "Express" : "Dense";
+      const std::string_view name = mode == 0   ? "Standard"
+                                    : mode == 1 ? "Express"
+                                    : mode == 2 ? "Dense"
+                                                : "HQ";
       for (const char letter : name) content.push_back(static_cast<std::uint8_t>(letter));
       content.push_back(0);
       break;
@@ -121,7 +125,8 @@ Bytes RplidarStandIn::answer_one(const rplidar::Request& request) {
       return begin(Answer::nodes);
     case Command::express_scan:
       // Mode 0 is how clients older than the modes ask for express.
-      return begin(!request.payload.empty() && request.payload[0] == 2 ? Answer::dense : Answer::express);
+      return begin(request.payload.empty() || request.payload[0] == 0 ? Answer::express
+                                                                      : answer_of_mode(request.payload[0]));
     case Command::motor_speed:
     case Command::motor_pwm:
       return {};
@@ -133,7 +138,10 @@ Bytes RplidarStandIn::begin(Answer kind) {
   streaming_ = kind;
   begins_stream_ = true;
   waiting_.clear();
-  const std::size_t size = kind == Answer::nodes ? rplidar::node_size : rplidar::capsule_size;
+  last_deg_ = 360.0;
+  const std::size_t size = kind == Answer::nodes ? rplidar::node_size
+                           : kind == Answer::hq  ? rplidar::hq_size
+                                                 : rplidar::capsule_size;
   return rplidar::encode(rplidar::Descriptor{static_cast<std::uint32_t>(size), true, kind});
 }
 
@@ -146,7 +154,7 @@ std::vector<TimedBytes> RplidarStandIn::packets_of(const Scan& turn) {
   if (!streaming_) return {};
   if (*streaming_ != Answer::nodes) {
     waiting_.insert(waiting_.end(), turn.beams.begin(), turn.beams.end());
-    return capsules();
+    return *streaming_ == Answer::hq ? hq_frames() : capsules();
   }
   std::vector<TimedBytes> nodes;
   bool begins = true;
@@ -158,6 +166,28 @@ std::vector<TimedBytes> RplidarStandIn::packets_of(const Scan& turn) {
     begins = false;
   }
   return nodes;
+}
+
+std::vector<TimedBytes> RplidarStandIn::hq_frames() {
+  std::vector<TimedBytes> packets;
+  std::size_t at = 0;
+  for (; at + rplidar::hq_points <= waiting_.size(); at += rplidar::hq_points) {
+    rplidar::HqFrame frame;
+    const Stamp end = waiting_[at + rplidar::hq_points - 1].stamp;
+    frame.time_us = static_cast<std::uint64_t>(end.time_since_epoch() / std::chrono::microseconds(1));
+    for (std::size_t i = 0; i < rplidar::hq_points; ++i) {
+      const Beam& beam = waiting_[at + i];
+      const double clockwise = clockwise_deg(beam.angle_rad);
+      frame.points[i] = {static_cast<std::uint16_t>(std::lround(clockwise * 16384.0 / 90.0)),
+                         units_of(beam, 0.00025, 0xFFFFFFFF),
+                         static_cast<std::uint8_t>(std::lround(beam.intensity * 255.0F)),
+                         clockwise < last_deg_};
+      last_deg_ = clockwise;
+    }
+    packets.push_back({end, rplidar::encode(frame)});
+  }
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(at));
+  return packets;
 }
 
 std::vector<TimedBytes> RplidarStandIn::capsules() {

@@ -8,7 +8,7 @@
 
 namespace lodestar {
 
-/// An RPLIDAR at 10 turns of 360 beams a second, with the modes 0 standard, 1 express and 2 dense.
+/// An RPLIDAR at 10 turns of 360 beams a second, with the modes 0 standard, 1 express, 2 dense and 3 HQ.
 class RplidarStandIn final : public ScannerStandIn {
  public:
   explicit RplidarStandIn(std::uint16_t typical_mode = 1) : typical_mode_(typical_mode) {}
@@ -22,11 +22,13 @@ class RplidarStandIn final : public ScannerStandIn {
   Bytes answer_one(const rplidar::Request& request);
   Bytes begin(rplidar::Answer kind);
   std::vector<TimedBytes> capsules();
+  std::vector<TimedBytes> hq_frames();
 
   std::uint16_t typical_mode_;
   ByteStream requests_;
   std::optional<rplidar::Answer> streaming_;
   bool begins_stream_ = false;
+  double last_deg_ = 360.0;    ///< clockwise, of the last HQ point
   std::vector<Beam> waiting_;  ///< not yet enough for a capsule
 };
 

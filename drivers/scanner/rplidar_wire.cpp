@@ -23,6 +23,23 @@ Bytes begun(const Capsule& capsule) {
   return bytes;
 }
 
+/// As of Ethernet and zip: reflected polynomial 0x04C11DB7.
+std::uint32_t crc32(ByteView bytes) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+  }
+  return ~crc;
+}
+
+/// Of all but the checksum itself, filled up with zeros to whole words.
+std::uint32_t checksum_of_hq(ByteView frame) {
+  Bytes padded(frame.begin(), frame.begin() + hq_size - 4);
+  padded.resize((padded.size() + 3) / 4 * 4);
+  return crc32(padded);
+}
+
 }  // namespace
 
 Bytes encode(const Request& request) {
@@ -66,8 +83,10 @@ std::optional<Descriptor> decode_descriptor(ByteView bytes) {
 }
 
 Bytes encode(const Node& node) {
-  Bytes bytes{static_cast<std::uint8_t>((node.quality << 2U) | (node.begins_turn ? 1U : 2U))};
-  append_number(bytes, static_cast<std::uint16_t>((node.angle_q6 << 1U) | 1U));
+  const unsigned quality = node.quality;
+  const unsigned angle_q6 = node.angle_q6;
+  Bytes bytes{static_cast<std::uint8_t>((quality << 2U) | (node.begins_turn ? 1U : 2U))};
+  append_number(bytes, static_cast<std::uint16_t>((angle_q6 << 1U) | 1U));
   append_number(bytes, node.distance_q2);
   return bytes;
 }
@@ -86,8 +105,10 @@ Bytes encode_express(const Capsule& capsule) {
   for (std::size_t i = 0; i < express_points; i += 2) {
     const unsigned back_1 = capsule.back_q3[i];
     const unsigned back_2 = capsule.back_q3[i + 1];
-    append_number(bytes, static_cast<std::uint16_t>((capsule.distance_mm[i] << 2U) | (back_1 >> 4U)));
-    append_number(bytes, static_cast<std::uint16_t>((capsule.distance_mm[i + 1] << 2U) | (back_2 >> 4U)));
+    const unsigned mm_1 = capsule.distance_mm[i];
+    const unsigned mm_2 = capsule.distance_mm[i + 1];
+    append_number(bytes, static_cast<std::uint16_t>((mm_1 << 2U) | (back_1 >> 4U)));
+    append_number(bytes, static_cast<std::uint16_t>((mm_2 << 2U) | (back_2 >> 4U)));
     bytes.push_back(static_cast<std::uint8_t>((back_1 & 0x0FU) | ((back_2 & 0x0FU) << 4U)));
   }
   return finished(std::move(bytes));
@@ -122,6 +143,34 @@ std::optional<Capsule> decode_capsule(ByteView bytes, Answer kind) {
     capsule.back_q3[i] = static_cast<std::uint8_t>(low | ((word & 3U) << 4U));
   }
   return capsule;
+}
+
+Bytes encode(const HqFrame& frame) {
+  Bytes bytes{start_byte};
+  append_number(bytes, frame.time_us);
+  for (const HqPoint& point : frame.points) {
+    append_number(bytes, point.angle_q14);
+    append_number(bytes, point.distance_q2);
+    bytes.push_back(point.quality);
+    bytes.push_back(point.begins_turn ? 1 : 0);
+  }
+  bytes.resize(hq_size - 4);
+  const std::uint32_t checksum = checksum_of_hq(bytes);
+  append_number(bytes, checksum);
+  return bytes;
+}
+
+std::optional<HqFrame> decode_hq(ByteView bytes) {
+  if (bytes.size() != hq_size || bytes[0] != start_byte) return std::nullopt;
+  if (number_at<std::uint32_t>(bytes, hq_size - 4) != checksum_of_hq(bytes)) return std::nullopt;
+  HqFrame frame;
+  frame.time_us = number_at<std::uint64_t>(bytes, 1);
+  for (std::size_t i = 0; i < hq_points; ++i) {
+    const std::size_t at = 9 + 8 * i;
+    frame.points[i] = {number_at<std::uint16_t>(bytes, at), number_at<std::uint32_t>(bytes, at + 2),
+                       bytes[at + 6], (bytes[at + 7] & 1U) != 0};
+  }
+  return frame;
 }
 
 }  // namespace lodestar::rplidar

@@ -31,6 +31,7 @@ enum class Answer : std::uint8_t {
   configuration = 0x20,
   nodes = 0x81,    ///< standard scan
   express = 0x82,  ///< capsules of 32 points
+  hq = 0x83,       ///< frames of 16 points with a CRC
   dense = 0x85,    ///< capsules of 40 points
   motor_support = 0xFF
 };
@@ -52,6 +53,8 @@ inline constexpr std::size_t node_size = 5;
 inline constexpr std::size_t capsule_size = 84;
 inline constexpr std::size_t express_points = 32;
 inline constexpr std::size_t dense_points = 40;
+inline constexpr std::size_t hq_size = 141;
+inline constexpr std::size_t hq_points = 16;
 inline constexpr std::uint32_t turn_q6 = 360 * 64;
 
 struct Request {
@@ -100,5 +103,21 @@ Bytes encode_express(const Capsule& capsule);
 Bytes encode_dense(const Capsule& capsule);
 /// Nothing when sync bits or checksum are wrong.
 std::optional<Capsule> decode_capsule(ByteView bytes, Answer kind);
+
+struct HqPoint {
+  std::uint16_t angle_q14 = 0;    ///< 90 / 16384 degrees, clockwise
+  std::uint32_t distance_q2 = 0;  ///< 1/4 mm; 0: no reading
+  std::uint8_t quality = 0;
+  bool begins_turn = false;
+  friend bool operator==(const HqPoint&, const HqPoint&) = default;
+};
+struct HqFrame {
+  std::uint64_t time_us = 0;
+  std::array<HqPoint, hq_points> points;
+  friend bool operator==(const HqFrame&, const HqFrame&) = default;
+};
+Bytes encode(const HqFrame& frame);
+/// Nothing when the CRC is wrong.
+std::optional<HqFrame> decode_hq(ByteView bytes);
 
 }  // namespace lodestar::rplidar

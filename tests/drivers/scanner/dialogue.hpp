@@ -19,29 +19,30 @@
 
 namespace lodestar {
 
-enum class Kind { ld19, rplidar_standard, rplidar_express, rplidar_dense, scip, nanoscan };
+enum class Kind { ld19, rplidar_standard, rplidar_express, rplidar_dense, rplidar_hq, scip, nanoscan };
 
 inline const char* name_of(Kind kind) {
-  constexpr const char* names[] = {"ld19", "rplidar_standard", "rplidar_express", "rplidar_dense",
-                                   "scip", "nanoscan"};
+  constexpr const char* names[] = {
+      "ld19", "rplidar_standard", "rplidar_express", "rplidar_dense", "rplidar_hq", "scip", "nanoscan"};
   return names[static_cast<std::size_t>(kind)];
 }
 inline void PrintTo(Kind kind, std::ostream* out) {
   *out << name_of(kind);
 }
 
-inline const auto all_kinds = testing::Values(Kind::ld19, Kind::rplidar_standard, Kind::rplidar_express,
-                                              Kind::rplidar_dense, Kind::scip, Kind::nanoscan);
+inline const auto all_kinds =
+    testing::Values(Kind::ld19, Kind::rplidar_standard, Kind::rplidar_express, Kind::rplidar_dense,
+                    Kind::rplidar_hq, Kind::scip, Kind::nanoscan);
 
 /// Not in datagrams, which are never cut.
 inline const auto stream_kinds = testing::Values(Kind::ld19, Kind::rplidar_standard, Kind::rplidar_express,
-                                                 Kind::rplidar_dense, Kind::scip);
+                                                 Kind::rplidar_dense, Kind::rplidar_hq, Kind::scip);
 /// With a checksum of their own.
 inline const auto checked_kinds =
-    testing::Values(Kind::ld19, Kind::rplidar_express, Kind::rplidar_dense, Kind::scip);
+    testing::Values(Kind::ld19, Kind::rplidar_express, Kind::rplidar_dense, Kind::rplidar_hq, Kind::scip);
 
 inline double unit_of(Kind kind) {
-  return kind == Kind::rplidar_standard ? 0.00025 : 0.001;
+  return kind == Kind::rplidar_standard || kind == Kind::rplidar_hq ? 0.00025 : 0.001;
 }
 /// Whether the protocol tells free space from a lost reading.
 inline bool tells_nothing(Kind kind) {

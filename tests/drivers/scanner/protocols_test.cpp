@@ -35,7 +35,8 @@ void expect_same(Kind kind, const Scan& served, const Scan& read) {
 /// The scans that were read are the last of those served but for those still on the way.
 void expect_read_back(Kind kind, const std::vector<Scan>& served, const std::vector<Scan>& read) {
   ASSERT_GE(read.size(), served.size() - 2);
-  const std::size_t first = kind == Kind::scip || kind == Kind::nanoscan || kind == Kind::rplidar_standard
+  const std::size_t first = kind == Kind::scip || kind == Kind::nanoscan || kind == Kind::rplidar_standard ||
+                                    kind == Kind::rplidar_hq
                                 ? 0
                                 : 1;  // the others show that a turn ended by the next one's beginning
   for (std::size_t i = 0; i < read.size(); ++i) {
