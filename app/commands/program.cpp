@@ -22,7 +22,7 @@ std::vector<Command> all_commands(CLI::App& app) {
   for (const auto make :
        {replay_commands, campaign_commands, soak_commands, localize_commands, detect_commands, plan_commands,
         map_commands, markers_commands, calibrate_commands, survey_commands, bench_commands, base_commands,
-        run_commands, scenario_commands, doctor_commands, serve_commands}) {
+        scanner_commands, run_commands, scenario_commands, doctor_commands, serve_commands}) {
     for (Command& command : make(app)) all.push_back(std::move(command));
   }
   return all;
@@ -30,7 +30,7 @@ std::vector<Command> all_commands(CLI::App& app) {
 
 /// Of the commands that say something while they run.
 void add_log_option(CLI::App& app) {
-  for (const char* name : {"run", "serve", "replay", "base", "soak"}) {
+  for (const char* name : {"run", "serve", "replay", "base", "scanner", "soak"}) {
     app.get_subcommand(name)
         ->add_option_function<std::string>(
             "--log-level",

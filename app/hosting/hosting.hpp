@@ -10,4 +10,7 @@ namespace lodestar {
 /// `base`: the simulated base on a CAN interface.
 std::vector<Command> base_commands(CLI::App& lodestar);
 
+/// `scanner`: a simulated laser scanner at a serial line or on the network.
+std::vector<Command> scanner_commands(CLI::App& lodestar);
+
 }  // namespace lodestar

@@ -67,7 +67,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"app/console", {"app/placement", "app/live", "app/net", "app/web"}},
       {"app/bench", {"app/report", judge}},
       {"app/campaign", {"app/simulate", judge}},
-      {"app/hosting", {"app/site", "app/common", judge}},
+      {"app/hosting", {"app/site", "app/common", "drivers/scanner", judge}},
       {"app/commands",
        {"app/bench", "app/campaign", "app/console", "app/drive", "app/hosting", "app/simulate",
         "app/viewers"}},
