@@ -40,7 +40,7 @@ double pending_after(double pending, double command, double response_s, double e
 }
 
 /// Bounds the speed step after a gap between calls.
-double step_s(Duration elapsed) {
+double bounded_s(Duration elapsed) {
   constexpr double longest_s = 0.1;
   return std::clamp(seconds(elapsed), 0.0, longest_s);
 }
@@ -109,7 +109,7 @@ BodyVelocity RotateThenDrive::steer(const BodyVelocity& wanted, Duration elapsed
 
 /// pending_after() is linear in the command, so the difference is added for the last step.
 void RotateThenDrive::was_sent(const BodyVelocity& sent, Duration elapsed) {
-  const double elapsed_s = step_s(elapsed);
+  const double elapsed_s = bounded_s(elapsed);
   pending_m_ += pending_after(0.0, sent.forward_mps - last_.forward_mps, options_.response_s, elapsed_s);
   pending_rad_ += pending_after(0.0, sent.turn_radps - last_.turn_radps, options_.response_s, elapsed_s);
   last_ = sent;
@@ -266,7 +266,7 @@ double RotateThenDrive::steered(double wanted_heading_rad, const Pose2& pose) co
 }
 
 BodyVelocity RotateThenDrive::command(const BodyVelocity& wanted, Duration elapsed) {
-  const double elapsed_s = step_s(elapsed);
+  const double elapsed_s = bounded_s(elapsed);
   const BodyVelocity reachable = within_wheel_limit(wanted, options_.track_width_m, options_.max_wheel_mps);
   last_ = {
       stepped(last_.forward_mps, reachable.forward_mps, options_.max_acceleration_mps2 * elapsed_s),

@@ -31,6 +31,32 @@ std::string_view to_string(StopReason reason) {
       return "the base is silent";
     case StopReason::way_blocked:
       return "the way is blocked";
+    case StopReason::person_near:
+      return "somebody is near, or could be";
+    case StopReason::obstacle_ahead:
+      return "something that is not on the map stands in the way";
+    case StopReason::hidden_corner:
+      return "somebody could step out from behind a corner";
+    case StopReason::scanner_silent:
+      return "the scanner sends no scans";
+    case StopReason::scanner_clock:
+      return "the scanner's clock is not the robot's";
+    case StopReason::scanner_late:
+      return "the scanner's scans come too late";
+    case StopReason::scanner_repeats:
+      return "the scanner repeats the same scan";
+    case StopReason::scanner_damaged:
+      return "the scanner's data arrive damaged";
+    case StopReason::scanner_motor:
+      return "the scanner does not turn at its speed";
+    case StopReason::scanner_dirty:
+      return "the scanner's window is dirty or covered";
+    case StopReason::scanner_blind:
+      return "too many of the scanner's beams are lost";
+    case StopReason::scanner_turned:
+      return "the scanner is turned on its mount";
+    case StopReason::map_contradicted:
+      return "the scanner sees through walls of the map";
     case StopReason::camera_silent:
       return "the camera sends no frames";
     case StopReason::camera_repeats:
@@ -59,6 +85,11 @@ std::string_view to_string(StopReason reason) {
 
 bool is_latched(StopReason reason) {
   return reason == StopReason::carried_away || reason == StopReason::wheels_broken;
+}
+
+bool waits_for_others(StopReason reason) {
+  return reason == StopReason::person_near || reason == StopReason::obstacle_ahead ||
+         reason == StopReason::hidden_corner;
 }
 
 bool can_a_marker_end(StopReason reason) {

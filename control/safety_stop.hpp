@@ -23,6 +23,19 @@ enum class StopReason {
   pose_uncertain,
   base_silent,
   way_blocked,
+  person_near,     ///< the protective field: someone could be here before the robot is at rest
+  obstacle_ahead,  ///< likewise: something that the map lacks
+  hidden_corner,   ///< likewise: someone could step out
+  scanner_silent,
+  scanner_clock,
+  scanner_late,
+  scanner_repeats,
+  scanner_damaged,
+  scanner_motor,
+  scanner_dirty,
+  scanner_blind,
+  scanner_turned,
+  map_contradicted,  ///< beams pass through walls of the map
   camera_silent,
   camera_repeats,
   camera_dark,
@@ -39,6 +52,9 @@ std::string_view to_string(StopReason reason);
 
 /// A latched stop does not end by itself: a person must check the robot and restart it.
 bool is_latched(StopReason reason);
+
+/// Does the robot wait for others to make room, by its protective field?
+bool waits_for_others(StopReason reason);
 
 /// Would a marker in view end the stop?
 bool can_a_marker_end(StopReason reason);

@@ -171,7 +171,11 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
     state.stopped_since = input.now;
   }
   state_ = state;
-  if (!step.stop || input.now - *state.stopped_since < options_.max_stop) return MissionEvent::none;
+  const bool waits = step.stop && waits_for_others(*step.stop);
+  if (waits)
+    state_ = Driving{.ends = state.ends + (input.now - last_step_), .stopped_since = state.stopped_since};
+  const Duration patience = waits ? options_.max_wait : options_.max_stop;
+  if (!step.stop || input.now - *state.stopped_since < patience) return MissionEvent::none;
   return fail(input.now, fmt::format("stopped for too long: {}", to_string(*step.stop)));
 }
 

@@ -18,7 +18,8 @@ struct MissionOptions {
   /// Arrival needs a frame that confirmed the estimate within this travel, and the robot's own epsilon of
   /// Eq. (19).
   double max_rolled_unseen_m = 0.2;
-  int attempts = 3;                 ///< to come within epsilon
+  Duration max_wait = std::chrono::seconds(60);  ///< the same for people and things that may go away
+  int attempts = 3;                              ///< to come within epsilon
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
   /// A drive longer than max_time_factor times the ideal time plus max_time_more fails: the robot is stuck.
   double max_time_factor = 4.0;

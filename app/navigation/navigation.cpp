@@ -41,6 +41,7 @@ Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options
       known_{PoseFilter(filter_options(options)), MarkerTrust(options.trust), CameraWatch(options.camera),
              IntegrityMonitor(options.integrity)},
       behaviour_{Standing{}, Backtrack(options.backtrack)} {
+  if (options.surroundings) surroundings_.emplace(*options.surroundings);
   if (!options.learned) return;
   for (const DistrustedMarker& marker : options.learned->distrusted) known_.trust.distrust(marker);
 }
@@ -65,18 +66,19 @@ NavigationStep Navigation::step(const SensorInput& input) {
 
   // Judge.
   const bool map_changed = planner_.begin_step(behaviour_.places.blind_places_m());
-  const Facts facts = judge(input, step, known, map_changed);
+  Facts facts = judge(input, step, known, map_changed);
+  look_around(input, facts);
 
   // Decide.
   const Behaviour about =
       planned(decided(behaviour_, facts, behaviour_options_), facts.estimate, step.reroute);
 
   // Command.
-  const Moved after = moved(about, facts, behaviour_options_);
+  Moved after = moved(about, facts, behaviour_options_);
   const Shown told = shown(about, after.behaviour, facts);
-  step.command = after.command;
   step.stop = told.stop;
   step.backtracks = told.backtracks;
+  protect(input, facts.elapsed, after, step);
   report(known, input.now, step);
 
   known_ = std::move(known);
@@ -110,6 +112,43 @@ Facts Navigation::judge(const SensorInput& input, const NavigationStep& step, co
               .map_changed = map_changed};
   judge_room(facts, known.integrity.is_contradicted());
   return facts;
+}
+
+MappedPose Navigation::mapped_pose(const Facts& facts) const {
+  return {planner_.map(), facts.stop ? std::nullopt : facts.estimate};
+}
+
+/// A scanner that cannot be believed is a reason to stop, behind those of the pose.
+void Navigation::look_around(const SensorInput& input, Facts& facts) {
+  if (!surroundings_) return;
+  surroundings_->add(input.base.travel, input.scans, input.now, mapped_pose(facts));
+  plan_around_obstacles(facts);
+  const std::optional<StopReason> reason = surroundings_->reason_to_stop(input.now);
+  if (!facts.stop) facts.stop = reason;
+  if (!facts.stop_on_backtrack) facts.stop_on_backtrack = reason;
+}
+
+/// Plans anew where something stands in the way that neither the map nor the last plan has.
+void Navigation::plan_around_obstacles(const Facts& facts) {
+  const Trip* const trip = trip_of(behaviour_.state);
+  if (facts.stop || !facts.estimate || trip == nullptr) return;
+  if (std::exchange(has_new_goal_, false)) {
+    planner_.use_obstacles(surroundings_->unmapped_m(facts.now, mapped_pose(facts)));
+    return;
+  }
+  const Path path = rest_of(trip->drive.path_ahead(), facts.estimate->map_from_base.position_m);
+  if (auto obstacles_m = surroundings_->obstacles_in_the_way(facts.now, mapped_pose(facts), path))
+    planner_.use_obstacles(std::move(*obstacles_m));
+}
+
+/// The protective field has the last word on what is sent, whatever the behaviour.
+void Navigation::protect(const SensorInput& input, Duration elapsed, Moved& after, NavigationStep& step) {
+  step.command = after.command;
+  if (!surroundings_) return;
+  const Surroundings::Allowed allowed = surroundings_->allowed(input.now, input.base.measured, after.command);
+  step.command = allowed.velocity;
+  after.behaviour = after_sending(std::move(after.behaviour), allowed.velocity, elapsed);
+  if (!step.stop) step.stop = allowed.reason;
 }
 
 /// Sets the speed limits, with the safety margin for the pose uncertainty kept; zero where the clearance is
@@ -167,6 +206,7 @@ void Navigation::go_to(const Goal& goal) {
   wish_ = Wish::go_on;
   steering_.reset();
   planner_.drop();
+  has_new_goal_ = surroundings_.has_value();
   behaviour_ = sent_to(std::move(behaviour_), goal.position_m, goal.heading_rad, behaviour_options_);
 }
 
@@ -176,6 +216,7 @@ bool Navigation::place_robot(const Pose2& map_from_base, const PlacingSigma& sig
   said.covariance.diagonal() = Vec3(sigma.position_m, sigma.position_m, sigma.heading_rad).array().square();
   known_.integrity = IntegrityMonitor(options_.integrity);
   known_.trust.estimate_moved();
+  if (surroundings_) surroundings_->pose_was_set();
   return known_.filter.start_at(said);
 }
 

@@ -6,6 +6,7 @@
 #include "app/navigation/background_planner.hpp"
 #include "app/navigation/learned_state.hpp"
 #include "app/navigation/marker_localizer.hpp"
+#include "app/navigation/surroundings.hpp"
 #include "app/site/goal.hpp"
 #include "control/behaviour.hpp"
 #include "drivers/base/base_driver.hpp"
@@ -39,7 +40,8 @@ struct NavigationOptions {
   SpinOptions spin;
   BacktrackOptions backtrack;
   SteeringOptions steering;
-  std::optional<LearnedState> learned;  ///< in an earlier drive
+  std::optional<SurroundingsOptions> surroundings;  ///< of a robot with a scanner
+  std::optional<LearnedState> learned;              ///< in an earlier drive
 };
 
 /// All data since the last step. Time arrives with the data.
@@ -120,6 +122,10 @@ class Navigation {
   [[nodiscard]] Facts judge(const SensorInput& input, const NavigationStep& step,
                             const LocalizationState& known, bool map_changed) const;
   void judge_room(Facts& facts, bool is_contradicted) const;
+  [[nodiscard]] MappedPose mapped_pose(const Facts& facts) const;
+  void look_around(const SensorInput& input, Facts& facts);
+  void plan_around_obstacles(const Facts& facts);
+  void protect(const SensorInput& input, Duration elapsed, Moved& after, NavigationStep& step);
   Behaviour planned(Behaviour behaviour, const std::optional<PoseEstimate>& estimate,
                     std::optional<RouteUpdate>& update);
 
@@ -127,6 +133,8 @@ class Navigation {
   BehaviourOptions behaviour_options_;
   MarkerLocalizer localizer_;
   BackgroundPlanner planner_;
+  std::optional<Surroundings> surroundings_;
+  bool has_new_goal_ = false;  ///< whose first path must go around what is known to stand about
   LocalizationState known_;
   Behaviour behaviour_;
   Wish wish_ = Wish::go_on;

@@ -35,6 +35,21 @@ std::filesystem::path state_file(const Site& site) {
   return site.folder / "state.yaml";
 }
 
+std::optional<SurroundingsOptions> surroundings_options(const Robot& robot, const DriveOptions& drive) {
+  if (!robot.scanner) return std::nullopt;
+  SurroundingsOptions options;
+  options.mount = robot.scanner->mount;
+  options.shape = robot.footprint ? RobotShape(*robot.footprint) : RobotShape(robot.radius_m);
+  options.wheels.track_width_m = robot.track_width_m;
+  // Readings may be as old as the safety stop allows (100 ms), and a step more.
+  options.wheels.ahead = std::chrono::milliseconds(120);
+  options.watch.track_width_m = robot.track_width_m;
+  options.field.deceleration_mps2 = robot.scanner->protective_deceleration_mps2;
+  options.field.response_s = drive.response_s;
+  options.release.rise_mps2 = drive.max_acceleration_mps2;
+  return options;
+}
+
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
   options.fix.prior = pose_prior(robot);
@@ -69,6 +84,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.drive.arrival_heading_rad = robot.arrival_heading_rad;
   options.planner.limits = motion_limits(options.drive);
   options.route.limits = options.planner.limits;
+  options.surroundings = surroundings_options(robot, options.drive);
   return options;
 }
 

@@ -19,6 +19,9 @@ std::filesystem::path state_file(const Site& site);
 /// Prior of the camera's tilt and height, from the flat floor and the calibrated mount.
 PosePrior pose_prior(const Robot& robot);
 
+/// Nothing for a robot without a scanner.
+std::optional<SurroundingsOptions> surroundings_options(const Robot& robot, const DriveOptions& drive);
+
 /// Options of all navigation steps that follow from the robot's geometry and limits.
 NavigationOptions navigation_options(const Robot& robot);
 

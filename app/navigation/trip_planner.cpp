@@ -25,8 +25,8 @@ void TripPlanner::plan_around(std::span<const Vec2> blind_m) {
     return;
   }
   map_alone_.emplace(context_on(map_, blind_m));
-  context_.emplace(context_on(
-      std::make_shared<const ObstacleField>(overlaid(map_->map(), obstacles_in_map_)), blind_m));
+  context_.emplace(
+      context_on(std::make_shared<const ObstacleField>(overlaid(map_->map(), obstacles_in_map_)), blind_m));
 }
 
 /// After the pose was too uncertain, or with blind places, margins are wide. Where no marker was found, the

@@ -30,8 +30,8 @@ struct TripPlan {
   std::optional<RouteUpdate> update;  ///< when another path is followed from now on, or none
 };
 
-/// Answers the plan requests of the behaviour, on the present map. Where obstacles that the map lacks leave no
-/// way, the answer is that of the map alone: the robot drives up to them and waits, for they may go away.
+/// Answers the plan requests of the behaviour, on the present map. Where obstacles that the map lacks leave
+/// no way, the answer is that of the map alone: the robot drives up to them and waits, for they may go away.
 class TripPlanner {
  public:
   TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options);

@@ -1,0 +1,184 @@
+#include "app/navigation/surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+/// Below this a robot that is slowed by the field counts as standing.
+constexpr double standing_mps = 0.02;
+constexpr double standing_radps = 0.02;
+
+StopReason stop_for(ScannerFault fault) {
+  switch (fault) {
+    case ScannerFault::silent:
+      return StopReason::scanner_silent;
+    case ScannerFault::other_clock:
+      return StopReason::scanner_clock;
+    case ScannerFault::late:
+      return StopReason::scanner_late;
+    case ScannerFault::frozen:
+      return StopReason::scanner_repeats;
+    case ScannerFault::checksums:
+      return StopReason::scanner_damaged;
+    case ScannerFault::motor:
+      return StopReason::scanner_motor;
+    case ScannerFault::dirty:
+      return StopReason::scanner_dirty;
+    case ScannerFault::beams_lost:
+      return StopReason::scanner_blind;
+    case ScannerFault::turned:
+      return StopReason::scanner_turned;
+  }
+  return StopReason::scanner_silent;
+}
+
+StopReason stop_for(FieldReason reason) {
+  switch (reason) {
+    case FieldReason::person_near:
+      return StopReason::person_near;
+    case FieldReason::obstacle_ahead:
+      return StopReason::obstacle_ahead;
+    case FieldReason::hidden_corner:
+      return StopReason::hidden_corner;
+    case FieldReason::no_scan:
+      break;
+  }
+  return StopReason::scanner_silent;
+}
+
+bool moves(const BodyVelocity& velocity) {
+  return std::abs(velocity.forward_mps) >= standing_mps || std::abs(velocity.turn_radps) >= standing_radps;
+}
+
+}  // namespace
+
+Surroundings::Surroundings(const SurroundingsOptions& options)
+    : options_(options),
+      outline_{.shape = options.shape},
+      field_(options.shape, options.field),
+      track_(options.wheels),
+      watch_(options.watch),
+      contradiction_(options.contradiction),
+      memory_(options.memory),
+      release_(options.release) {}
+
+void Surroundings::add(std::span<const WheelTravel> travel, std::span<const Scan> scans, Stamp now,
+                       const MappedPose& mapped) {
+  constexpr std::size_t most_waiting = 3;
+  for (const WheelTravel& reading : travel) {
+    track_.add(reading);
+    watch_.add_travel(reading);
+  }
+  for (const Scan& scan : scans)
+    if (!watch_.update(scan, now)) waiting_.push_back(scan);
+  while (waiting_.size() > most_waiting) waiting_.pop_front();
+  while (!waiting_.empty() && take(waiting_.front(), mapped)) waiting_.pop_front();
+}
+
+/// False while the wheel readings of the scan's time are missing.
+bool Surroundings::take(const Scan& scan, const MappedPose& mapped) {
+  const std::optional<DeskewedScan> placed = deskewed(scan, options_.mount, track_, outline_);
+  if (!placed) return false;
+  memory_.add(*placed);
+  const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
+  field_scan_ = presences(*placed, map_from_odom, mapped);
+  if (map_from_odom) hold_against_map(scan, *map_from_odom, mapped);
+  return true;
+}
+
+std::optional<Pose2> Surroundings::map_from_odom(const MappedPose& mapped) const {
+  if (!mapped.estimate) return std::nullopt;
+  const std::optional<Pose2> odom_from_base = track_.pose_at(mapped.estimate->stamp);
+  if (!odom_from_base) return std::nullopt;
+  return mapped.estimate->map_from_base * inverse(*odom_from_base);
+}
+
+void Surroundings::hold_against_map(const Scan& scan, const Pose2& map_from_odom, const MappedPose& mapped) {
+  std::vector<Pose2> map_from_scanner;
+  map_from_scanner.reserve(scan.beams.size());
+  for (const Beam& beam : scan.beams) {
+    const std::optional<Pose2> odom_from_base = track_.pose_at(beam.stamp);
+    if (!odom_from_base) return;
+    map_from_scanner.push_back(map_from_odom * *odom_from_base * options_.mount.base_from_scanner);
+  }
+  const Eigen::Matrix3d& covariance = mapped.estimate->covariance;
+  contradiction_.update(scan, map_from_scanner, mapped.map.map(),
+                        {.position_m = larger_sigma(covariance.topLeftCorner<2, 2>()),
+                         .heading_rad = std::sqrt(std::max(covariance(2, 2), 0.0))});
+}
+
+FieldScan Surroundings::presences(const DeskewedScan& scan, const std::optional<Pose2>& map_from_odom,
+                                  const MappedPose& mapped) const {
+  FieldScan result{.newest = scan.newest, .points = {}};
+  std::optional<MapExplanation> explanation;
+  if (map_from_odom) explanation.emplace(mapped.map, mapped.estimate->covariance);
+  const std::vector<bool> stands = memory_.standing(scan);
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    const Ray& ray = scan.rays[i];
+    if (!ends_at_something(ray)) continue;
+    const bool is_mapped =
+        explanation && explanation->explains(*map_from_odom * ray.end_m, (ray.end_m - ray.origin_m).norm());
+    result.points.push_back({ray.stamp, ray.end_m,
+                             is_mapped   ? Presence::mapped
+                             : stands[i] ? Presence::standing
+                                         : Presence::person});
+  }
+  const OccupancyMap& map = mapped.map.map();
+  const auto can_stand = [&](const Vec2& point_in_odom) {
+    if (!map_from_odom) return true;
+    const Cell cell = map.cell_at(*map_from_odom * point_in_odom);
+    return map.contains(cell) && is_drivable(map.at(cell));
+  };
+  const std::vector<FieldPoint> corners = hidden_corners(scan, options_.corners, can_stand);
+  result.points.insert(result.points.end(), corners.begin(), corners.end());
+  return result;
+}
+
+std::optional<StopReason> Surroundings::reason_to_stop(Stamp now) const {
+  if (const std::optional<ScannerFault> fault = watch_.fault(now)) return stop_for(*fault);
+  if (contradiction_.alarm()) return StopReason::map_contradicted;
+  return std::nullopt;
+}
+
+Surroundings::Allowed Surroundings::allowed(Stamp now, const std::optional<BodyVelocity>& measured,
+                                            const BodyVelocity& wanted) {
+  const std::optional<Pose2> odom_from_base = track_.pose_at(now);
+  const FieldLimit limit =
+      odom_from_base
+          ? field_.limit(field_scan_, now, *odom_from_base, measured.value_or(track_.velocity()), wanted)
+          : FieldLimit{.share = 0.0, .reason = FieldReason::no_scan, .nearest = std::nullopt};
+  const double outline_mps = release_.released_mps(now, allowed_mps(limit, wanted, field_.shape()));
+  Allowed allowed{slowed_to(outline_mps, wanted, field_.shape()), std::nullopt};
+  if (limit.reason && moves(wanted) && !moves(allowed.velocity)) allowed.reason = stop_for(*limit.reason);
+  return allowed;
+}
+
+std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) const {
+  const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
+  std::vector<Vec2> points_m;
+  if (!map_from_odom) return points_m;
+  const MapExplanation explanation(mapped.map, mapped.estimate->covariance);
+  for (const Vec2& point_in_odom : memory_.standing_m(now)) {
+    const Vec2 point_in_map = *map_from_odom * point_in_odom;
+    const double range_m = (point_in_map - mapped.estimate->map_from_base.position_m).norm();
+    if (!explanation.explains(point_in_map, range_m)) points_m.push_back(point_in_map);
+  }
+  return points_m;
+}
+
+std::optional<std::vector<Vec2>> Surroundings::obstacles_in_the_way(Stamp now, const MappedPose& mapped,
+                                                                    const Path& path) {
+  if (path.waypoints_m.empty() || (last_look_ && now - *last_look_ < options_.between_detours))
+    return std::nullopt;
+  std::vector<Vec2> obstacles_m = unmapped_m(now, mapped);
+  const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
+  const bool is_blocked = std::ranges::any_of(
+      obstacles_m, [&](const Vec2& point_m) { return distance_to_path_m(path, point_m) < within_m; });
+  if (!is_blocked) return std::nullopt;
+  last_look_ = now;
+  return obstacles_m;
+}
+
+}  // namespace lodestar

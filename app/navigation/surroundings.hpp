@@ -1,0 +1,95 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "control/field_release.hpp"
+#include "control/hidden_corners.hpp"
+#include "control/protective_field.hpp"
+#include "control/safety_stop.hpp"
+#include "localization/integrity/map_contradiction.hpp"
+#include "localization/integrity/scanner_watch.hpp"
+#include "localization/scan/deskewed.hpp"
+#include "maps/map_overlay.hpp"
+#include "maps/obstacle_memory.hpp"
+
+namespace lodestar {
+
+/// What a robot with a scanner is, and how it minds what the scanner sees.
+struct SurroundingsOptions {
+  ScannerMount mount;
+  RobotShape shape{0.25};
+  WheelTrackOptions wheels;
+  ObstacleMemoryOptions memory;
+  ProtectiveFieldOptions field;
+  FieldReleaseOptions release;
+  HiddenCornerOptions corners;
+  ScannerWatchOptions watch;
+  MapContradictionOptions contradiction;
+  /// A path is looked at no more often than this for what stands in its way.
+  Duration between_detours = std::chrono::seconds(1);
+  /// What stands so near to a path's disc is in its way: what a path keeps at the least.
+  double least_margin_m = 0.01;
+};
+
+/// The map that the robot knows and, while nothing speaks against it, its pose there.
+struct MappedPose {
+  const ObstacleField& map;
+  std::optional<PoseEstimate> estimate;
+};
+
+/// What is around the robot by its scanner and wheels, in the odometry frame: what may be sent of a velocity,
+/// and what stands in the way. The map only explains: what it has does not move. Without a pose everything
+/// may.
+class Surroundings {
+ public:
+  explicit Surroundings(const SurroundingsOptions& options);
+
+  /// Wheel travel first, then the scans that arrived with it.
+  void add(std::span<const WheelTravel> travel, std::span<const Scan> scans, Stamp now,
+           const MappedPose& mapped);
+
+  /// Why the scanner, or the map held against it, forbids to move.
+  [[nodiscard]] std::optional<StopReason> reason_to_stop(Stamp now) const;
+
+  struct Allowed {
+    BodyVelocity velocity;
+    std::optional<StopReason> reason;  ///< why the robot must stand, where it wants to move
+  };
+  /// What may be sent of the wanted velocity; once a control step.
+  Allowed allowed(Stamp now, const std::optional<BodyVelocity>& measured, const BodyVelocity& wanted);
+
+  /// What stands around the robot that the map lacks, as points of the map frame.
+  [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped) const;
+
+  /// The same where something of it stands in the way of a path that begins at the robot, at most once a
+  /// second; nothing where the way is clear.
+  std::optional<std::vector<Vec2>> obstacles_in_the_way(Stamp now, const MappedPose& mapped,
+                                                        const Path& path);
+
+  /// After the robot has been told where it stands.
+  void pose_was_set() { contradiction_.reset(); }
+
+ private:
+  bool take(const Scan& scan, const MappedPose& mapped);
+  [[nodiscard]] std::optional<Pose2> map_from_odom(const MappedPose& mapped) const;
+  void hold_against_map(const Scan& scan, const Pose2& map_from_odom, const MappedPose& mapped);
+  [[nodiscard]] FieldScan presences(const DeskewedScan& scan, const std::optional<Pose2>& map_from_odom,
+                                    const MappedPose& mapped) const;
+
+  SurroundingsOptions options_;
+  OwnOutline outline_;
+  ProtectiveField field_;
+  WheelTrack track_;
+  ScannerWatch watch_;
+  MapContradiction contradiction_;
+  ObstacleMemory memory_;
+  FieldRelease release_;
+  std::deque<Scan> waiting_;  ///< for the wheel readings of their time
+  std::optional<FieldScan> field_scan_;
+  std::optional<Stamp> last_look_;  ///< at a path
+};
+
+}  // namespace lodestar
