@@ -48,6 +48,12 @@ NavigationOptions replay_navigation(const Site& site, const SimulatedDriveOption
   NavigationOptions navigation = navigation_options(site.robot);
   navigation.learned = options.learned;
   navigation.planner.kind = options.planner;
+  if (options.is_placed_at_start) {
+    // Nothing confirms the pose from there on: it goes by the wheels for as long as the drive lasts.
+    navigation.safety.max_time_unseen = std::chrono::hours(1);
+    navigation.safety.max_position_sigma_m = 2.0;
+    navigation.safety.max_heading_sigma_rad = radians(45.0);
+  }
   navigation.planner.uncertainty_constraint = options.uncertainty_constraint;
   navigation.planner.sampling.seed = static_cast<std::uint32_t>(options.seed % 2147483647U + 1U);
   return navigation;

@@ -40,7 +40,20 @@ void ContactJudge::record(Stamp now, const Pose2& map_from_base, std::span<const
   for (std::size_t i = 0; i < discs.size(); ++i) judge(i, discs[i]);
 }
 
+/// A kidnapping is no driving: nothing with wheels is that fast.
+bool ContactJudge::is_carried_off(Stamp now, const Pose2& map_from_base) const {
+  constexpr double carried_mps = 10.0;
+  if (history_.empty()) return false;
+  const double moved_m = (map_from_base.position_m - history_.back().map_from_base.position_m).norm();
+  return moved_m > carried_mps * seconds(now - history_.back().stamp);
+}
+
 void ContactJudge::remember(Stamp now, const Pose2& map_from_base, std::span<const DiscState> discs) {
+  if (is_carried_off(now, map_from_base)) {  // as if it began here
+    history_.clear();
+    has_forgotten_ = false;
+    room_on_map_m_ = 0.0;
+  }
   Moment moment;
   if (!history_.empty() && now - history_.front().stamp > longest_memory) {
     moment = std::move(history_.front());  // for its memory

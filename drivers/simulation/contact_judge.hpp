@@ -59,6 +59,7 @@ class ContactJudge {
     std::vector<Vec2> discs_m;
   };
 
+  [[nodiscard]] bool is_carried_off(Stamp now, const Pose2& map_from_base) const;
   void remember(Stamp now, const Pose2& map_from_base, std::span<const DiscState> discs);
   void measure_room(std::span<const DiscState> discs);
   void judge(std::size_t disc, const DiscState& state);

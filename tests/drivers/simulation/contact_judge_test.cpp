@@ -104,6 +104,14 @@ TEST(ContactJudge, excuses_who_steps_out_from_behind_a_corner_too_late_to_brake)
   EXPECT_EQ(judged(hall(), 5.0, passing, steps_out_at(2.77)).moving, 1) << "nothing hid it";
 }
 
+TEST(ContactJudge, does_not_take_a_kidnapping_for_driving) {
+  const auto carried = [](double s) { return Pose2{{s < 2.0 ? 3.0 : 7.0 + 0.2 * (s - 2.0), 4.0}, 0.0}; };
+  const ContactScore score = judged(hall(), 3.0, carried, [](double) { return Vec2(7.2, 4.0); });
+  EXPECT_EQ(score.moving, 0);
+  EXPECT_EQ(score.excused, 1) << "it was set down upon somebody, and had no time to brake";
+  EXPECT_NEAR(score.greatest_contact_mps, 0.2, 0.01);
+}
+
 TEST(ContactJudge, does_not_see_beyond_the_scanner_s_range) {
   const auto coming = [](double s) { return Vec2(11.0 - 1.9 * s, 4.0); };
   EXPECT_EQ(judged(hall(), 4.0, driving, coming, {.range_m = 0.7}).excused, 1);
