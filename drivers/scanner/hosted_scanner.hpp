@@ -3,6 +3,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "drivers/scanner/scanner_stand_in.hpp"
 #include "drivers/scanner/served_link.hpp"

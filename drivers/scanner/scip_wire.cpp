@@ -1,5 +1,6 @@
 #include "drivers/scanner/scip_wire.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 

@@ -13,7 +13,12 @@ class Protocols : public testing::TestWithParam<Kind> {};
 class StreamProtocols : public Protocols {};
 class CheckedProtocols : public Protocols {};
 
-INSTANTIATE_TEST_SUITE_P(All, Protocols, all_kinds, [](const auto& tested) { return name_of(tested.param); });
+constexpr auto name_of_test = [](const testing::TestParamInfo<Kind>& tested) {
+  return name_of(tested.param);
+};
+INSTANTIATE_TEST_SUITE_P(All, Protocols, all_kinds, name_of_test);
+INSTANTIATE_TEST_SUITE_P(All, StreamProtocols, stream_kinds, name_of_test);
+INSTANTIATE_TEST_SUITE_P(All, CheckedProtocols, checked_kinds, name_of_test);
 
 void expect_same(Kind kind, const Scan& served, const Scan& read) {
   ASSERT_EQ(read.beams.size(), served.beams.size());
