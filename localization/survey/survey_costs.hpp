@@ -45,8 +45,9 @@ class WheelsBetween : public ceres::SizedCostFunction<3, 5, 5, 3> {
   Eigen::Matrix3d root_information_;
 };
 
-/// Motion between two keyframes less the ceiling's own, corrected for where the camera sits on the base.
-/// Parameters: both places, the ceiling's scale, mount position, mount turn.
+/// Motion between two keyframes less the ceiling's own, corrected for where the camera sits on the base; in
+/// metres at the believed height, for the reason of WheelsBetween. Parameters: both places, the ceiling's
+/// scale, mount position, mount turn.
 class CeilingBetween : public ceres::SizedCostFunction<3, 5, 5, 1, 3, 3> {
  public:
   /// `believed_mount_m`: with which the motion was computed. A camera that is tilted, by its mount or by the
