@@ -203,8 +203,7 @@ void refuse_weak(const SurveyOptions& options, MarkerSurvey& survey, Flaws& flaw
       return;  // every sigma would be that one
     }
   } else {
-    const Eigen::MatrixXd shape = without_rigid_motion(survey.markers);
-    survey.covariance = shape * survey.covariance * shape.transpose();
+    survey.covariance = shape_covariance(survey.markers, survey.covariance);
   }
   double worst_m = 0.0;
   int worst_id = 0;
