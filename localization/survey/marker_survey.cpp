@@ -32,7 +32,8 @@ void refuse_rare_markers(const SurveyKeyframes& keyframes, const std::vector<int
     if (sightings[m] >= static_cast<int>(options.least_sightings)) continue;
     flaws.push_back({SurveyFlaw::too_few_sightings,
                      fmt::format("marker {}: seen from {} of the {} places needed", keyframes.ids[m],
-                                 sightings[m], options.least_sightings)});
+                                 sightings[m], options.least_sightings),
+                     keyframes.ids[m]});
   }
 }
 
