@@ -296,6 +296,7 @@ MarkerSurvey survey_markers(std::span<const SurveyLog> logs, const CameraModel& 
   }
   take_registry(keyframes, bundle.state(), belief, survey);
   take_robot(bundle.state(), belief, survey);
+  if (options.before_covariance) options.before_covariance();
   const std::optional<SurveyCovariance> covariance = bundle.covariance();
   if (!covariance) {
     refuse(SurveyFlaw::no_convergence, "the least squares leave unknowns undetermined");

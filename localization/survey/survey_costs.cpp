@@ -182,7 +182,9 @@ bool CeilingBetween::Evaluate(const double* const* parameters, double* residuals
   const Place from = Eigen::Map<const Place>(parameters[0]);
   const Place to = Eigen::Map<const Place>(parameters[1]);
   const double scale = parameters[2][0];
-  const Vec2 aside_m = above_camera_m_ * Vec2(parameters[4][1], -parameters[4][0]);
+  const double print = parameters[5][0];
+  const Vec2 aside_by_print_m = above_camera_m_ * Vec2(parameters[4][1], -parameters[4][0]);
+  const Vec2 aside_m = print * aside_by_print_m;
   const Vec2 arm_m = Vec2(parameters[3][0], parameters[3][1]) + aside_m;
   const double mount_yaw = parameters[4][2];
   const Eigen::Matrix2d base_from_map = Eigen::Rotation2Dd(-from[2]).toRotationMatrix();
@@ -191,7 +193,7 @@ bool CeilingBetween::Evaluate(const double* const* parameters, double* residuals
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(turn_rad_).toRotationMatrix();
   const Eigen::Matrix2d sweep = Eigen::Matrix2d::Identity() - turn;
   Eigen::Matrix2d aside_by_lean;
-  aside_by_lean << 0.0, ceiling_m_, -ceiling_m_, 0.0;
+  aside_by_lean << 0.0, print * ceiling_m_, -print * ceiling_m_, 0.0;
   const Vec2 swayed = turn * aside_by_lean * to.tail<2>() - aside_by_lean * from.tail<2>();
   const Vec2 seen = (way + swayed - sweep * arm_m) / scale;
   Vec3 off;
@@ -212,14 +214,17 @@ bool CeilingBetween::Evaluate(const double* const* parameters, double* residuals
   Eigen::Matrix3d by_mount = Eigen::Matrix3d::Zero();
   by_mount.topLeftCorner<2, 2>() = -sweep / scale;
   Eigen::Matrix3d by_turn = Eigen::Matrix3d::Zero();
-  by_turn.topLeftCorner<2, 1>() = sweep * Vec2(0.0, above_camera_m_) / scale;
-  by_turn.block<2, 1>(0, 1) = -sweep * Vec2(above_camera_m_, 0.0) / scale;
+  by_turn.topLeftCorner<2, 1>() = sweep * Vec2(0.0, print * above_camera_m_) / scale;
+  by_turn.block<2, 1>(0, 1) = -sweep * Vec2(print * above_camera_m_, 0.0) / scale;
   by_turn.col(2) << camera_way.y(), -camera_way.x(), 0.0;
+  Eigen::Matrix<double, 3, 2> by_print = Eigen::Matrix<double, 3, 2>::Zero();
+  by_print.topLeftCorner<2, 1>() = (swayed / print - sweep * aside_by_print_m) / scale;
   write(root_information_ * by_from, 0, 5, jacobians[0]);
   write(root_information_ * by_to, 0, 5, jacobians[1]);
   write(root_information_ * by_scale, 0, 1, jacobians[2]);
   write(root_information_ * by_mount, 0, 3, jacobians[3]);
   write(root_information_ * by_turn, 0, 3, jacobians[4]);
+  write(root_information_ * by_print, 0, 2, jacobians[5]);
   return true;
 }
 
