@@ -257,7 +257,7 @@ std::string csv_report(const SurveyDifference& difference) {
 
 std::string text_report(const SurveyDifference& difference) {
   std::string text = fmt::format("{} markers hang where they are registered\n", difference.unchanged);
-  constexpr double worth_saying = 3e-4;
+  constexpr double worth_saying = 1e-3;
   if (std::abs(difference.scale - 1.0) > worth_saying)
     text +=
         fmt::format("the registry's distances are {:.5f} of the drive's: one of the two has a wrong scale\n",
