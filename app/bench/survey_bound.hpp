@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "app/bench/survey_world.hpp"
 #include "maps/anchors.hpp"
 
