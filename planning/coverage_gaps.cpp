@@ -13,7 +13,12 @@ constexpr double least_gap_m2 = 0.05;
 class Gaps {
  public:
   Gaps(const CollisionChecker& roomy, const std::vector<bool>& floor, double reach_m)
-      : roomy_(roomy), map_(roomy.map()), floor_(floor), left_(floor), reach_m_(reach_m) {}
+      : roomy_(roomy),
+        map_(roomy.map()),
+        floor_(floor),
+        left_(floor),
+        is_in_gap_(floor.size(), false),
+        reach_m_(reach_m) {}
 
   /// What is near enough to the lane is no gap any more.
   void cover(const Lane& lane) {
@@ -35,8 +40,10 @@ class Gaps {
             for (const Cell cell : gap) left_[map_.index(cell)] = false;
             continue;
           }
-          lanes.push_back(through(gap));
+          const Cell middle = middle_of(gap);
+          lanes.push_back(through(gap, middle));
           cover(lanes.back());
+          left_[map_.index(middle)] = false;  // even where no lane is near enough: each round leaves less
         }
       }
     }
@@ -60,34 +67,36 @@ class Gaps {
   }
 
   /// The connected cells of a gap.
-  [[nodiscard]] std::vector<Cell> gap_at(Cell first) const {
+  [[nodiscard]] std::vector<Cell> gap_at(Cell first) {
     std::vector<Cell> gap{first};
-    std::vector<bool> is_in(left_.size(), false);
-    is_in[map_.index(first)] = true;
+    is_in_gap_[map_.index(first)] = true;
     for (std::size_t i = 0; i < gap.size(); ++i) {
       const Cell cell = gap[i];
       const std::array<Cell, 4> beside{Cell{cell.column - 1, cell.row}, Cell{cell.column + 1, cell.row},
                                        Cell{cell.column, cell.row - 1}, Cell{cell.column, cell.row + 1}};
       for (const Cell next : beside) {
-        if (!map_.contains(next) || !left_[map_.index(next)] || is_in[map_.index(next)]) continue;
-        is_in[map_.index(next)] = true;
+        if (!map_.contains(next) || !left_[map_.index(next)] || is_in_gap_[map_.index(next)]) continue;
+        is_in_gap_[map_.index(next)] = true;
         gap.push_back(next);
       }
     }
+    for (const Cell cell : gap) is_in_gap_[map_.index(cell)] = false;
     return gap;
+  }
+
+  /// The cell of the gap nearest to its mean.
+  [[nodiscard]] static Cell middle_of(const std::vector<Cell>& gap) {
+    Vec2 mean = Vec2::Zero();
+    for (const Cell cell : gap) mean += Vec2(cell.column, cell.row) / static_cast<double>(gap.size());
+    return *std::ranges::min_element(
+        gap, {}, [&](Cell cell) { return (Vec2(cell.column, cell.row) - mean).squaredNorm(); });
   }
 
   /// The longer of the row's and the column's stretch of floor through the gap's middle, no farther than the
   /// gap goes.
-  [[nodiscard]] Lane through(const std::vector<Cell>& gap) const {
+  [[nodiscard]] Lane through(const std::vector<Cell>& gap, Cell middle) const {
     Eigen::AlignedBox2i box;
-    Vec2 mean = Vec2::Zero();
-    for (const Cell cell : gap) {
-      box.extend(Eigen::Vector2i(cell.column, cell.row));
-      mean += Vec2(cell.column, cell.row) / static_cast<double>(gap.size());
-    }
-    const Cell middle = *std::ranges::min_element(
-        gap, {}, [&](Cell cell) { return (Vec2(cell.column, cell.row) - mean).squaredNorm(); });
+    for (const Cell cell : gap) box.extend(Eigen::Vector2i(cell.column, cell.row));
     const auto end = [&](Cell step) {
       Cell cell = middle;
       for (Cell next = middle;
@@ -106,6 +115,7 @@ class Gaps {
   const OccupancyMap& map_;
   const std::vector<bool>& floor_;
   std::vector<bool> left_;
+  std::vector<bool> is_in_gap_;  ///< while a gap is collected
   double reach_m_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/bench/survey_bound.hpp"
 #include "app/common/stopwatch.hpp"
 #include "maps/chi_square.hpp"
 #include "maps/random.hpp"
@@ -40,6 +41,26 @@ std::vector<Anchor> corner_anchors(const std::vector<RegisteredMarker>& markers,
          i + 1});
   }
   return anchors;
+}
+
+/// Of a lab in which every marker is seen on lanes both ways.
+SurveyLimits lab_limits() {
+  return {.most_rms_m = 0.0008,
+          .most_over_bound = 1.15,
+          .least_nees = 0.8,
+          .most_nees = 1.25,
+          .most_over_true_fix = 1.1,
+          .most_lost_fixes = 0.01,
+          .most_mount_m = 0.001,
+          .most_mount_rad = radians(0.05)};
+}
+
+/// Of a hall of 60 x 40 m. That the print is known to 1e-4 is 2.1 mm there, whoever surveys: what the survey
+/// itself adds is the shape.
+SurveyLimits hall_limits(int anchors) {
+  SurveyLimits limits{.most_shape_m = 0.002, .least_nees = 0.8, .most_nees = 1.25, .most_lost_fixes = 0.01};
+  if (anchors > 0) limits.most_rms_m = 0.006;
+  return limits;
 }
 
 SurveyScenario lab(std::string name, std::vector<Vec2> way) {
@@ -110,23 +131,30 @@ void swap_two_ids(SurveyLog& log, Random& random) {
 std::vector<SurveyScenario> survey_scenarios() {
   const std::vector<Vec2> rows = mower_lanes(60.0, 40.0, 2.0, 1.0);
   const std::vector<Vec2> grid = joined(rows, cross_lanes(60.0, 40.0, 10.0, 1.0));
+  SurveyScenario both_ways = lab("lab, lanes both ways", lab_lanes_and_cross());
+  both_ways.limits = lab_limits();
+  SurveyScenario by_rows = hall("hall, rows alone", rows, 0);
+  SurveyScenario by_lanes = hall("hall, lanes every 10 m", grid, 0);
+  by_lanes.limits = hall_limits(0);
+  SurveyScenario by_two = hall("hall, lanes every 10 m, 2 anchors", grid, 2);
+  by_two.limits = hall_limits(2);
   SurveyScenario anchored = lab("lab, lanes both ways, 4 anchors", lab_lanes_and_cross());
   anchored.anchors = 4;
   return {lab("lab, one pass", {{0.8, 3.75}, {14.2, 3.75}}),
           lab("lab, loop", {{1.0, 1.0}, {14.0, 1.0}, {14.0, 6.5}, {1.0, 6.5}, {1.0, 1.0}, {3.0, 1.0}}),
           lab("lab, lanes", mower_lanes(15.0, 7.5, 1.5, 0.8)),
-          lab("lab, lanes both ways", lab_lanes_and_cross()),
+          both_ways,
           anchored,
           corridor("corridor of 20 m", 20.0, 0),
           corridor("corridor of 60 m, 2 anchors", 60.0, 2),
-          hall("hall, rows alone", rows, 0),
-          hall("hall, lanes every 10 m", grid, 0),
-          hall("hall, lanes every 10 m, 2 anchors", grid, 2)};
+          by_rows,
+          by_lanes,
+          by_two};
 }
 
-SurveyTrial try_survey(const SurveyScenario& scenario, std::uint64_t seed) {
+SurveyTrial try_survey(const SurveyScenario& scenario, std::uint64_t seed, bool has_exact_print) {
   SurveyWorldOptions options;
-  options.print_scale = 1.0 + known_print * Random(seed).stream(print_stream).normal();
+  if (!has_exact_print) options.print_scale = 1.0 + known_print * Random(seed).stream(print_stream).normal();
   const SurveyWorld world = make_survey_world(
       marker_grid(scenario.width_m, scenario.depth_m, scenario.pitch_m, ceiling_m, seed), options, seed);
   const SurveyDrive drive = drive_survey(world, scenario.way_m, seed);
@@ -136,9 +164,12 @@ SurveyTrial try_survey(const SurveyScenario& scenario, std::uint64_t seed) {
   survey_options.least_sightings = 1;  // errors of badly seen markers count too
   survey_options.most_sigma_m = 1.0;
   const Stopwatch watch;
+  double solve_s = 0.0;
+  survey_options.before_covariance = [&] { solve_s = watch.seconds(); };
   const MarkerSurvey survey =
       survey_markers(std::span(&drive.log, 1), world.camera, world.belief, anchors, survey_options);
-  SurveyTrial trial{.length_m = drive.length_m, .solve_s = watch.seconds()};
+  SurveyTrial trial{
+      .length_m = drive.length_m, .solve_s = solve_s, .covariance_s = watch.seconds() - solve_s};
   trial.refused = !survey.flaws.empty();
   if (trial.refused) {
     trial.why = std::string(to_string(survey.flaws.front().flaw)) + ": " + survey.flaws.front().found;
@@ -147,6 +178,11 @@ SurveyTrial try_survey(const SurveyScenario& scenario, std::uint64_t seed) {
   trial.markers = survey.markers.size();
   trial.keyframes = survey.keyframes;
   trial.errors = survey_errors(survey, world.markers);
+  trial.bound_m = survey_bound_m(world, drive, anchors, survey_options).value_or(0.0);
+  const Eigen::Isometry3d& mount = survey.mount.base_from_camera;
+  const Eigen::Isometry3d& true_mount = world.options.base_from_camera;
+  trial.mount_off_m = (mount.translation() - true_mount.translation()).head<2>().norm();
+  trial.mount_off_rad = Eigen::AngleAxisd(mount.linear().transpose() * true_mount.linear()).angle();
   trial.fixes = fix_errors(world, survey, scenario.way_m, seed);
   return trial;
 }

@@ -14,13 +14,29 @@ Pose2 best_rigid_motion(const std::vector<RegisteredMarker>& from, const std::ve
   return best_rigid_motion(pairs, wrap_angle(to[0].yaw_rad - from[0].yaw_rad));
 }
 
+namespace {
+
+double shape_rms_m(const std::vector<RegisteredMarker>& found, const std::vector<RegisteredMarker>& wanted) {
+  constexpr double any_scale = 1.0;
+  std::vector<PointPair> pairs;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    pairs.push_back({found[i].position_m.head<2>(), wanted[i].position_m.head<2>(), 1e6});
+  const SimilarMotion move = best_similar_motion(pairs, any_scale);
+  double squares = 0.0;
+  for (const PointPair& pair : pairs)
+    squares += (move * pair.from_m - pair.to_m).squaredNorm() / static_cast<double>(pairs.size());
+  return std::sqrt(squares);
+}
+
+}  // namespace
+
 SurveyErrors survey_errors(const MarkerSurvey& survey, const std::vector<RegisteredMarker>& truth) {
   std::vector<RegisteredMarker> same;
   for (const RegisteredMarker& marker : survey.markers)
     same.push_back(*std::ranges::find(truth, marker.id, &RegisteredMarker::id));
   const bool is_free = survey.gauge == SurveyGauge::free;
   const Pose2 move = is_free ? best_rigid_motion(survey.markers, same) : Pose2{};
-  SurveyErrors errors;
+  SurveyErrors errors{.shape_m = shape_rms_m(survey.markers, same)};
   const auto count = static_cast<Eigen::Index>(same.size());
   Eigen::VectorXd error(3 * count);
   // The survey's axes, in which its covariance is.
@@ -33,10 +49,10 @@ SurveyErrors survey_errors(const MarkerSurvey& survey, const std::vector<Registe
     error[3 * m + 2] = wrap_angle(found.yaw_rad + move.yaw_rad - wanted.yaw_rad);
     errors.rms_m += off.squaredNorm() / static_cast<double>(count);
     errors.worst_m = std::max(errors.worst_m, off.norm());
-    errors.bound_m += survey.covariance.block<2, 2>(3 * m, 3 * m).trace() / static_cast<double>(count);
+    errors.expected_m += survey.covariance.block<2, 2>(3 * m, 3 * m).trace() / static_cast<double>(count);
   }
   errors.rms_m = std::sqrt(errors.rms_m);
-  errors.bound_m = std::sqrt(errors.bound_m);
+  errors.expected_m = std::sqrt(errors.expected_m);
   // A shape has no covariance along rigid motions: there the inverse is that of the rest.
   Eigen::VectorXd scale = survey.covariance.diagonal().cwiseSqrt();
   const Eigen::MatrixXd correlation =

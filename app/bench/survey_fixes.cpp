@@ -68,6 +68,7 @@ FixErrors fix_errors(const SurveyWorld& world, const MarkerSurvey& survey, const
     };
     const std::optional<double> by_survey = squared_error(surveyed);
     const std::optional<double> by_truth = squared_error(true_one);
+    errors.lost += by_truth && !by_survey ? 1 : 0;
     if (!by_survey || !by_truth) continue;
     ++errors.fixes;
     errors.by_survey_m += *by_survey;

@@ -8,7 +8,8 @@ namespace lodestar {
 
 /// Errors of the robot's position by single frames of a drive, root mean square.
 struct FixErrors {
-  int fixes = 0;
+  int fixes = 0;             ///< with either registry
+  int lost = 0;              ///< with the true one only
   double by_survey_m = 0.0;  ///< with the surveyed registry, laid best onto the true one
   double by_truth_m = 0.0;   ///< with true places and yaws
 };

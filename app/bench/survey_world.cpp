@@ -131,6 +131,7 @@ class Drive {
     if (options_.follows_ceiling) follow_ceiling(map_from_camera);
     drive_.log.frames.push_back(std::move(frame));
     drive_.map_from_base.push_back(pose_);
+    drive_.leans_rad.push_back(lean_now_);
   }
 
   /// Where the camera looks at the ceiling, and how it is turned.

@@ -57,6 +57,7 @@ SurveyWorld make_survey_world(std::vector<RegisteredMarker> markers, const Surve
 struct SurveyDrive {
   SurveyLog log;
   std::vector<Pose2> map_from_base;  ///< true, at each frame
+  std::vector<Vec2> leans_rad;       ///< of the body, likewise
   double length_m = 0.0;
 };
 SurveyDrive drive_survey(const SurveyWorld& world, const std::vector<Vec2>& way_m, std::uint64_t seed,
@@ -69,7 +70,8 @@ Pose2 best_rigid_motion(const std::vector<RegisteredMarker>& from, const std::ve
 struct SurveyErrors {
   double rms_m = 0.0;  ///< of horizontal distances
   double worst_m = 0.0;
-  double bound_m = 0.0;  ///< RMS that the covariance expects
+  double shape_m = 0.0;     ///< RMS with the best scale too: without what the print's own error makes of it
+  double expected_m = 0.0;  ///< RMS by the survey's own covariance
   double nees = 0.0;  ///< normalized estimation error squared of all (x, y, yaw), with the joint covariance
   int freedom = 0;
 };

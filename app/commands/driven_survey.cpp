@@ -77,4 +77,10 @@ bool DrivenSurvey::finish() {
   return loss.empty();
 }
 
+void tell_shortcomings(const Exploration& exploration, const SurveyProgress* newest) {
+  for (const std::string& line : exploration.shortcomings(newest)) fmt::print(stderr, "lodestar: {}\n", line);
+  if (!exploration.last_failure().empty())
+    fmt::print(stderr, "lodestar: the last goal that was not reached: {}\n", exploration.last_failure());
+}
+
 }  // namespace lodestar

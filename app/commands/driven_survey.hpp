@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/placement/exploration.hpp"
 #include "app/placement/live_survey.hpp"
 #include "app/recording/sighting_log.hpp"
 
@@ -40,5 +41,8 @@ class DrivenSurvey {
 
 /// Says which command makes a registry of the log.
 void tell_next_step(const Site& site, const std::filesystem::path& log);
+
+/// Says what an exploration has left undone, and which markers it knows too little of.
+void tell_shortcomings(const Exploration& exploration, const SurveyProgress* newest);
 
 }  // namespace lodestar

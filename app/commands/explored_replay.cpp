@@ -55,8 +55,7 @@ void tell(const Exploration& exploration, const SurveyProgress* newest, const Co
   if (newest != nullptr && !newest->links.empty())
     fmt::print("weakest link: {} to {}, {:.2f} mm\n", newest->links.front().first,
                newest->links.front().second, mm_per_m * newest->links.front().sigma_m);
-  if (!exploration.last_failure().empty())
-    fmt::print(stderr, "lodestar: the last goal that was not reached: {}\n", exploration.last_failure());
+  tell_shortcomings(exploration, newest);
 }
 
 }  // namespace

@@ -142,6 +142,7 @@ ExitCode drive_surveying(const DriveParts& parts, std::unique_ptr<BaseProtocol> 
     print_goals(record);
     all_arrived = record.goals.empty() || record.arrived();
   }
+  if (exploration) tell_shortcomings(*exploration, survey.live()->newest().get());
   const bool is_recorded = survey.finish();
   return all_arrived && is_recorded && explored == ExplorationState::done ? done : job_failed;
 }

@@ -34,6 +34,8 @@ struct SurveyArguments {
 struct CheckArguments {
   std::vector<std::string> inputs;  ///< the site, then logs
   std::string camera;
+  std::string anchors;
+  std::vector<int> without;
   std::string format = "text";
   bool apply = false;
 };
@@ -47,6 +49,14 @@ const CameraModel& camera_of(const Site& site, const std::string& name) {
   return found->second;
 }
 
+void leave_out(std::span<const int> ids, std::vector<SurveyLog>& logs) {
+  for (SurveyLog& log : logs)
+    for (SurveyFrame& frame : log.frames)
+      std::erase_if(frame.markers, [&](const SightedMarker& marker) {
+        return std::ranges::find(ids, marker.id) != ids.end();
+      });
+}
+
 std::vector<SurveyLog> load_logs(std::span<const std::string> folders, const CameraModel& camera,
                                  std::span<const int> without) {
   std::vector<SurveyLog> logs;
@@ -54,12 +64,9 @@ std::vector<SurveyLog> load_logs(std::span<const std::string> folders, const Cam
     SurveyLog log = load_survey_log(folder, camera);
     if (std::ranges::find(logs, log.name, &SurveyLog::name) != logs.end())
       throw InputError(folder, 0, "a second log named '" + log.name + "'", "logs of different names");
-    for (SurveyFrame& frame : log.frames)
-      std::erase_if(frame.markers, [&](const SightedMarker& marker) {
-        return std::ranges::find(without, marker.id) != without.end();
-      });
     logs.push_back(std::move(log));
   }
+  leave_out(without, logs);
   return logs;
 }
 
@@ -74,6 +81,14 @@ void check_anchors(const Anchors& anchors, const std::vector<SurveyLog>& logs, c
       throw InputError(file, anchor.line, "log '" + robot->log + "'",
                        "the name of a folder that is surveyed");
   }
+}
+
+/// None without a file.
+Anchors anchors_for(const std::vector<SurveyLog>& logs, const std::string& file) {
+  if (file.empty()) return {};
+  Anchors anchors = load_anchors(file);
+  check_anchors(anchors, logs, file);
+  return anchors;
 }
 
 std::string today() {
@@ -99,8 +114,7 @@ ExitCode survey_command(const SurveyArguments& arguments) {
   const CameraModel& camera = camera_of(site, arguments.camera);
   const std::vector<SurveyLog> logs =
       load_logs(std::span(arguments.inputs).subspan(1), camera, arguments.without);
-  const Anchors anchors = arguments.anchors.empty() ? Anchors{} : load_anchors(arguments.anchors);
-  check_anchors(anchors, logs, arguments.anchors);
+  const Anchors anchors = anchors_for(logs, arguments.anchors);
   SurveyOptions options;
   options.most_sigma_m = arguments.max_sigma_mm / mm_per_m;
   const MarkerSurvey survey = survey_markers(logs, camera, survey_belief_of(site.robot), anchors, options);
@@ -114,30 +128,60 @@ ExitCode survey_command(const SurveyArguments& arguments) {
   return done;
 }
 
-ExitCode check_command(const CheckArguments& arguments) {
-  const Site site = load_site(arguments.inputs.front());
-  const CameraModel& camera = camera_of(site, arguments.camera);
-  const std::vector<SurveyLog> logs = load_logs(std::span(arguments.inputs).subspan(1), camera, {});
+/// A survey of the markers that the drive shows often enough: one on its edge is no reason to say nothing of
+/// the others.
+struct CheckSurvey {
+  MarkerSurvey survey;
+  std::vector<int> left_out;
+};
+
+CheckSurvey survey_of_often_seen(std::vector<SurveyLog> logs, const CameraModel& camera,
+                                 const SurveyBelief& belief, const Anchors& anchors) {
   SurveyOptions options;
   options.most_sigma_m = 1.0;  // what a short drive does not know well is judged by its sigma
   options.least_sightings = 2;
-  const MarkerSurvey survey = survey_markers(logs, camera, survey_belief_of(site.robot), {}, options);
+  CheckSurvey check;
+  while (true) {
+    check.survey = survey_markers(logs, camera, belief, anchors, options);
+    std::vector<int> rare;
+    for (const SurveyRefusal& refusal : check.survey.flaws)
+      if (refusal.marker) rare.push_back(*refusal.marker);
+    if (rare.empty()) return check;
+    leave_out(rare, logs);
+    check.left_out.insert(check.left_out.end(), rare.begin(), rare.end());
+  }
+}
+
+ExitCode check_command(const CheckArguments& arguments) {
+  const Site site = load_site(arguments.inputs.front());
+  const CameraModel& camera = camera_of(site, arguments.camera);
+  const std::vector<SurveyLog> logs =
+      load_logs(std::span(arguments.inputs).subspan(1), camera, arguments.without);
+  const Anchors anchors = anchors_for(logs, arguments.anchors);
+  const auto [survey, left_out] = survey_of_often_seen(logs, camera, survey_belief_of(site.robot), anchors);
+  for (const int id : left_out)
+    fmt::print(stderr, "lodestar: warning: marker {} was seen too rarely to say anything of it\n", id);
   for (const std::string& line : complaints(survey)) fmt::print(stderr, "lodestar: {}\n", line);
   if (!survey.flaws.empty()) return job_failed;
-  const std::optional<SurveyDifference> difference = compare(survey, site.registry, camera);
+  std::optional<SurveyDifference> difference = compare(survey, site.registry, camera);
   if (!difference) {
     fmt::print(stderr,
                "lodestar: fewer than two registered markers agree with each other: survey the site anew\n");
     return job_failed;
   }
+  // Seen, if rarely, or not asked for: those are not gone.
+  std::erase_if(difference->proposals, [&ids = left_out, &arguments](const MarkerProposal& proposal) {
+    return std::ranges::find(ids, proposal.id) != ids.end() ||
+           std::ranges::find(arguments.without, proposal.id) != arguments.without.end();
+  });
   if (arguments.format == "csv") fmt::print("{}", csv_report(*difference));
   if (arguments.format == "json") fmt::print("{}\n", json_report(*difference).dump(2));
   if (arguments.format == "text") fmt::print("{}", text_report(*difference));
   if (difference->proposals.empty()) return done;
   if (arguments.apply) {
-    const fs::path file = site.folder / "markers.yaml";
-    save_registry(with_proposals(site.registry, *difference), file);
-    fmt::print(stderr, "lodestar: {} changes written to {}\n", difference->proposals.size(), file.string());
+    save_registry(with_proposals(site.registry, *difference), site.registry_file);
+    fmt::print(stderr, "lodestar: {} changes written to {}\n", difference->proposals.size(),
+               site.registry_file.string());
   }
   return job_failed;
 }
@@ -150,10 +194,14 @@ Command add_check(CLI::App* survey) {
       ->required()
       ->expected(2, -1);
   command->add_option("--camera", arguments->camera, "One of the site's cameras; default: the one it names");
+  command->add_option("--anchors", arguments->anchors,
+                      "What is known, as for a survey: a print's scale, say");
+  command->add_option("--without", arguments->without, "IDs to leave out")
+      ->check(CLI::Range(0, marker_id_count - 1));
   command->add_option("--format", arguments->format, "text, csv or json")
       ->check(CLI::IsMember({"text", "csv", "json"}))
       ->capture_default_str();
-  command->add_flag("--apply", arguments->apply, "Write the changes into the site's markers.yaml");
+  command->add_flag("--apply", arguments->apply, "Write the changes into the site's registry");
   return {command, [arguments] { return check_command(*arguments); }};
 }
 

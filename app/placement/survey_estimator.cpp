@@ -1,5 +1,7 @@
 #include "app/placement/survey_estimator.hpp"
 
+#include <set>
+
 #include "app/placement/survey_report.hpp"
 
 namespace lodestar {
@@ -61,6 +63,13 @@ SurveyProgress SurveyEstimator::estimate() {
                                    ? registry_.map_from_registry * progress.difference->registry_from_survey
                                    : start_ * inverse(survey.path.front());
   return progress;
+}
+
+std::vector<int> markers_above_target(const SurveyProgress& progress) {
+  std::set<int> ids;
+  for (const MarkerLink& link : progress.links)
+    if (link.sigma_m > progress.target_sigma_m) ids.insert({link.first, link.second});
+  return {ids.begin(), ids.end()};
 }
 
 MarkerRegistry registry_so_far(const SurveyProgress& progress) {

@@ -36,6 +36,9 @@ struct SurveyProgress {
   double target_sigma_m = 0.0;
 };
 
+/// Those that a link above the target ties to a neighbour, ascending.
+std::vector<int> markers_above_target(const SurveyProgress& progress);
+
 /// Collects what a survey is made of, and estimates the registry from all of it at any time.
 class SurveyEstimator {
  public:

@@ -116,8 +116,9 @@ std::string text_report(const MarkerSurvey& survey) {
       degrees(angles.yaw_rad));
   text += fmt::format("wheels: left {:.4f}, right {:.4f} of what they report; track {:.4f} m\n",
                       survey.mount.left_scale, survey.mount.right_scale, survey.mount.track_width_m);
-  text += fmt::format("residuals over sigmas squared: dots {:.2f}, wheels {:.2f}, anchors {:.2f}\n\n",
-                      survey.dots_factor, survey.wheels_factor, survey.gauge_factor);
+  text += fmt::format(
+      "residuals over sigmas squared: dots {:.2f}, wheels {:.2f}, ceiling {:.2f}, anchors {:.2f}\n\n",
+      survey.dots_factor, survey.wheels_factor, survey.ceiling_factor, survey.gauge_factor);
   text += "  ID       x m       y m      z m   yaw deg  sigma mm   deg  places\n";
   for (std::size_t m = 0; m < survey.markers.size(); ++m) {
     const RegisteredMarker& marker = survey.markers[m];
@@ -148,6 +149,7 @@ nlohmann::ordered_json json_report(const MarkerSurvey& survey) {
           {"worst_sigma_m", worst_sigma_m(survey)},
           {"dots_factor", survey.dots_factor},
           {"wheels_factor", survey.wheels_factor},
+          {"ceiling_factor", survey.ceiling_factor},
           {"gauge_factor", survey.gauge_factor},
           {"print_scale", survey.print_scale},
           {"print_scale_sigma", survey.print_scale_sigma},
@@ -201,9 +203,9 @@ std::string provenance_yaml(const MarkerSurvey& survey, std::span<const SurveyLo
   if (!anchors.empty()) text += fmt::format("anchors: '{}'\n", anchors.filename().string());
   text += fmt::format(
       "gauge: {}\nkeyframes: {}\ndots_factor: {:.4f}\nwheels_factor: {:.4f}\n"
-      "gauge_factor: {:.4f}\n",
+      "ceiling_factor: {:.4f}\ngauge_factor: {:.4f}\n",
       survey.gauge == SurveyGauge::anchored ? "anchored" : "free", survey.keyframes, survey.dots_factor,
-      survey.wheels_factor, survey.gauge_factor);
+      survey.wheels_factor, survey.ceiling_factor, survey.gauge_factor);
   text +=
       fmt::format("print_scale: {{scale: {:.7f}, sigma: {:.7f}}}\nk1_off: {{value: {:.6f}, sigma: {:.6f}}}\n",
                   survey.print_scale, survey.print_scale_sigma, survey.k1_off, survey.k1_sigma);
@@ -255,6 +257,11 @@ std::string csv_report(const SurveyDifference& difference) {
 
 std::string text_report(const SurveyDifference& difference) {
   std::string text = fmt::format("{} markers hang where they are registered\n", difference.unchanged);
+  constexpr double worth_saying = 1e-3;
+  if (std::abs(difference.scale - 1.0) > worth_saying)
+    text +=
+        fmt::format("the registry's distances are {:.5f} of the drive's: one of the two has a wrong scale\n",
+                    difference.scale);
   for (const MarkerProposal& p : difference.proposals) {
     if (p.change == MarkerChange::gone) {
       text += fmt::format("{:4} gone: not seen where it should be\n", p.id);
@@ -285,7 +292,8 @@ nlohmann::ordered_json json_report(const SurveyDifference& difference) {
                          {"y_m", p.proposed.position_m.y()},
                          {"z_m", p.proposed.position_m.z()},
                          {"yaw_deg", degrees(p.proposed.yaw_rad)}});
-  return {{"unchanged", difference.unchanged}, {"proposals", proposals}};
+  return {
+      {"unchanged", difference.unchanged}, {"registry_scale", difference.scale}, {"proposals", proposals}};
 }
 
 MarkerRegistry with_proposals(MarkerRegistry registry, const SurveyDifference& difference) {

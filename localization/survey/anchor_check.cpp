@@ -67,9 +67,10 @@ void check_anchors(const SurveyProblem& problem, const SurveyBundle& bundle,
     survey.anchor_checks.push_back(
         {in_words(anchor), sigma_of(anchor) * least_noticeable(redundancies[i], probability, spare)});
   }
-  const double believed = std::sqrt(survey.gauge_factor) * problem.anchors.print_scale.sigma;
-  survey.noticeable_print_scale =
-      believed * least_noticeable(1.0 - square(survey.print_scale_sigma / believed), probability, spare);
+  // The test ran before the misfit widened any sigma: its sigmas are those that people gave.
+  const double believed = problem.anchors.print_scale.sigma;
+  const double left = survey.print_scale_sigma / (std::sqrt(survey.gauge_factor) * believed);
+  survey.noticeable_print_scale = believed * least_noticeable(1.0 - square(left), probability, spare);
 }
 
 }  // namespace lodestar

@@ -100,7 +100,8 @@ class Chooser {
 
 /// No frame beside this one shows the marker, though one is near enough to.
 bool is_seen_once(const SurveyLog& log, std::size_t at, int id) {
-  constexpr Duration near = std::chrono::milliseconds(250);
+  // Images may be kept once or twice a second; a marker stays in view for longer.
+  constexpr Duration near = std::chrono::milliseconds(1000);
   bool is_looked_for = false;
   for (const std::size_t beside : {at - 1, at + 1}) {
     if (beside >= log.frames.size()) continue;  // at - 1 of the first wraps

@@ -32,7 +32,8 @@ void refuse_rare_markers(const SurveyKeyframes& keyframes, const std::vector<int
     if (sightings[m] >= static_cast<int>(options.least_sightings)) continue;
     flaws.push_back({SurveyFlaw::too_few_sightings,
                      fmt::format("marker {}: seen from {} of the {} places needed", keyframes.ids[m],
-                                 sightings[m], options.least_sightings)});
+                                 sightings[m], options.least_sightings),
+                     keyframes.ids[m]});
   }
 }
 
@@ -203,8 +204,7 @@ void refuse_weak(const SurveyOptions& options, MarkerSurvey& survey, Flaws& flaw
       return;  // every sigma would be that one
     }
   } else {
-    const Eigen::MatrixXd shape = without_rigid_motion(survey.markers);
-    survey.covariance = shape * survey.covariance * shape.transpose();
+    survey.covariance = shape_covariance(survey.markers, survey.covariance);
   }
   double worst_m = 0.0;
   int worst_id = 0;
@@ -296,6 +296,7 @@ MarkerSurvey survey_markers(std::span<const SurveyLog> logs, const CameraModel& 
   }
   take_registry(keyframes, bundle.state(), belief, survey);
   take_robot(bundle.state(), belief, survey);
+  if (options.before_covariance) options.before_covariance();
   const std::optional<SurveyCovariance> covariance = bundle.covariance();
   if (!covariance) {
     refuse(SurveyFlaw::no_convergence, "the least squares leave unknowns undetermined");

@@ -34,7 +34,8 @@ std::string_view to_string(SurveyFlaw flaw);
 
 struct SurveyRefusal {
   SurveyFlaw flaw = SurveyFlaw::no_convergence;
-  std::string found;  ///< in words, with the culprit
+  std::string found;          ///< in words, with the culprit
+  std::optional<int> marker;  ///< that is seen too rarely
 };
 
 /// What a survey knows of the robot.

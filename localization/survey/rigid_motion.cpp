@@ -15,18 +15,36 @@ Eigen::MatrixXd best_motion_by_changes(const Eigen::MatrixXd& motions) {
   return normal.ldlt().solve(of_positions.transpose());
 }
 
+Vec2 middle_of(std::span<const PointPair> pairs) {
+  double total = 0.0;
+  Vec2 middle_m = Vec2::Zero();
+  for (const PointPair& pair : pairs) {
+    total += pair.weight;
+    middle_m += pair.weight * pair.from_m;
+  }
+  return middle_m / total;
+}
+
+/// Changes of (x, y, yaw) when the registry grows about its middle: each moves away from it.
+Eigen::VectorXd growth(const Eigen::MatrixXd& motions) {
+  Eigen::VectorXd grown = Eigen::VectorXd::Zero(motions.rows());
+  for (Eigen::Index row = 0; row + 2 < motions.rows(); row += 3) {
+    grown[row] = motions(row + 1, 2);
+    grown[row + 1] = -motions(row, 2);
+  }
+  return grown;
+}
+
 }  // namespace
 
 Pose2 best_rigid_motion(std::span<const PointPair> pairs, double turn_rad) {
   double total = 0.0;
-  Vec2 from_middle_m = Vec2::Zero();
   Vec2 to_middle_m = Vec2::Zero();
   for (const PointPair& pair : pairs) {
     total += pair.weight;
-    from_middle_m += pair.weight * pair.from_m;
     to_middle_m += pair.weight * pair.to_m;
   }
-  from_middle_m /= total;
+  const Vec2 from_middle_m = middle_of(pairs);
   to_middle_m /= total;
   Vec2 turn_m2 = Vec2::Zero();
   for (const PointPair& pair : pairs) {
@@ -37,6 +55,23 @@ Pose2 best_rigid_motion(std::span<const PointPair> pairs, double turn_rad) {
   constexpr double one_point_m2 = 1e-8;
   const double yaw_rad = turn_m2.norm() > one_point_m2 ? heading_of(turn_m2) : turn_rad;
   return {to_middle_m - Eigen::Rotation2Dd(yaw_rad) * from_middle_m, yaw_rad};
+}
+
+SimilarMotion best_similar_motion(std::span<const PointPair> pairs, double scale_sigma) {
+  SimilarMotion similar{.motion = best_rigid_motion(pairs), .middle_m = middle_of(pairs)};
+  // The turn does not depend on the scale, nor do the middles; what is left is a weighted mean with the
+  // prior.
+  const Vec2 to_middle_m = similar.motion * similar.middle_m;
+  const Eigen::Rotation2Dd turn(similar.motion.yaw_rad);
+  double wanted = 1.0 / square(scale_sigma);
+  double weight = wanted;
+  for (const PointPair& pair : pairs) {
+    const Vec2 from_m = turn * (pair.from_m - similar.middle_m);
+    wanted += pair.weight * from_m.dot(pair.to_m - to_middle_m);
+    weight += pair.weight * from_m.squaredNorm();
+  }
+  similar.scale = wanted / weight;
+  return similar;
 }
 
 Eigen::MatrixXd rigid_motions(std::span<const RegisteredMarker> markers) {
@@ -52,10 +87,21 @@ Eigen::MatrixXd rigid_motions(std::span<const RegisteredMarker> markers) {
   return motions;
 }
 
-Eigen::MatrixXd without_rigid_motion(std::span<const RegisteredMarker> markers) {
-  const Eigen::MatrixXd motions = rigid_motions(markers);
-  return Eigen::MatrixXd::Identity(motions.rows(), motions.rows()) -
-         motions * best_motion_by_changes(motions);
+Eigen::MatrixXd shape_covariance(std::span<const RegisteredMarker> markers, const Eigen::MatrixXd& covariance,
+                                 double scale_share) {
+  Eigen::MatrixXd motions = rigid_motions(markers);
+  Eigen::MatrixXd by_changes = best_motion_by_changes(motions);
+  const Eigen::VectorXd grown = growth(motions);
+  if (scale_share > 0.0 && grown.squaredNorm() > 0.0) {
+    motions.conservativeResize(Eigen::NoChange, motions.cols() + 1);
+    motions.rightCols<1>() = grown;
+    by_changes.conservativeResize(by_changes.rows() + 1, Eigen::NoChange);
+    by_changes.bottomRows<1>() = scale_share / grown.squaredNorm() * grown.transpose();
+  }
+  // (1 - M B) C (1 - M B)' by its few columns: in a hall the products in full would take seconds.
+  const Eigen::MatrixXd moved = by_changes * covariance;
+  const Eigen::MatrixXd once = covariance - motions * moved;
+  return once - (once * by_changes.transpose()) * motions.transpose();
 }
 
 double turn_sigma_rad(std::span<const RegisteredMarker> markers, const Eigen::MatrixXd& covariance) {

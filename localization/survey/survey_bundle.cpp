@@ -132,7 +132,7 @@ void SurveyBundle::add_ceiling() {
     ceres_->ceiling.push_back(ceres_->problem.AddResidualBlock(
         new CeilingBetween(*frames[i].by_ceiling, believed_m, median(heights_m)), &ceres_->ceiling_factor,
         state.places[i - 1].data(), state.places[i].data(), state.ceiling.data(), state.mount_m.data(),
-        state.mount_turn_rad.data()));
+        state.mount_turn_rad.data(), state.scale_and_k1.data()));
   }
 }
 

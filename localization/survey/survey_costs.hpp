@@ -45,12 +45,15 @@ class WheelsBetween : public ceres::SizedCostFunction<3, 5, 5, 3> {
   Eigen::Matrix3d root_information_;
 };
 
-/// Motion between two keyframes less the ceiling's own, corrected for where the camera sits on the base.
-/// Parameters: both places, the ceiling's scale, mount position, mount turn.
-class CeilingBetween : public ceres::SizedCostFunction<3, 5, 5, 1, 3, 3> {
+/// Motion between two keyframes less the ceiling's own, corrected for where the camera sits on the base; in
+/// metres at the believed height, for the reason of WheelsBetween. Parameters: both places, the ceiling's
+/// scale, mount position, mount turn, print scale and k1: by the print the ceiling is as high as it is, and a
+/// lean sways its picture by as much in a smaller world.
+class CeilingBetween : public ceres::SizedCostFunction<3, 5, 5, 1, 3, 3, 2> {
  public:
-  /// `believed_mount_m`: with which the motion was computed. A camera that is tilted, by its mount or by the
-  /// body's lean, looks at a place aside: both at the ceiling's texture and at markers on it.
+  /// `believed_mount_m`: with which the motion was computed; `ceiling_m`: as high as by a nominal print. A
+  /// camera that is tilted, by its mount or by the body's lean, looks at a place aside: both at the ceiling's
+  /// texture and at markers on it.
   CeilingBetween(const CeilingSegment& segment, const Vec3& believed_mount_m, double ceiling_m);
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
 

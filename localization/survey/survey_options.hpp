@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 
 #include "localization/survey/wheel_segment.hpp"
 #include "maps/geometry.hpp"
@@ -43,6 +44,7 @@ struct SurveyOptions {
   double most_wheels_factor = 50.0;          ///< the same of the wheels: floors differ
   double least_probability = 1e-4;           ///< of what anchors leave; what is likelier widens the sigmas
   int most_iterations = 60;
+  std::function<void()> before_covariance;  ///< called once between the two long steps, for who times them
 };
 
 }  // namespace lodestar

@@ -27,12 +27,6 @@ std::vector<std::size_t> nearest_to(const MarkerSurvey& survey, std::size_t mark
   return others;
 }
 
-/// Of the shape: a turn of the registry as a whole moves no marker as seen from another.
-Eigen::MatrixXd shape_covariance(const MarkerSurvey& survey) {
-  const Eigen::MatrixXd shape = without_rigid_motion(survey.markers);
-  return shape * survey.covariance * shape.transpose();
-}
-
 double relative_sigma_m(const Eigen::MatrixXd& covariance, std::size_t first, std::size_t second) {
   const auto block = [&](std::size_t a, std::size_t b) {
     return covariance.block<2, 2>(3 * static_cast<Eigen::Index>(a), 3 * static_cast<Eigen::Index>(b));
@@ -48,7 +42,8 @@ std::vector<MarkerLink> weakest_links(const MarkerSurvey& survey) {
   const auto rows = 3 * static_cast<Eigen::Index>(survey.markers.size());
   std::vector<MarkerLink> links;
   if (rows == 0 || survey.covariance.rows() != rows) return links;
-  const Eigen::MatrixXd covariance = shape_covariance(survey);
+  // Of the shape: a turn of the registry as a whole moves no marker as seen from another.
+  const Eigen::MatrixXd covariance = shape_covariance(survey.markers, survey.covariance);
   for (std::size_t marker = 0; marker < survey.markers.size(); ++marker) {
     for (const std::size_t other : nearest_to(survey, marker)) {
       const auto is_other_way = [&](const MarkerLink& link) {

@@ -40,6 +40,37 @@ TEST(SurveyDifference, finds_exactly_what_has_changed) {
   EXPECT_NEAR(degrees(proposal.turn_rad), 5.0, 0.15);
 }
 
+/// The print's scale is known to 0.2 % only: 9 mm at the room's end, which all markers there would share.
+TEST(SurveyDifference, finds_a_small_move_at_the_end_of_a_room_without_knowing_the_scale) {
+  constexpr double longer = 1.0015;  // print and registry may differ so
+  for (const double scale : {1.0, longer}) {
+    SurveyWorld world =
+        make_survey_world(marker_grid(12.0, 6.0, 2.0, ceiling_m, 5), {.print_scale = scale}, 17);
+    const MarkerRegistry registry{.markers = world.markers};
+    RegisteredMarker& moved = world.markers[0];
+    moved.position_m.x() -= 0.03;
+    const SurveyDrive drive = drive_survey(world, lanes(12.0, 6.0), 18);
+    const MarkerSurvey survey =
+        survey_markers(std::span(&drive.log, 1), world.camera, world.belief, {}, {.most_sigma_m = 1.0});
+    ASSERT_TRUE(survey.flaws.empty()) << words_of(survey);
+    const auto difference = compare(survey, registry, world.camera);
+    ASSERT_TRUE(difference);
+    ASSERT_EQ(difference->proposals.size(), 1U) << "scale " << scale;
+    const MarkerProposal& proposal = difference->proposals.front();
+    EXPECT_EQ(proposal.id, moved.id);
+    EXPECT_LT((proposal.offset_m - Vec2(-0.03, 0.0)).norm(), 0.0025);
+    EXPECT_LT(proposal.sigma_m, 0.004);
+    EXPECT_NEAR(difference->scale, scale, 4e-4) << "the registry's metres are true, the print's are not";
+  }
+}
+
+TEST(SurveyDifference, says_nothing_of_a_survey_that_has_no_covariance) {
+  const SurveyTour tour = small_tour(19);
+  MarkerSurvey survey = survey_of(tour);
+  survey.covariance = {};
+  EXPECT_FALSE(compare(survey, {.markers = tour.world.markers}, tour.world.camera));
+}
+
 TEST(SurveyDifference, says_nothing_changed_when_nothing_has) {
   const SurveyTour tour = small_tour(19);
   const MarkerRegistry registry{.markers = tour.world.markers};
