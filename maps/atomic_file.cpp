@@ -65,9 +65,36 @@ void remove_orphans(const std::filesystem::path& folder, const std::string& name
   }
 }
 
+/// Devices, pipes and sockets have no old content to keep, and must not be replaced by a file.
+bool is_something_else(const std::filesystem::path& file) {
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(file, none);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+void write_into(const std::filesystem::path& file, std::string_view content) {
+  const Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  if (out.is_open() && write_all(out.get(), content)) return;
+  throw InputError(file, 0, std::string("a file that could not be written (") + std::strerror(errno) + ")",
+                   "one that can be");
+}
+
+/// Where a symbolic link leads to: the link itself stays.
+std::filesystem::path target_of(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::is_symlink(file, none)) return file;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(file, none);
+  return none ? file : target;
+}
+
 }  // namespace
 
-void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
+void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  if (is_something_else(path)) {
+    write_into(path, content);
+    return;
+  }
+  const std::filesystem::path file = target_of(path);
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const std::string temporary =
       (folder / fmt::format(".{}.{}", file.filename().string(), ::getpid())).string();

@@ -139,8 +139,7 @@ CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>
   if (!with_people) return mission;
   constexpr std::uint64_t most_people = 6;
   mission.replay.people.count = 1 + static_cast<int>(random.stream(people).below(most_people));
-  mission.replay.scanner.emplace();
-  if (mission.site.robot.scanner) mission.replay.scanner->mount = mission.site.robot.scanner->mount;
+  if (!mission.site.robot.scanner) mission.site.robot.scanner.emplace();
   return mission;
 }
 

@@ -27,7 +27,6 @@ void use_people(const PeopleArguments& arguments, SimulatedDriveOptions& options
     options.people.oblivious_share = arguments.kind == "oblivious" ? 1.0 : 0.0;
     options.people.threatening_share = arguments.kind == "threatening" ? 1.0 : 0.0;
   }
-  if (!options.scanner) options.scanner.emplace();
 }
 
 std::string words_of(const PeopleArguments& arguments) {

@@ -33,7 +33,12 @@ RecordedRun::RecordedRun(std::filesystem::path folder, const Site& site, const s
                                      .tell = once(options.tell),
                                      .disk = options.disk}),
       sighting_log_(folder_, site.robot, site.cameras.at(camera),
-                    {.can_wait = options.can_wait, .tell = once(options.tell), .disk = options.disk}) {}
+                    {.can_wait = options.can_wait, .tell = once(options.tell), .disk = options.disk}) {
+  if (site.robot.scanner)
+    scan_log_.emplace(
+        folder_, site.robot.scanner->mount,
+        ScanLogOptions{.can_wait = options.can_wait, .tell = once(options.tell), .disk = options.disk});
+}
 
 std::function<void(const std::string&)> RecordedRun::once(std::function<void(const std::string&)> tell) {
   if (!tell) return {};
@@ -47,6 +52,7 @@ DriveWatcher RecordedRun::watcher() {
               [this](const DriveMoment& moment) {
                 mcap_.watch(moment);
                 sighting_log_.take(moment.input);
+                if (scan_log_) scan_log_->take(moment.input);
               },
           .can_frame = [this](const StampedCanFrame& frame) { can_log_.take(frame); }};
 }
@@ -60,6 +66,7 @@ RunFolderEnd RecordedRun::finish(const RunRecord& record) {
   remember(can_log_.finish());
   remember(mcap_.finish());
   remember(sighting_log_.finish());
+  if (scan_log_) remember(scan_log_->finish());
   remember(lost_pictures(record));
   try {
     if (disk_.is_full && disk_.is_full()) throw InputError("the disk is full");

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "app/common/background_writer.hpp"
 #include "app/recording/can_log.hpp"
+#include "app/recording/scan_log.hpp"
 #include "app/recording/sighting_log.hpp"
 #include "app/site/site.hpp"
 #include "app/viewers/run_mcap.hpp"
@@ -27,8 +29,9 @@ struct RunFolderEnd {
   std::string loss;         ///< what is missing and why; empty when nothing is
 };
 
-/// The run folder of one drive, real or simulated: run.mcap, can.log, dots.csv and wheels.csv grow while the
-/// robot drives and are readable as far as they go when the program dies; all else is written at the end.
+/// The run folder of one drive, real or simulated: run.mcap, can.log, dots.csv, wheels.csv and scans.bin grow
+/// while the robot drives and are readable as far as they go when the program dies; all else is written at
+/// the end.
 class RecordedRun {
  public:
   /// Makes the folder and these files. Throws InputError when one of them cannot be made.
@@ -53,6 +56,7 @@ class RecordedRun {
   RunMcap mcap_;
   CanLog can_log_;
   SightingLog sighting_log_;
+  std::optional<ScanLog> scan_log_;  ///< of a robot with a scanner
 };
 
 }  // namespace lodestar

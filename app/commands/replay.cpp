@@ -69,8 +69,6 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
                                 .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                                 .realtime = arguments.realtime};
   if (!arguments.faults.empty()) options.faults = faults_named(arguments.faults);
-  if (site.robot.scanner && arguments.people.count > 0)
-    options.scanner = SimulatedScannerOptions{.mount = site.robot.scanner->mount};
   use_people(arguments.people, options);
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
@@ -254,7 +252,8 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
 }
 
 ExitCode replay_command(const ReplayArguments& arguments) {
-  const Site site = load_site(arguments.site.empty() ? lab_site() : fs::path(arguments.site));
+  Site site = load_site(arguments.site.empty() ? lab_site() : fs::path(arguments.site));
+  if (arguments.people.count > 0 && !site.robot.scanner) site.robot.scanner.emplace();
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const SimulatedDriveOptions options = replay_options(arguments, site);
   if (arguments.explore) return replay_exploring(site, options, output_folder(site, arguments));

@@ -21,6 +21,7 @@
 #include "app/site/arguments.hpp"
 #include "app/site/base_setup.hpp"
 #include "drivers/base/guard.hpp"
+#include "drivers/scanner/scanner_driver.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -168,6 +169,15 @@ ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> pro
   return served.succeeded() ? done : job_failed;
 }
 
+/// A robot that has a scanner does not drive without it.
+std::unique_ptr<Scanner> scanner_of(const Site& site) {
+  if (!site.robot.scanner) return nullptr;
+  if (site.scanner.empty())
+    throw InputError(site.folder / "site.yaml", 0, "no scanner, but a robot that has one",
+                     "scanner: with its address, such as ld19:/dev/ttyUSB0");
+  return open_scanner(site.scanner);
+}
+
 ExitCode run_command(const RunArguments& arguments) {
   if (arguments.goals.empty() && !arguments.serve && !arguments.survey)
     throw InputError("found neither --goal, --serve nor --survey");
@@ -190,6 +200,8 @@ ExitCode run_command(const RunArguments& arguments) {
   std::unique_ptr<BaseProtocol> protocol = make_protocol(connection, site.robot);
   GuardedBus bus(connection.interface, guard_options(*protocol));
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
+  const std::unique_ptr<Scanner> scanner = scanner_of(site);
+  options.scanner = scanner.get();
   const Interruption interruption;
   const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};
   if (arguments.survey) return drive_surveying(parts, std::move(protocol), options, arguments);

@@ -76,7 +76,7 @@ class CameraWatcher {
 
 /// At most two frames a control period; further ones wait for the next, so that catching up does not delay
 /// commands.
-SensorInput sense(Camera& camera, BaseDriver& base) {
+SensorInput sense(Camera& camera, Scanner* scanner, BaseDriver& base) {
   constexpr std::size_t most_frames = 2;
   const Stamp now = monotonic_now();
   SensorInput input{.now = now, .frames = {}, .base = base.poll(now)};
@@ -85,6 +85,8 @@ SensorInput sense(Camera& camera, BaseDriver& base) {
     if (!frame) break;
     input.frames.push_back(std::move(*frame));
   }
+  if (scanner != nullptr)
+    while (std::optional<Scan> scan = scanner->poll()) input.scans.push_back(std::move(*scan));
   return input;
 }
 
@@ -137,7 +139,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     attend(options, mission, base, recorder);
     next = std::max(next + control_period, monotonic_now());
     sleep_until(next);
-    const SensorInput input = sense(camera, base);
+    const SensorInput input = sense(camera, options.scanner, base);
     if (options.on_input) options.on_input(input);
     const MissionStep step = mission.step(input);
     base.command(step.navigation.command);

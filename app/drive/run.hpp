@@ -11,6 +11,7 @@
 #include "drivers/base/base_protocol.hpp"
 #include "drivers/camera/camera.hpp"
 #include "drivers/can/can_bus.hpp"
+#include "drivers/scanner/scanner.hpp"
 
 namespace lodestar {
 
@@ -34,6 +35,7 @@ struct RunOptions {
   /// The console's operator session, if any: after the goals the robot waits for more from it, until
   /// `operator_wish` says stop.
   OperatorSession* session = nullptr;
+  Scanner* scanner = nullptr;           ///< of a robot that has one
   std::function<void(RunRecord)> keep;  ///< with a session: receives the record of each drive as it ends
 };
 

@@ -38,6 +38,8 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
   options.faults = replay.faults;
   options.disk = replay.disk;
   options.scanner = replay.scanner;
+  if (!options.scanner && site.robot.scanner)
+    options.scanner = SimulatedScannerOptions{.mount = site.robot.scanner->mount};
   options.discs = replay.discs;
   options.people = replay.people;
   if (site.robot.scanner) brake_as_declared(options, site.robot.scanner->protective_deceleration_mps2);

@@ -31,7 +31,7 @@ struct SimulatedDriveOptions {
   Disturbances disturbances;
   std::vector<Fault> faults;
   std::shared_ptr<SimulatedDisk> disk;             ///< disk faults act on it, if given
-  std::optional<SimulatedScannerOptions> scanner;  ///< without it the robot has none
+  std::optional<SimulatedScannerOptions> scanner;  ///< without it: the robot's own, if it has one
   PeopleOptions people;                            ///< who walk about
   std::vector<MovingDisc> discs;                   ///< that no map has
   bool is_placed_at_start = false;                 ///< a person says where it starts, to 2 cm and 1 degree

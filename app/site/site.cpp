@@ -264,6 +264,12 @@ Site load_site(const std::filesystem::path& folder) {
       yaml.refuse("camera_settings", "settings of camera '" + site.camera + "'", "them only for v4l2:");
     site.camera_settings = read_camera_settings(yaml.mapping("camera_settings"));
   }
+  if (yaml.has("scanner")) {
+    site.scanner = yaml.text("scanner");
+    if (!site.robot.scanner)
+      yaml.refuse("scanner", "'" + site.scanner + "' of a robot without one",
+                  "scanner: in its robot.yaml too");
+  }
   if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
   yaml.finish();
   return site;

@@ -103,6 +103,7 @@ struct Site {
   std::vector<Goal> goals;
   std::string camera;  ///< the camera device, or "simulated"; empty when the site names none
   CameraSettings camera_settings;
+  std::string scanner;                 ///< where the robot's scanner is; empty when the site names none
   std::optional<BaseConnection> base;  ///< nothing when the site is for simulation only
 };
 
