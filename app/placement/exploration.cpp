@@ -23,7 +23,8 @@ ExplorationState Exploration::conduct(const MissionStep& step, Mission& mission,
   if (step.event == MissionEvent::goal_arrived) explorer_.reached();
   if (step.event == MissionEvent::goal_failed) {
     last_failure_ = mission.failure();
-    explorer_.failed();
+    const auto& estimate = step.navigation.estimate;
+    explorer_.failed(estimate ? std::optional<Vec2>(estimate->map_from_base.position_m) : std::nullopt);
   }
   if (!mission.finished() || !step.navigation.estimate) return ExplorationState::under_way;
   const std::optional<Goal> goal = explorer_.next(step.navigation.estimate->map_from_base.position_m, newest);

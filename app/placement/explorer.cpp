@@ -52,8 +52,12 @@ void Explorer::reached() {
 }
 
 /// Once more later: markers found meanwhile may make the way certain enough.
-void Explorer::failed() {
+void Explorer::failed(const std::optional<Vec2>& here_m) {
   if (!now_) return;
+  if (here_m && (goal_of(*now_).position_m - *here_m).norm() < options_.near_m) {
+    reached();
+    return;
+  }
   Task task = *std::exchange(now_, std::nullopt);
   task.is_on_lane = false;
   if (++task.failures < options_.most_failures)

@@ -13,6 +13,7 @@ namespace lodestar {
 struct ExplorerOptions {
   double margin_m = 0.15;           ///< beyond the robot's radius: its place on the map is not yet known well
   double ceiling_m = 2.5;           ///< assumed for the lanes' spacing; a higher ceiling shows more
+  double near_m = 0.5;              ///< of a goal that the robot could not see it has arrived at
   int most_failures = 2;            ///< of a lane, before it is given up
   std::size_t most_crossings = 12;  ///< of weak links, at the end
 };
@@ -27,9 +28,10 @@ class Explorer {
   /// Nothing when there is nothing left to drive, or nothing that can be reached.
   std::optional<Goal> next(const Vec2& here_m, const SurveyProgress* progress);
 
-  /// The outcome of the last goal.
+  /// The outcome of the last goal; `here_m`: where the robot believes it is now. Within near_m of the goal a
+  /// lane counts as driven: no marker need be in view at its end.
   void reached();
-  void failed();
+  void failed(const std::optional<Vec2>& here_m);
 
   [[nodiscard]] std::size_t lanes_left() const { return lanes_.size(); }
   [[nodiscard]] std::size_t lanes_given_up() const { return given_up_; }

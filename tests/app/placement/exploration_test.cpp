@@ -43,5 +43,25 @@ TEST_F(ExplorationShortcomings, are_a_survey_that_contradicts_itself_or_has_no_m
   EXPECT_THAT(exploration.shortcomings(nullptr), ElementsAre(HasSubstr("no marker")));
 }
 
+/// A lane's end need not have a marker in view.
+TEST(Explorer, counts_a_goal_as_reached_that_it_failed_to_see_but_came_near_to) {
+  const Site site = load_site(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab");
+  Explorer explorer(site, site.default_camera, {.map_from_base = site.start});
+  const std::size_t lanes = explorer.lanes_left();
+  const auto goal = explorer.next(site.start.position_m, nullptr);
+  ASSERT_TRUE(goal);
+  explorer.failed(Vec2(goal->position_m + Vec2(0.3, 0.0)));
+  const auto end = explorer.next(goal->position_m, nullptr);
+  ASSERT_TRUE(end);
+  EXPECT_NE(end->position_m, goal->position_m) << "goes on along the lane";
+  explorer.failed(Vec2(end->position_m + Vec2(0.3, 0.0)));
+  EXPECT_EQ(explorer.lanes_left(), lanes - 1);
+  const auto next = explorer.next(end->position_m, nullptr);
+  ASSERT_TRUE(next);
+  explorer.failed(Vec2(next->position_m + Vec2(0.0, 3.0)));
+  EXPECT_EQ(explorer.lanes_left(), lanes - 1) << "that one is tried once more";
+  EXPECT_EQ(explorer.lanes_given_up(), 0U);
+}
+
 }  // namespace
 }  // namespace lodestar
