@@ -72,14 +72,17 @@ void Surroundings::add(std::span<const WheelTravel> travel, std::span<const Scan
     watch_.add_travel(reading);
   }
   for (const Scan& scan : scans)
-    if (!watch_.update(scan, now)) waiting_.push_back(scan);
+    if (!watch_.update(scan, now)) {
+      own_parts_.add(scan, options_.mount, outline_);
+      waiting_.push_back(scan);
+    }
   while (waiting_.size() > most_waiting) waiting_.pop_front();
   while (!waiting_.empty() && take(waiting_.front(), mapped)) waiting_.pop_front();
 }
 
 /// False while the wheel readings of the scan's time are missing.
 bool Surroundings::take(const Scan& scan, const MappedPose& mapped) {
-  const std::optional<DeskewedScan> placed = deskewed(scan, options_.mount, track_, outline_);
+  const std::optional<DeskewedScan> placed = deskewed(scan, options_.mount, track_, outline_, own_parts_);
   if (!placed) return false;
   memory_.add(*placed);
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);

@@ -81,6 +81,7 @@ class Surroundings {
 
   SurroundingsOptions options_;
   OwnOutline outline_;
+  OwnParts own_parts_;
   ProtectiveField field_;
   WheelTrack track_;
   ScannerWatch watch_;

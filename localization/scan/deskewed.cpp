@@ -25,20 +25,24 @@ double length_m(const Beam& beam, const Scan& scan) {
 
 }  // namespace
 
+Vec2 end_in_base(const Beam& beam, const Scan& scan, const ScannerMount& mount) {
+  const Vec2 way(std::cos(beam.angle_rad), std::sin(beam.angle_rad));
+  return mount.base_from_scanner * Vec2(length_m(beam, scan) * way);
+}
+
 std::optional<DeskewedScan> deskewed(const Scan& scan, const ScannerMount& mount, const WheelTrack& track,
-                                     const OwnOutline& own) {
+                                     const OwnOutline& own, const OwnParts& parts) {
   if (scan.beams.empty()) return std::nullopt;
   DeskewedScan result{.newest = scan.beams.front().stamp, .rays = {}};
   result.rays.reserve(scan.beams.size());
   for (const Beam& beam : scan.beams) {
     const std::optional<Pose2> odom_from_base = track.pose_at(beam.stamp);
     if (!odom_from_base) return std::nullopt;
-    const Vec2 way(std::cos(beam.angle_rad), std::sin(beam.angle_rad));
-    const Vec2 end_in_base = mount.base_from_scanner * Vec2(length_m(beam, scan) * way);
+    const Vec2 end = end_in_base(beam, scan, mount);
     result.newest = std::max(result.newest, beam.stamp);
-    const Ray ray{beam.stamp, *odom_from_base * mount.base_from_scanner.position_m,
-                  *odom_from_base * end_in_base, beam.echo};
-    if (ends_at_something(ray) && own.shape.distance_m(end_in_base) < own.margin_m) continue;
+    const Ray ray{beam.stamp, *odom_from_base * mount.base_from_scanner.position_m, *odom_from_base * end,
+                  beam.echo};
+    if (ends_at_something(ray) && own.holds(end) && parts.has(beam.angle_rad)) continue;
     result.rays.push_back(ray);
   }
   return result;

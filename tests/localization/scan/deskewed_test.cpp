@@ -70,12 +70,12 @@ TEST(Deskewed, AWallIsStraightWhileTheRobotTurns) {
         (3.0 - odom_from_scanner.position_m.x()) / std::cos(odom_from_scanner.yaw_rad + angle_rad);
     scan.beams.push_back({at(s), angle_rad, range_m, 1.0F, Echo::hit});
   }
-  const std::optional<DeskewedScan> still = deskewed(scan, mount, track_of(velocity, 0.6), own);
+  const std::optional<DeskewedScan> still = deskewed(scan, mount, track_of(velocity, 0.6), own, OwnParts());
   ASSERT_TRUE(still);
   ASSERT_EQ(still->rays.size(), 100U);
   for (const Ray& ray : still->rays) EXPECT_NEAR(ray.end_m.x(), 3.0, 0.001);
   EXPECT_EQ(still->newest, at(0.599));
-  EXPECT_FALSE(deskewed(scan, mount, track_of(velocity, 0.5), own));  // the wheels are silent
+  EXPECT_FALSE(deskewed(scan, mount, track_of(velocity, 0.5), own, OwnParts()));  // the wheels are silent
 }
 
 TEST(Deskewed, LeavesOutTheRobotItselfAndNothingElse) {
@@ -86,12 +86,36 @@ TEST(Deskewed, LeavesOutTheRobotItselfAndNothingElse) {
   scan.beams.push_back({at(0.0), -0.3, 0.15, 1.0F, Echo::hit});      // nearer than min_range_m, outside
   scan.beams.push_back({at(0.0), -0.3, 0.0, 0.0F, Echo::too_near});  // outside at 0.3 m
   scan.beams.push_back({at(0.0), -0.3, 0.0, 0.0F, Echo::nothing});
-  const std::optional<DeskewedScan> seen = deskewed(scan, mount, track_of({0.5, 1.0}, 0.1), own);
+  OwnParts parts;
+  for (int i = 0; i < 10; ++i) parts.add(scan, mount, own);
+  const std::optional<DeskewedScan> seen = deskewed(scan, mount, track_of({0.5, 1.0}, 0.1), own, parts);
   ASSERT_TRUE(seen);
   ASSERT_EQ(seen->rays.size(), 4U);
   EXPECT_NEAR((seen->rays[0].end_m - Vec2(-0.30, 0.02)).norm(), 0.0, 1e-9);
   EXPECT_NEAR((seen->rays[2].end_m - Vec2(0.45, 0.02)).norm(), 0.0, 1e-9);
   EXPECT_NEAR((seen->rays[3].end_m - seen->rays[3].origin_m).norm(), 12.0, 1e-9);
+}
+
+/// Within the outline, but where the robot has no part of its own; and where a part has been taken off.
+TEST(Deskewed, KeepsWhoTouchesTheRobot) {
+  const double back_rad = std::numbers::pi - 0.3;
+  const Beam post{at(0.0), back_rad, 0.30, 1.0F, Echo::hit};
+  const Beam leg{at(0.0), 0.5, 0.05, 1.0F, Echo::hit};
+  const auto scan_of = [](std::vector<Beam> beams) {
+    return Scan{.beams = std::move(beams), .min_range_m = 0.02, .max_range_m = 12.0};
+  };
+  const auto count = [&](const Scan& scan, const OwnParts& parts) {
+    return deskewed(scan, mount, track_of({0.5, 1.0}, 0.1), own, parts).value().rays.size();
+  };
+  OwnParts parts;
+  EXPECT_EQ(count(scan_of({post}), parts), 1U) << "before it has learned, everything is somebody";
+  for (int i = 0; i < 10; ++i) parts.add(scan_of({post}), mount, own);
+  EXPECT_EQ(count(scan_of({post}), parts), 0U);
+  EXPECT_EQ(count(scan_of({post, leg}), parts), 1U);
+  for (int i = 0; i < 30; ++i) parts.add(scan_of({post, leg}), mount, own);
+  EXPECT_EQ(count(scan_of({post, leg}), parts), 1U) << "however long it stays";
+  for (int i = 0; i < 5; ++i) parts.add(scan_of({}), mount, own);
+  EXPECT_EQ(count(scan_of({post}), parts), 1U);
 }
 
 }  // namespace
