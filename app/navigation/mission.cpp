@@ -164,6 +164,7 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
     state_ = Driving{.ends = state.ends + (input.now - last_step_), .stopped_since = std::nullopt};
     return MissionEvent::none;
   }
+  if (step.is_slowed) state.ends += input.now - last_step_;  // by others, who are not its fault
   if (input.now > state.ends) return fail(input.now, "no progress: the robot is stuck");
   if (!step.stop) {
     state.stopped_since.reset();
@@ -172,8 +173,6 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
   }
   state_ = state;
   const bool waits = step.stop && waits_for_others(*step.stop);
-  if (waits)
-    state_ = Driving{.ends = state.ends + (input.now - last_step_), .stopped_since = state.stopped_since};
   const Duration patience = waits ? options_.max_wait : options_.max_stop;
   if (!step.stop || input.now - *state.stopped_since < patience) return MissionEvent::none;
   return fail(input.now, fmt::format("stopped for too long: {}", to_string(*step.stop)));

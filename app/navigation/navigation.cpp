@@ -148,6 +148,8 @@ void Navigation::protect(const SensorInput& input, Duration elapsed, Moved& afte
   const Surroundings::Allowed allowed = surroundings_->allowed(input.now, input.base.measured, after.command);
   step.command = allowed.velocity;
   after.behaviour = after_sending(std::move(after.behaviour), allowed.velocity, elapsed);
+  step.is_slowed = allowed.velocity.forward_mps != after.command.forward_mps ||
+                   allowed.velocity.turn_radps != after.command.turn_radps;
   if (!step.stop) step.stop = allowed.reason;
 }
 

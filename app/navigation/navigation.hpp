@@ -65,6 +65,7 @@ struct NavigationStep {
   std::optional<StopReason> stop;  ///< why the robot must not move, if so
   bool backtracks = false;         ///< lost, the robot drives back to where it saw a marker
   BodyVelocity command;
+  bool is_slowed = false;                    ///< by the protective field
   std::optional<RouteUpdate> reroute;        ///< the path is replaced, or lost
   std::optional<CameraFault> camera;         ///< present fault of the camera
   double rolled_unseen_m = 0.0;              ///< wheel travel since a frame confirmed the estimate
