@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "localization/scan/veil.hpp"
 
 namespace lodestar {
 namespace {
@@ -82,8 +85,9 @@ void Surroundings::add(std::span<const WheelTravel> travel, std::span<const Scan
 
 /// False while the wheel readings of the scan's time are missing.
 bool Surroundings::take(const Scan& scan, const MappedPose& mapped) {
-  const std::optional<DeskewedScan> placed = deskewed(scan, options_.mount, track_, outline_, own_parts_);
+  std::optional<DeskewedScan> placed = deskewed(scan, options_.mount, track_, outline_, own_parts_);
   if (!placed) return false;
+  placed = without_veils(std::move(*placed));
   memory_.add(*placed);
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
   field_scan_ = presences(*placed, map_from_odom, mapped);
