@@ -125,8 +125,13 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
     const auto still = std::ranges::count_if(thing, [&](std::size_t i) { return stands[i]; });
     const bool is_still =
         static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
-    if (!is_still)
-      for (const std::size_t i : thing) stands[i] = false;
+    const std::vector<bool> stood = stands;
+    for (const std::size_t i : thing) {
+      stands[i] = is_still && (stood[i] || std::ranges::any_of(thing, [&](std::size_t k) {
+                                 return stood[k] &&
+                                        (scan.rays[k].end_m - scan.rays[i].end_m).norm() <= options_.shows_m;
+                               }));
+    }
     thing.clear();
   };
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {

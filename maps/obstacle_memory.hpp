@@ -24,7 +24,10 @@ struct ObstacleMemoryOptions {
   Duration remembered_standing = std::chrono::seconds(30);
   Duration remembered_moving = std::chrono::milliseconds(1500);
   double joins_m = 0.15;        ///< neighbouring hits within this of each other are one thing
-  double standing_share = 0.6;  ///< of a thing's hits, for those to count as standing that do
+  double standing_share = 0.6;  ///< of a thing's hits, for any of them to count as standing
+  /// What comes into sight of a thing as the robot goes around it, within a second: so far from what has
+  /// stood it is the same thing.
+  double shows_m = 0.3;
 };
 
 /// What the scanner has seen around the robot: a rolling grid in the odometry frame, of which only the cells
