@@ -55,7 +55,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"app/net", {"app/common"}},
       {"app/site", {"drivers/base", "planning"}},
       {"app/frames", {"app/common", "drivers/camera", "localization/survey"}},
-      {"app/navigation", {"app/site", "control", "localization/integrity"}},
+      {"app/navigation", {"app/site", "control", "localization/integrity", "localization/scan"}},
       {"app/placement", {"app/navigation", "app/frames", "localization/calibration"}},
       {"app/recording", {"app/navigation", "app/common", "localization/survey"}},
       {"app/live", {"app/recording", "app/net"}},

@@ -130,5 +130,26 @@ TEST(Scenario, reads_the_examples) {
   }
 }
 
+/// Discs stand in the straight way; no map has them.
+TEST(Scenario, drives_around_what_stands) {
+  const std::string file = LODESTAR_SOURCE_DIR "/scenarios/static-clutter.yaml";
+  const ScratchFolder scratch;
+  const Ran ran = run_lodestar("scenario '" + file + "' --json --seeds 4", scratch.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  for (const auto& line : lines_of(ran)) {
+    EXPECT_EQ(line["contacts_moving"], 0) << line;
+    EXPECT_GT(line["least_clearance_m"].get<double>(), 0.0) << line;
+  }
+}
+
+/// They do not see the robot, and run into it where it stands.
+TEST(Scenario, does_not_move_while_somebody_touches_the_robot) {
+  const std::string file = LODESTAR_SOURCE_DIR "/scenarios/crossing-people.yaml";
+  const ScratchFolder scratch;
+  const Ran ran = run_lodestar("scenario '" + file + "' --json --seeds 4", scratch.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  for (const auto& line : lines_of(ran)) EXPECT_EQ(line["contacts_moving"], 0) << line;
+}
+
 }  // namespace
 }  // namespace lodestar
