@@ -21,7 +21,7 @@ void walk_grid(const Vec2& from_in_grid, const Vec2& to_in_grid, Visit visit) {
   const Cell last = cell_at(to_in_grid);
   const int step_column = way.x() > 0.0 ? 1 : -1;
   const int step_row = way.y() > 0.0 ? 1 : -1;
-  const auto first_border = [](double from, double along, int index) {
+  const auto first_border = [&](double from, double along, int index) {
     if (along == 0.0) return never;
     return ((along > 0.0 ? index + 1 : index) - from) / along;
   };
