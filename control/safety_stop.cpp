@@ -32,11 +32,11 @@ std::string_view to_string(StopReason reason) {
     case StopReason::way_blocked:
       return "the way is blocked";
     case StopReason::person_near:
-      return "somebody is near, or could be";
+      return "a person is too near";
     case StopReason::obstacle_ahead:
       return "something that is not on the map stands in the way";
     case StopReason::hidden_corner:
-      return "somebody could step out from behind a corner";
+      return "a person could step out from behind a corner";
     case StopReason::scanner_silent:
       return "the scanner sends no scans";
     case StopReason::scanner_clock:
