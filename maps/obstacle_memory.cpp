@@ -119,13 +119,13 @@ bool ObstacleMemory::stands_at(const Vec2& point_m, Stamp now) const {
 }
 
 std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
+  std::vector<bool> stood(scan.rays.size(), false);  // each by itself
   std::vector<bool> stands(scan.rays.size(), false);
   std::vector<std::size_t> thing;
   const auto end_thing = [&] {
-    const auto still = std::ranges::count_if(thing, [&](std::size_t i) { return stands[i]; });
+    const auto still = std::ranges::count_if(thing, [&](std::size_t i) { return stood[i]; });
     const bool is_still =
         static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
-    const std::vector<bool> stood = stands;
     for (const std::size_t i : thing) {
       stands[i] = is_still && (stood[i] || std::ranges::any_of(thing, [&](std::size_t k) {
                                  return stood[k] &&
@@ -140,7 +140,7 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
     const bool joins =
         thing.empty() || (ray.end_m - scan.rays[thing.back()].end_m).norm() <= options_.joins_m;
     if (!joins) end_thing();
-    stands[i] = stands_at(ray.end_m, scan.newest);
+    stood[i] = stands_at(ray.end_m, scan.newest);
     thing.push_back(i);
   }
   end_thing();
