@@ -320,7 +320,7 @@ describe('with strangers', () => {
     assert.equal(await page.locator('#live-resume').isDisabled(), true);
     await clickMap(page, 2.2, 4.3);
     assert.equal(await page.evaluate(() => window.lodestar.console.live.goals.list.length), 0);
-    assert.match(await page.locator('#issues').textContent(), /needs the token to edit/);
+    await page.locator('#issues', { hasText: 'needs the token to edit' }).waitFor({ state: 'attached' });  // with the editor, which driving hides
     await page.evaluate(() => window.lodestar.console.live.socket.send({ type: 'take' }));
     await page.locator('#state', { hasText: 'the token to drive' }).waitFor();
     const status = await page.evaluate(() => fetch('/api/routes', { method: 'PUT', body: '{}',

@@ -41,7 +41,11 @@ async function start({ folder, site }, command, words = 'inherit') {
     server.stdout.on('data', (bytes) => found(String(bytes).trim()));
     server.on('exit', (code) => failed(new Error(`lodestar ended with ${code}`)));
   });
-  const end = () => { server.kill('SIGTERM'); return ended; };
+  // A test that fails does not stop its server: that must not keep this process waiting, nor outlive it.
+  server.unref();
+  server.stdout.unref();
+  process.once('exit', () => server.kill('SIGTERM'));
+  const end = () => { server.ref(); server.kill('SIGTERM'); return ended; };
   const stop = async () => {
     await end();  // until then it may write its run
     rmSync(folder, { recursive: true, force: true });
