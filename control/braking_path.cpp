@@ -56,8 +56,9 @@ Pose2 after_arc(const Pose2& from, double length_m, double turn_rad) {
 }  // namespace
 
 double outline_speed_mps(const BodyVelocity& velocity, const RobotShape& shape) {
-  const double turning = shape.is_disc() ? 0.0 : std::abs(velocity.turn_radps) * shape.outer_radius_m();
-  return std::abs(velocity.forward_mps) + turning;
+  const double turning_mps = std::abs(velocity.turn_radps) * shape.outer_radius_m();
+  const double forward_mps = std::abs(velocity.forward_mps);
+  return shape.is_disc() ? std::max(forward_mps, turning_mps) : forward_mps + turning_mps;
 }
 
 BrakingPath::BrakingPath(const BodyVelocity& measured, const BodyVelocity& wanted, const RobotShape& shape,
@@ -66,7 +67,7 @@ BrakingPath::BrakingPath(const BodyVelocity& measured, const BodyVelocity& wante
   const Braked forward(measured.forward_mps, wanted.forward_mps, options.deceleration_mps2, reaction_s);
   const Braked turn(measured.turn_radps, wanted.turn_radps, options.turn_deceleration_radps2, reaction_s);
   speed_mps_ = outline_speed_mps({forward.then(), turn.then()}, shape);
-  const double rest_s = std::max(forward.until_rest_s(), shape.is_disc() ? 0.0 : turn.until_rest_s());
+  const double rest_s = std::max(forward.until_rest_s(), turn.until_rest_s());
   const int count = static_cast<int>(std::ceil(rest_s / step_s));
   steps_.reserve(static_cast<std::size_t>(count));
   Pose2 at;

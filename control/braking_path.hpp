@@ -40,7 +40,8 @@ class BrakingPath {
   double speed_mps_ = 0.0;
 };
 
-/// The greatest speed of the outline's points: a disc's is that of its centre.
+/// The greatest speed of the outline's points. A disc that turns keeps its place, but its rim rubs along
+/// whoever touches it, and no base turns exactly on the spot: the faster of its centre and of its rim.
 double outline_speed_mps(const BodyVelocity& velocity, const RobotShape& shape);
 
 }  // namespace lodestar

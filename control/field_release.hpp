@@ -42,8 +42,7 @@ class FieldRelease {
 /// What the field allows of the wanted velocity, as a speed of the outline; none_mps where it does not limit.
 double allowed_mps(const FieldLimit& limit, const BodyVelocity& wanted, const RobotShape& shape);
 
-/// The velocity, slowed so that no point of the outline is faster; the curve's radius is kept. A disc's turn
-/// on the spot moves no point of its outline and is left as it is, unless the limit is 0.
+/// The velocity, slowed so that no point of the outline is faster; the curve's radius is kept.
 BodyVelocity slowed_to(double outline_mps, const BodyVelocity& wanted, const RobotShape& shape);
 
 }  // namespace lodestar

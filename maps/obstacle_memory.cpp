@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "maps/occupancy_map.hpp"
-#include "maps/ray_fan.hpp"
 
 namespace lodestar {
 namespace {
@@ -65,6 +64,7 @@ void ObstacleMemory::hit(Place place, Stamp stamp) {
   }
   Seen& seen = seen_[static_cast<std::size_t>(index)];
   if (!has_stood(seen) && stamp - seen.last_hit > options_.longest_unseen) seen.first_hit = stamp;
+  if (seen.first_hit == stamp) seen.came = was_seen_free(place, stamp);
   seen.last_hit = std::max(seen.last_hit, stamp);
   seen.times_free = 0;
   seen.hit_now = true;
@@ -72,12 +72,23 @@ void ObstacleMemory::hit(Place place, Stamp stamp) {
 
 /// What is hit in the same scan is not free, however many rays pass beside it: a leg is thinner than a cell.
 void ObstacleMemory::count_free(const DeskewedScan& scan) {
-  const RayFan fan(scan);
+  RayFan fan(scan);
   for (Seen& seen : seen_) {
     if (seen.hit_now) continue;
     if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m))
       ++seen.times_free;
   }
+  if (looks_.empty() || scan.newest - looks_.back().stamp >= options_.between_looks_back)
+    looks_.push_back({scan.newest, scan.rays.back().origin_m, std::move(fan)});
+  while (scan.newest - looks_.front().stamp > options_.just_before) looks_.pop_front();
+}
+
+bool ObstacleMemory::was_seen_free(Place place, Stamp before) const {
+  const Vec2 place_m = center_m(place);
+  return std::ranges::any_of(looks_, [&](const Look& look) {
+    return look.stamp < before && (place_m - look.from_m).norm() <= options_.seen_free_within_m &&
+           look.fan.all_pass(place_m, options_.seen_free_beside_m, options_.seen_free_beside_m);
+  });
 }
 
 void ObstacleMemory::forget(Stamp now, const Place& middle) {
@@ -100,7 +111,12 @@ void ObstacleMemory::forget(Stamp now, const Place& middle) {
 }
 
 bool ObstacleMemory::has_stood(const Seen& seen) const {
-  return seen.last_hit - seen.first_hit >= options_.to_stand;
+  return seen.last_hit - seen.first_hit >= (seen.came ? options_.to_stand_where_it_came : options_.to_stand);
+}
+
+bool ObstacleMemory::is_coming(const Vec2& point_m) const {
+  const Seen* const seen = at(place_of(point_m));
+  return seen != nullptr && seen->came && !has_stood(*seen);
 }
 
 bool ObstacleMemory::is_remembered(const Seen& seen, Stamp now) const {
@@ -124,8 +140,11 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
   std::vector<std::size_t> thing;
   const auto end_thing = [&] {
     const auto still = std::ranges::count_if(thing, [&](std::size_t i) { return stood[i]; });
-    const bool is_still =
-        static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
+    const auto came =
+        std::ranges::count_if(thing, [&](std::size_t i) { return is_coming(scan.rays[i].end_m); });
+    const auto size = static_cast<double>(thing.size());
+    const bool is_still = static_cast<double>(still) >= options_.standing_share * size &&
+                          static_cast<double>(came) <= options_.most_that_came_share * size;
     for (const std::size_t i : thing) {
       stands[i] = is_still && (stood[i] || std::ranges::any_of(thing, [&](std::size_t k) {
                                  return stood[k] &&

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "maps/geometry.hpp"
+#include "maps/ray_fan.hpp"
 #include "maps/scan_rays.hpp"
 #include "maps/stamp.hpp"
 
@@ -17,6 +19,17 @@ struct ObstacleMemoryOptions {
   double kept_before_end_m = 0.08;
   int scans_to_clear = 2;                       ///< in a row, seen free and not hit
   Duration to_stand = std::chrono::seconds(1);  ///< hit for so long, it stands
+  /// Where the floor was seen free just before, what is hit has come by itself: someone who has stopped, and
+  /// may walk on at once. Pauses in recorded walks are mostly shorter.
+  Duration to_stand_where_it_came = std::chrono::seconds(10);
+  Duration just_before = std::chrono::seconds(3);  ///< in which a person has come, or has passed by
+  Duration between_looks_back = std::chrono::milliseconds(250);
+  /// Seen free is a place when nothing is hit within this of it: beams half a degree apart leave 5 cm between
+  /// them at 6 m, and wheels turn the odometry frame by up to a degree meanwhile. Farther away nobody is
+  /// near.
+  double seen_free_beside_m = 0.15;
+  double seen_free_within_m = 6.0;
+  double most_that_came_share = 0.2;  ///< of a thing's hits, for it to stand: edges waver
   Duration longest_unseen =
       std::chrono::milliseconds(350);  ///< while it comes to stand: three scans at 10 Hz
   /// Out of sight, what stood is remembered as long as a detour around it takes (chosen by hand), what moved
@@ -45,7 +58,8 @@ class ObstacleMemory {
   [[nodiscard]] bool stands_at(const Vec2& point_m, Stamp now) const;
 
   /// For each ray of the newest scan: does it end at something that stands? Of what is hit in one piece a
-  /// good part must stand: the flank of someone who walks across stays in the same cells for a while.
+  /// good part must stand, and hardly any have come: the flank of someone who walks across stays in the same
+  /// cells for a while, and someone who has stopped is still someone.
   [[nodiscard]] std::vector<bool> standing(const DeskewedScan& scan) const;
 
   /// Centres of the cells in which something stands, also where it has not been seen for a while.
@@ -66,12 +80,22 @@ class ObstacleMemory {
     Stamp last_hit;
     std::uint8_t times_free = 0;  ///< in a row
     bool hit_now = false;
+    bool came = false;  ///< the floor here was seen free just before the first hit
   };
 
   [[nodiscard]] Place place_of(const Vec2& point_m) const;
   [[nodiscard]] Vec2 center_m(Place place) const;
   [[nodiscard]] const Seen* at(Place place) const;
+  /// A scan of a while ago.
+  struct Look {
+    Stamp stamp;
+    Vec2 from_m;
+    RayFan fan;
+  };
+
   [[nodiscard]] bool has_stood(const Seen& seen) const;
+  [[nodiscard]] bool is_coming(const Vec2& point_m) const;
+  [[nodiscard]] bool was_seen_free(Place place, Stamp before) const;
   [[nodiscard]] bool is_remembered(const Seen& seen, Stamp now) const;
   void mark_hits(const DeskewedScan& scan, const Place& middle);
   void hit(Place place, Stamp stamp);
@@ -82,6 +106,7 @@ class ObstacleMemory {
   int half_cells_ = 0;
   std::vector<Seen> seen_;
   std::vector<std::int32_t> index_;  ///< of a place, wrapped around, in seen_; none where negative
+  std::deque<Look> looks_;
 };
 
 }  // namespace lodestar

@@ -42,11 +42,13 @@ RayFan::RayFan(const DeskewedScan& scan) {
   for (std::size_t bin = bins; bin-- > 0;) first_[bin] = std::min(first_[bin], first_[bin + 1]);
 }
 
-bool RayFan::passes(const Vec2& point_m, double aside_m, double before_end_m) const {
+/// Asks `more(reach beyond the point)` of each ray that looks past it within `aside_m`, while that says so.
+template <typename More>
+void RayFan::ask_beside(const Vec2& point_m, double aside_m, const More& more) const {
   const Vec2 to_point = point_m - middle_m_;
   const double away_m = to_point.norm();
   const double room_m = aside_m + spread_m_;
-  if (lines_.empty() || away_m <= 2.0 * room_m) return false;  // under the scanner: it sees nothing there
+  if (lines_.empty() || away_m <= 2.0 * room_m) return;  // under the scanner: it sees nothing there
   const double turn = turn_of(to_point);
   // The arc sine of up to a half is less than 1.05 times its argument.
   const double window = 1.05 * room_m / away_m;
@@ -58,12 +60,28 @@ bool RayFan::passes(const Vec2& point_m, double aside_m, double before_end_m) co
       const Line& line = lines_[static_cast<std::size_t>(at)];
       const Vec2 offset = point_m - line.origin_m;
       const double along_m = offset.dot(line.way);
-      if (along_m > 0.0 && along_m < line.length_m - before_end_m &&
-          std::abs(cross(line.way, offset)) < aside_m)
-        return true;
+      if (along_m <= 0.0 || std::abs(cross(line.way, offset)) >= aside_m) continue;
+      if (!more(line.length_m - along_m)) return;
     }
   }
-  return false;
+}
+
+bool RayFan::passes(const Vec2& point_m, double aside_m, double before_end_m) const {
+  bool has_passed = false;
+  ask_beside(point_m, aside_m, [&](double beyond_m) {
+    has_passed = beyond_m > before_end_m;
+    return !has_passed;
+  });
+  return has_passed;
+}
+
+bool RayFan::all_pass(const Vec2& point_m, double aside_m, double before_end_m) const {
+  bool have_passed = false;
+  ask_beside(point_m, aside_m, [&](double beyond_m) {
+    have_passed = beyond_m > before_end_m;
+    return have_passed;
+  });
+  return have_passed;
 }
 
 }  // namespace lodestar

@@ -15,6 +15,10 @@ class RayFan {
   /// Does a ray pass the point within `aside_m` and go on for more than `before_end_m`?
   [[nodiscard]] bool passes(const Vec2& point_m, double aside_m, double before_end_m) const;
 
+  /// Are there rays that look past the point within `aside_m`, and do all of them go on for more than
+  /// `before_end_m`?
+  [[nodiscard]] bool all_pass(const Vec2& point_m, double aside_m, double before_end_m) const;
+
  private:
   struct Line {
     Vec2 origin_m;
@@ -22,6 +26,9 @@ class RayFan {
     double length_m = 0.0;
     double turn = 0.0;  ///< pseudo-angle in [0, 4)
   };
+
+  template <typename More>
+  void ask_beside(const Vec2& point_m, double aside_m, const More& more) const;
 
   std::vector<Line> lines_;          ///< by their turn
   std::vector<std::int32_t> first_;  ///< of each bin

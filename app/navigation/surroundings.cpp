@@ -116,22 +116,31 @@ void Surroundings::hold_against_map(const Scan& scan, const Pose2& map_from_odom
                          .heading_rad = std::sqrt(std::max(covariance(2, 2), 0.0))});
 }
 
+/// Deeper than the noise of the range: it touches the robot, or lies over the scanner.
+bool Surroundings::is_within_robot(const Ray& ray) const {
+  const double range_m = (ray.end_m - ray.origin_m).norm();
+  if (range_m > 2.0 * options_.shape.outer_radius_m()) return false;  // from wherever the scanner is mounted
+  const std::optional<Pose2> odom_from_base = track_.pose_at(ray.stamp);
+  return odom_from_base &&
+         options_.shape.distance_m(inverse(*odom_from_base) * ray.end_m) < -outline_.margin_m;
+}
+
 FieldScan Surroundings::presences(const DeskewedScan& scan, const std::optional<Pose2>& map_from_odom,
                                   const MappedPose& mapped) const {
   FieldScan result{.newest = scan.newest, .points = {}};
   std::optional<MapExplanation> explanation;
   if (map_from_odom) explanation.emplace(mapped.map, mapped.estimate->covariance);
   const std::vector<bool> stands = memory_.standing(scan);
-  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+  const auto presence_of = [&](std::size_t i) {
     const Ray& ray = scan.rays[i];
-    if (!ends_at_something(ray)) continue;
-    const bool is_mapped =
-        explanation && explanation->explains(*map_from_odom * ray.end_m, (ray.end_m - ray.origin_m).norm());
-    result.points.push_back({ray.stamp, ray.end_m,
-                             is_mapped   ? Presence::mapped
-                             : stands[i] ? Presence::standing
-                                         : Presence::person});
-  }
+    if (is_within_robot(ray)) return Presence::person;  // nothing can stand there
+    const double range_m = (ray.end_m - ray.origin_m).norm();
+    if (explanation && explanation->explains(*map_from_odom * ray.end_m, range_m)) return Presence::mapped;
+    return stands[i] ? Presence::standing : Presence::person;
+  };
+  for (std::size_t i = 0; i < scan.rays.size(); ++i)
+    if (const Ray& ray = scan.rays[i]; ends_at_something(ray))
+      result.points.push_back({ray.stamp, ray.end_m, presence_of(i)});
   const OccupancyMap& map = mapped.map.map();
   const auto can_stand = [&](const Vec2& point_in_odom) {
     if (!map_from_odom) return true;

@@ -76,6 +76,7 @@ class Surroundings {
   bool take(const Scan& scan, const MappedPose& mapped);
   [[nodiscard]] std::optional<Pose2> map_from_odom(const MappedPose& mapped) const;
   void hold_against_map(const Scan& scan, const Pose2& map_from_odom, const MappedPose& mapped);
+  [[nodiscard]] bool is_within_robot(const Ray& ray) const;
   [[nodiscard]] FieldScan presences(const DeskewedScan& scan, const std::optional<Pose2>& map_from_odom,
                                     const MappedPose& mapped) const;
 

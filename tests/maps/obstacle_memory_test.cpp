@@ -82,6 +82,45 @@ TEST(ObstacleMemory, AMovingDiscNeverStandsAndLeavesNoTrail) {
   }
 }
 
+/// Walks for two seconds, stops, and stands: at first to walk on, then like a thing.
+TEST(ObstacleMemory, SomeoneWhoHasStoppedStandsOnlyAfterTenSeconds) {
+  for (const double speed_mps : {0.5, 1.5}) {
+    Random random(5);
+    ObstacleMemory memory;
+    for (int scans = 0; scans < 140; ++scans) {
+      const Disc disc{{2.0, speed_mps * (std::min(0.1 * scans, 2.0) - 1.0)}, 0.25};
+      const DeskewedScan scan = scan_of(disc, 0.1 * scans, random);
+      memory.add(scan);
+      if (scans < 115) {
+        EXPECT_EQ(share_standing(memory, scan), 0.0) << speed_mps << " m/s, scan " << scans;
+      } else if (scans >= 130) {
+        EXPECT_GT(share_standing(memory, scan), 0.9) << speed_mps << " m/s, scan " << scans;
+      }
+    }
+  }
+}
+
+/// What comes out from behind the end of a wall is seen first where nothing was known to be free.
+TEST(ObstacleMemory, WhatComesIntoSightOfAThingThatStandsHasNotCome) {
+  Random random(6);
+  ObstacleMemory memory;
+  for (int scans = 0; scans < 40; ++scans) {
+    DeskewedScan scan = scan_of(Disc{{2.0, 0.5}, 0.3}, 0.1 * scans, random);
+    const double covered_until_rad = 0.24 - 0.004 * scans;  // the edge of a pane that slides away
+    for (Ray& ray : scan.rays)
+      if (const double turn = std::atan2(ray.end_m.y(), ray.end_m.x());
+          turn > -0.3 && turn < covered_until_rad)
+        ray = {ray.stamp, ray.origin_m, ray.end_m.normalized(), Echo::hit};
+    memory.add(scan);
+    if (scans < 35) continue;
+    for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+      if (scan.rays[i].end_m.norm() > 1.5 && ends_at_something(scan.rays[i])) {
+        EXPECT_TRUE(memory.standing(scan)[i]) << scans << ", " << scan.rays[i].end_m.transpose();
+      }
+    }
+  }
+}
+
 TEST(ObstacleMemory, OutOfSightWhatMovedIsForgottenBeforeWhatStood) {
   Random random(4);
   ObstacleMemory memory;
