@@ -19,6 +19,8 @@ struct ProtectiveFieldOptions {
   /// Up to this speed what stands is passed like a wall: without it the noise of the range would end the
   /// drive in a gap that leaves 11 cm a side.
   double standing_creep_mps = 0.12;
+  /// A body around standing legs: half the shoulders' width, one leg hidden behind the other.
+  double body_margin_m = 0.25;
   double mapped_margin_m = 0.01;  ///< the way's clearance is planned with elsewhere
   /// Someone may step out from behind what hides them, at the speed at which people walk off (chosen by hand,
   /// half of the greatest). Before they can touch it the robot is down to the contact speed, not to rest.

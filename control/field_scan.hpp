@@ -12,6 +12,7 @@ namespace lodestar {
 enum class Presence : std::uint8_t {
   mapped,    ///< the map explains it: it does not move
   standing,  ///< not on the map, but it has stood for a second
+  legs,      ///< the same, but of someone who has legs, or of a chair: what they carry reaches farther out
   person,    ///< anything else
   hidden     ///< nothing was hit here, but someone may be behind
 };

@@ -16,11 +16,11 @@ BodyVelocity operator*(double share, const BodyVelocity& velocity) {
 }
 
 bool is_still(Presence presence) {
-  return presence == Presence::mapped || presence == Presence::standing;
+  return presence == Presence::mapped || presence == Presence::standing || presence == Presence::legs;
 }
 
 FieldReason reason_for(Presence presence) {
-  if (presence == Presence::person) return FieldReason::person_near;
+  if (presence == Presence::person || presence == Presence::legs) return FieldReason::person_near;
   return presence == Presence::hidden ? FieldReason::hidden_corner : FieldReason::obstacle_ahead;
 }
 
@@ -48,6 +48,7 @@ double ProtectiveField::reach_m(Presence presence, double time_s) const {
     case Presence::mapped:
       return 0.0;
     case Presence::standing:
+    case Presence::legs:
       return std::min(options_.person_mps * time_s, 0.5 * options_.start_mps2 * square(time_s));
     case Presence::person:
       return options_.person_mps * time_s;
@@ -63,6 +64,8 @@ double ProtectiveField::margin_m(Presence presence) const {
       return options_.mapped_margin_m;
     case Presence::standing:
       return options_.standing_margin_m;
+    case Presence::legs:
+      return options_.body_margin_m;
     case Presence::person:
       return options_.swing_m;
     case Presence::hidden:
@@ -131,7 +134,9 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   if (!is_still(hit.presence)) return rests_in_time(path, hit);
   // Up to the creeping speed, what stands is passed like what is mapped.
   const bool is_passed = hit.presence == Presence::mapped || path.speed_mps() <= options_.standing_creep_mps;
-  return is_passed ? stays_clear(path, hit, std::min(margin, least_room_m)) : rests_in_time(path, hit);
+  if (!is_passed) return rests_in_time(path, hit);
+  // Beside a wall the room is small, but a body has its own.
+  return stays_clear(path, hit, std::min(margin, hit.presence == Presence::legs ? distance_m : least_room_m));
 }
 
 bool ProtectiveField::stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const {

@@ -38,12 +38,21 @@ const ObstacleMemory::Seen* ObstacleMemory::at(Place place) const {
   return seen.place == place ? &seen : nullptr;
 }
 
+/// In the place or in the eight around it.
+template <typename Ask>
+void ObstacleMemory::ask_beside(Place middle, const Ask& ask) const {
+  for (int row = middle.row - 1; row <= middle.row + 1; ++row)
+    for (int column = middle.column - 1; column <= middle.column + 1; ++column)
+      if (const Seen* const seen = at({column, row}); seen != nullptr) ask(*seen);
+}
+
 void ObstacleMemory::add(const DeskewedScan& scan) {
   if (scan.rays.empty()) return;
   const Place middle = place_of(scan.rays.back().origin_m);
   forget(scan.newest, middle);
   for (Seen& seen : seen_) seen.hit_now = false;
   mark_hits(scan, middle);
+  mark_legs(scan);
   count_free(scan);
   forget(scan.newest, middle);
 }
@@ -64,10 +73,18 @@ void ObstacleMemory::hit(Place place, Stamp stamp) {
   }
   Seen& seen = seen_[static_cast<std::size_t>(index)];
   if (!has_stood(seen) && stamp - seen.last_hit > options_.longest_unseen) seen.first_hit = stamp;
-  if (seen.first_hit == stamp) seen.came = was_seen_free(place, stamp);
+  if (seen.first_hit == stamp) seen.came_at = came_at(place, stamp);
   seen.last_hit = std::max(seen.last_hit, stamp);
   seen.times_free = 0;
   seen.hit_now = true;
+}
+
+void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
+  for (const std::size_t i : leg_pairs(scan)) {
+    const Place place = place_of(scan.rays[i].end_m);
+    if (const std::int32_t index = index_[wrapped(place.column, place.row)]; index >= 0)
+      seen_[static_cast<std::size_t>(index)].legs = true;
+  }
 }
 
 /// What is hit in the same scan is not free, however many rays pass beside it: a leg is thinner than a cell.
@@ -111,27 +128,38 @@ void ObstacleMemory::forget(Stamp now, const Place& middle) {
 }
 
 bool ObstacleMemory::has_stood(const Seen& seen) const {
-  return seen.last_hit - seen.first_hit >= (seen.came ? options_.to_stand_where_it_came : options_.to_stand);
-}
-
-bool ObstacleMemory::is_coming(const Vec2& point_m) const {
-  const Seen* const seen = at(place_of(point_m));
-  return seen != nullptr && seen->came && !has_stood(*seen);
+  const Duration hit_for = seen.last_hit - seen.first_hit;
+  if (seen.legs) return hit_for >= options_.to_stand_as_a_person;
+  return hit_for >= options_.to_stand &&
+         (!seen.came_at || seen.last_hit - *seen.came_at >= options_.to_stand_as_a_person);
 }
 
 bool ObstacleMemory::is_remembered(const Seen& seen, Stamp now) const {
   return now - seen.last_hit <= (has_stood(seen) ? options_.remembered_standing : options_.remembered_moving);
 }
 
+/// Who stands and sways a little, or is pushed along, has come when the cells beside did.
+std::optional<Stamp> ObstacleMemory::came_at(Place place, Stamp now) const {
+  if (was_seen_free(place, now)) return now;
+  std::optional<Stamp> latest;
+  ask_beside(place, [&](const Seen& seen) {
+    if (seen.came_at && !has_stood(seen) && is_remembered(seen, now))
+      latest = std::max(latest.value_or(*seen.came_at), *seen.came_at);
+  });
+  return latest;
+}
+
 bool ObstacleMemory::stands_at(const Vec2& point_m, Stamp now) const {
-  const Place middle = place_of(point_m);
-  for (int row = middle.row - 1; row <= middle.row + 1; ++row) {
-    for (int column = middle.column - 1; column <= middle.column + 1; ++column) {
-      const Seen* const seen = at({column, row});
-      if (seen != nullptr && has_stood(*seen) && is_remembered(*seen, now)) return true;
-    }
-  }
-  return false;
+  bool stands = false;
+  ask_beside(place_of(point_m),
+             [&](const Seen& seen) { stands = stands || (has_stood(seen) && is_remembered(seen, now)); });
+  return stands;
+}
+
+bool ObstacleMemory::has_legs(const Vec2& point_m) const {
+  bool has = false;
+  ask_beside(place_of(point_m), [&](const Seen& seen) { has = has || seen.legs; });
+  return has;
 }
 
 std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
@@ -140,11 +168,8 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
   std::vector<std::size_t> thing;
   const auto end_thing = [&] {
     const auto still = std::ranges::count_if(thing, [&](std::size_t i) { return stood[i]; });
-    const auto came =
-        std::ranges::count_if(thing, [&](std::size_t i) { return is_coming(scan.rays[i].end_m); });
-    const auto size = static_cast<double>(thing.size());
-    const bool is_still = static_cast<double>(still) >= options_.standing_share * size &&
-                          static_cast<double>(came) <= options_.most_that_came_share * size;
+    const bool is_still =
+        static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
     for (const std::size_t i : thing) {
       stands[i] = is_still && (stood[i] || std::ranges::any_of(thing, [&](std::size_t k) {
                                  return stood[k] &&
@@ -170,6 +195,13 @@ std::vector<Vec2> ObstacleMemory::standing_m(Stamp now) const {
   std::vector<Vec2> points_m;
   for (const Seen& seen : seen_)
     if (has_stood(seen) && is_remembered(seen, now)) points_m.push_back(center_m(seen.place));
+  return points_m;
+}
+
+std::vector<Vec2> ObstacleMemory::standing_legs_m(Stamp now) const {
+  std::vector<Vec2> points_m;
+  for (const Seen& seen : seen_)
+    if (seen.legs && has_stood(seen) && is_remembered(seen, now)) points_m.push_back(center_m(seen.place));
   return points_m;
 }
 

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "maps/geometry.hpp"
+#include "maps/leg_pairs.hpp"
 #include "maps/ray_fan.hpp"
 #include "maps/scan_rays.hpp"
 #include "maps/stamp.hpp"
@@ -20,16 +22,15 @@ struct ObstacleMemoryOptions {
   int scans_to_clear = 2;                       ///< in a row, seen free and not hit
   Duration to_stand = std::chrono::seconds(1);  ///< hit for so long, it stands
   /// Where the floor was seen free just before, what is hit has come by itself: someone who has stopped, and
-  /// may walk on at once. Pauses in recorded walks are mostly shorter.
-  Duration to_stand_where_it_came = std::chrono::seconds(10);
+  /// may walk on at once. So may who has legs. Pauses in recorded walks are mostly shorter.
+  Duration to_stand_as_a_person = std::chrono::seconds(10);
   Duration just_before = std::chrono::seconds(3);  ///< in which a person has come, or has passed by
   Duration between_looks_back = std::chrono::milliseconds(250);
-  /// Seen free is a place when nothing is hit within this of it: beams half a degree apart leave 5 cm between
-  /// them at 6 m, and wheels turn the odometry frame by up to a degree meanwhile. Farther away nobody is
-  /// near.
+  /// Seen free is a place when nothing is hit within this of it: beams half a degree apart leave 4 cm between
+  /// them at 4 m, and wheels turn the odometry frame by up to a degree meanwhile. Farther away a dark thing's
+  /// edges come and go, and nobody is near.
   double seen_free_beside_m = 0.15;
-  double seen_free_within_m = 6.0;
-  double most_that_came_share = 0.2;  ///< of a thing's hits, for it to stand: edges waver
+  double seen_free_within_m = 4.0;
   Duration longest_unseen =
       std::chrono::milliseconds(350);  ///< while it comes to stand: three scans at 10 Hz
   /// Out of sight, what stood is remembered as long as a detour around it takes (chosen by hand), what moved
@@ -58,12 +59,17 @@ class ObstacleMemory {
   [[nodiscard]] bool stands_at(const Vec2& point_m, Stamp now) const;
 
   /// For each ray of the newest scan: does it end at something that stands? Of what is hit in one piece a
-  /// good part must stand, and hardly any have come: the flank of someone who walks across stays in the same
-  /// cells for a while, and someone who has stopped is still someone.
+  /// good part must stand: the flank of someone who walks across stays in the same cells for a while.
   [[nodiscard]] std::vector<bool> standing(const DeskewedScan& scan) const;
+
+  /// Is there, here or in a cell beside it, one of a pair of legs?
+  [[nodiscard]] bool has_legs(const Vec2& point_m) const;
 
   /// Centres of the cells in which something stands, also where it has not been seen for a while.
   [[nodiscard]] std::vector<Vec2> standing_m(Stamp now) const;
+
+  /// The same of legs only.
+  [[nodiscard]] std::vector<Vec2> standing_legs_m(Stamp now) const;
 
   /// Centres of the cells that are hit now or remembered.
   [[nodiscard]] std::vector<Vec2> occupied_m(Stamp now) const;
@@ -80,7 +86,9 @@ class ObstacleMemory {
     Stamp last_hit;
     std::uint8_t times_free = 0;  ///< in a row
     bool hit_now = false;
-    bool came = false;  ///< the floor here was seen free just before the first hit
+    /// The floor here was seen free just before then, or beside here.
+    std::optional<Stamp> came_at;
+    bool legs = false;  ///< hit as one of a pair of legs
   };
 
   [[nodiscard]] Place place_of(const Vec2& point_m) const;
@@ -94,11 +102,14 @@ class ObstacleMemory {
   };
 
   [[nodiscard]] bool has_stood(const Seen& seen) const;
-  [[nodiscard]] bool is_coming(const Vec2& point_m) const;
   [[nodiscard]] bool was_seen_free(Place place, Stamp before) const;
+  [[nodiscard]] std::optional<Stamp> came_at(Place place, Stamp now) const;
+  template <typename Ask>
+  void ask_beside(Place middle, const Ask& ask) const;
   [[nodiscard]] bool is_remembered(const Seen& seen, Stamp now) const;
   void mark_hits(const DeskewedScan& scan, const Place& middle);
   void hit(Place place, Stamp stamp);
+  void mark_legs(const DeskewedScan& scan);
   void count_free(const DeskewedScan& scan);
   void forget(Stamp now, const Place& middle);
 

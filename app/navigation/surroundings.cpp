@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "localization/scan/veil.hpp"
@@ -49,6 +50,15 @@ StopReason stop_for(FieldReason reason) {
       break;
   }
   return StopReason::scanner_silent;
+}
+
+/// What legs carry, as points around them.
+void append_ring(const Vec2& middle_m, double radius_m, std::vector<Vec2>& points_m) {
+  constexpr int points = 12;
+  for (int i = 0; i < points; ++i) {
+    const double turn_rad = 2.0 * std::numbers::pi * i / points;
+    points_m.push_back(middle_m + radius_m * Vec2(std::cos(turn_rad), std::sin(turn_rad)));
+  }
 }
 
 bool moves(const BodyVelocity& velocity) {
@@ -136,7 +146,8 @@ FieldScan Surroundings::presences(const DeskewedScan& scan, const std::optional<
     if (is_within_robot(ray)) return Presence::person;  // nothing can stand there
     const double range_m = (ray.end_m - ray.origin_m).norm();
     if (explanation && explanation->explains(*map_from_odom * ray.end_m, range_m)) return Presence::mapped;
-    return stands[i] ? Presence::standing : Presence::person;
+    if (!stands[i]) return Presence::person;
+    return memory_.has_legs(ray.end_m) ? Presence::legs : Presence::standing;
   };
   for (std::size_t i = 0; i < scan.rays.size(); ++i)
     if (const Ray& ray = scan.rays[i]; ends_at_something(ray))
@@ -176,7 +187,10 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) 
   std::vector<Vec2> points_m;
   if (!map_from_odom) return points_m;
   const MapExplanation explanation(mapped.map, mapped.estimate->covariance);
-  for (const Vec2& point_in_odom : memory_.standing_m(now)) {
+  std::vector<Vec2> stands_in_odom = memory_.standing_m(now);
+  for (const Vec2& leg_in_odom : memory_.standing_legs_m(now))
+    append_ring(leg_in_odom, options_.field.body_margin_m, stands_in_odom);
+  for (const Vec2& point_in_odom : stands_in_odom) {
     const Vec2 point_in_map = *map_from_odom * point_in_odom;
     const double range_m = (point_in_map - mapped.estimate->map_from_base.position_m).norm();
     if (!explanation.explains(point_in_map, range_m)) points_m.push_back(point_in_map);

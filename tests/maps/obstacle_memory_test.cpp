@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <optional>
+#include <vector>
 
 #include "maps/map_overlay.hpp"
 #include "maps/random.hpp"
@@ -118,6 +119,26 @@ TEST(ObstacleMemory, WhatComesIntoSightOfAThingThatStandsHasNotCome) {
         EXPECT_TRUE(memory.standing(scan)[i]) << scans << ", " << scan.rays[i].end_m.transpose();
       }
     }
+  }
+}
+
+/// Two posts of 12 cm, 20 cm apart, are legs; one of them alone, or a box, is not.
+TEST(LegPairs, TwoThinThingsCloseTogether) {
+  Random random(7);
+  const auto seen = [&](const std::vector<Disc>& discs) {
+    DeskewedScan scan = scan_of(std::nullopt, 0.0, random);
+    for (const Disc& disc : discs) {
+      const DeskewedScan other = scan_of(disc, 0.0, random);
+      for (std::size_t i = 0; i < scan.rays.size(); ++i)
+        if (other.rays[i].end_m.norm() < scan.rays[i].end_m.norm()) scan.rays[i] = other.rays[i];
+    }
+    return leg_pairs(scan).size();
+  };
+  for (const double x_m : {0.5, 1.0, 1.5, 2.0}) {
+    EXPECT_GE(seen({Disc{{x_m, 0.1}, 0.06}, Disc{{x_m, -0.1}, 0.06}}), 6U) << x_m;
+    EXPECT_EQ(seen({Disc{{x_m, 0.1}, 0.06}}), 0U) << x_m;
+    EXPECT_EQ(seen({Disc{{x_m, 0.1}, 0.2}}), 0U) << x_m;
+    EXPECT_EQ(seen({Disc{{x_m, 0.4}, 0.06}, Disc{{x_m, -0.4}, 0.06}}), 0U) << x_m;
   }
 }
 
