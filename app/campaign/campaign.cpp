@@ -131,15 +131,16 @@ CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>
   const Random random(number);
   CampaignMission mission;
   mission.site = random_site(robot_and_cameras, ids, random.stream(building).bits());
-  mission.replay = {.camera = robot_and_cameras.default_camera,
-                    .seed = number,
-                    .goals = mission.site.goals,
-                    .faults = random_faults(random.stream(faults).bits())};
+  if (with_people && !mission.site.robot.scanner) mission.site.robot.scanner.emplace();
+  mission.replay = {
+      .camera = robot_and_cameras.default_camera,
+      .seed = number,
+      .goals = mission.site.goals,
+      .faults = random_faults(random.stream(faults).bits(), mission.site.robot.scanner.has_value())};
   spoil_registry(mission, random.stream(registry_errors));
   if (!with_people) return mission;
   constexpr std::uint64_t most_people = 6;
   mission.replay.people.count = 1 + static_cast<int>(random.stream(people).below(most_people));
-  if (!mission.site.robot.scanner) mission.site.robot.scanner.emplace();
   return mission;
 }
 

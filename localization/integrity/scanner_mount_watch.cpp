@@ -6,7 +6,8 @@
 namespace lodestar {
 
 void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_scanner,
-                            const OccupancyMap& map, const DistanceField& field) {
+                            const ObstacleField& field) {
+  const OccupancyMap& map = field.map();
   const std::size_t beams = std::min(scan.beams.size(), map_from_scanner.size());
   if (beams == 0) return;
   const Pose2& now = map_from_scanner.front();
@@ -30,7 +31,8 @@ void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_sc
       const Vec2 end =
           map_from_scanner[i].position_m + beam.range_m * Vec2(std::cos(heading_rad), std::sin(heading_rad));
       const Cell cell = map.cell_at(end);
-      const double off_m = map.contains(cell) ? field.distance_m(cell) : 0.0;
+      const double off_m =
+          map.contains(cell) ? map.resolution_m * field.distance_cells(map.index(cell)) : 0.0;
       cost[k] += square(std::min(off_m, options_.most_off_m));
       explained[k] += off_m <= 1.5 * map.resolution_m ? 1.0 : 0.0;
     }

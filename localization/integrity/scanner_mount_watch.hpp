@@ -5,8 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "maps/distance_field.hpp"
-#include "maps/occupancy_map.hpp"
+#include "maps/obstacle_field.hpp"
 #include "maps/scan.hpp"
 
 namespace lodestar {
@@ -28,8 +27,7 @@ class ScannerMountWatch {
  public:
   explicit ScannerMountWatch(const ScannerMountWatchOptions& options = {}) : options_(options) {}
 
-  void add(const Scan& scan, std::span<const Pose2> map_from_scanner, const OccupancyMap& map,
-           const DistanceField& field);
+  void add(const Scan& scan, std::span<const Pose2> map_from_scanner, const ObstacleField& field);
 
   /// Of the scanner against its mount in robot.yaml, counter-clockwise; nothing before the first estimate.
   [[nodiscard]] std::optional<double> turned_rad() const { return turned_rad_; }
