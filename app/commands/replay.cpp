@@ -1,5 +1,5 @@
-#include <ctime>
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
