@@ -38,26 +38,35 @@ void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_sc
     }
   }
   if (used == 0) return;
+  if (sums_.empty() || sums_.back().scans >= options_.step) sums_.emplace_back();
+  Sums& sums = sums_.back();
   for (std::size_t k = 0; k < cost.size(); ++k) {
-    cost_[k] += cost[k] / static_cast<double>(used);
-    explained_[k] += explained[k] / static_cast<double>(used);
+    sums.cost[k] += cost[k] / static_cast<double>(used);
+    sums.explained[k] += explained[k] / static_cast<double>(used);
   }
-  if (++added_ >= options_.scans) estimate();
+  if (++sums.scans >= options_.step) estimate();
 }
 
 /// The minimum of the parabola through the least cost and its neighbours.
 void ScannerMountWatch::estimate() {
-  const auto least = static_cast<std::size_t>(std::ranges::min_element(cost_) - cost_.begin());
-  const bool is_explained = explained_[least] >= options_.least_explained * static_cast<double>(added_);
-  double steps_off = static_cast<double>(least) - steps;
-  if (least > 0 && least + 1 < cost_.size()) {
-    const double bend = cost_[least - 1] - 2.0 * cost_[least] + cost_[least + 1];
-    if (bend > 0.0) steps_off += 0.5 * (cost_[least - 1] - cost_[least + 1]) / bend;
+  Sums all;
+  for (const Sums& sums : sums_) {
+    for (std::size_t k = 0; k < all.cost.size(); ++k) {
+      all.cost[k] += sums.cost[k];
+      all.explained[k] += sums.explained[k];
+    }
+    all.scans += sums.scans;
   }
-  if (is_explained) turned_rad_ = steps_off * step_rad;
-  cost_ = {};
-  explained_ = {};
-  added_ = 0;
+  if (all.scans < options_.scans) return;
+  sums_.pop_front();
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(all.cost) - all.cost.begin());
+  if (all.explained[least] < options_.least_explained * static_cast<double>(all.scans)) return;
+  double steps_off = static_cast<double>(least) - steps;
+  if (least > 0 && least + 1 < all.cost.size()) {
+    const double bend = all.cost[least - 1] - 2.0 * all.cost[least] + all.cost[least + 1];
+    if (bend > 0.0) steps_off += 0.5 * (all.cost[least - 1] - all.cost[least + 1]) / bend;
+  }
+  turned_rad_ = steps_off * step_rad;
 }
 
 }  // namespace lodestar

@@ -168,11 +168,16 @@ void ScannerWatch::judge_lost(const Scan& scan, Stamp now) {
     ++aimed;
     lost += beam.echo == Echo::invalid ? 1 : 0;
   }
-  if (static_cast<double>(lost) <= options_.max_lost_share * static_cast<double>(aimed))
-    lost_since_.reset();
-  else if (!lost_since_)
-    lost_since_ = now;
-  is_losing_ = lost_since_ && now - *lost_since_ >= options_.lost_for;
+  const auto lasts = [&](double more_than, std::optional<Stamp>& since) {
+    if (static_cast<double>(lost) <= more_than * static_cast<double>(aimed))
+      since.reset();
+    else if (!since)
+      since = now;
+    return since ? now - *since : Duration::zero();
+  };
+  const Duration lost_for = lasts(options_.max_lost_share, lost_since_);
+  const Duration blind_for = lasts(options_.blind_share, blind_from_);
+  is_losing_ = lost_for >= options_.lost_for || blind_for >= options_.max_silence;
 }
 
 bool ScannerWatch::is_hidden(double angle_rad) const {

@@ -41,7 +41,7 @@ std::string_view to_string(ScannerFault fault);
 ///     checksums    within 2 s
 ///     motor        with the fifth scan, where it is off by more than 20 %
 ///     dirty        once the robot has turned 90 degrees and driven 1 m since the window became dirty
-///     beams_lost   after 1 s
+///     beams_lost   after 1 s; after 0.3 s where hardly a beam is left
 ///     turned       see ScannerMountWatch
 struct ScannerWatchOptions {
   Duration max_silence = std::chrono::milliseconds(300);  ///< three scans at 10 Hz
@@ -69,6 +69,7 @@ struct ScannerWatchOptions {
   int dirty_bins = 3;           ///< of 2 degrees each, side by side: a drop of water on the window
   double max_lost_share = 0.3;  ///< of all beams; black and glassy surroundings stay below
   Duration lost_for = std::chrono::seconds(1);
+  double blind_share = 0.8;  ///< of all beams: says no more than a silent scanner, and for no longer
   /// Angles in the scanner frame that the robot's own parts hide, low to high: never dirt.
   std::vector<std::pair<double, double>> hidden_rad;
   ScannerMountWatchOptions mount;
@@ -138,6 +139,7 @@ class ScannerWatch {
   std::array<std::optional<Motion>, bins> blind_since_;
   bool is_dirty_ = false;
   std::optional<Stamp> lost_since_;
+  std::optional<Stamp> blind_from_;
   bool is_losing_ = false;
   std::deque<Packets> packets_;  ///< one older than `packets_kept` first, of which those since are counted
 };
