@@ -66,7 +66,12 @@ void ScannerMountWatch::estimate() {
     const double bend = all.cost[least - 1] - 2.0 * all.cost[least] + all.cost[least + 1];
     if (bend > 0.0) steps_off += 0.5 * (all.cost[least - 1] - all.cost[least + 1]) / bend;
   }
-  turned_rad_ = steps_off * step_rad;
+  const double turned_rad = steps_off * step_rad;
+  if (std::abs(turned_rad) <= options_.max_turn_rad)
+    agreeing_ = 0;
+  else
+    agreeing_ = agreeing_ > 0 && turned_rad * *turned_rad_ > 0.0 ? agreeing_ + 1 : 1;
+  turned_rad_ = turned_rad;
 }
 
 }  // namespace lodestar

@@ -14,8 +14,11 @@ namespace lodestar {
 struct ScannerMountWatchOptions {
   /// Between no turn and the 2 degrees that must be noticed: at 3 m, they move an end by 10 cm.
   double max_turn_rad = radians(1.5);
-  std::size_t scans = 40;   ///< for one estimate, from different places: 4 s at 10 Hz
-  std::size_t step = 10;    ///< scans from one estimate to the next: each is of the newest `scans`
+  std::size_t scans = 40;  ///< for one estimate, from different places: 4 s at 10 Hz
+  std::size_t step = 10;   ///< scans from one estimate to the next: each is of the newest `scans`
+  /// Estimates in a row that must say so: heading and walls are off here and there, by a marker that hangs
+  /// turned or a cupboard that was moved; a mount is turned wherever the robot drives.
+  int agreeing = 3;
   double between_m = 0.05;  ///< scans from the same place say the same
   double between_rad = radians(3.0);
   double most_off_m = 0.15;      ///< ends farther from a wall count as this far: unknown things
@@ -23,7 +26,7 @@ struct ScannerMountWatchOptions {
 };
 
 /// Turn of the mount against the map, where the pose is known: the turn of the beams about the scanner at
-/// which they end at mapped walls best, over many scans. Notices 2 degrees within 50 scans that are 5 cm or 3
+/// which they end at mapped walls best, over many scans. Notices 2 degrees within 70 scans that are 5 cm or 3
 /// degrees apart. A heading of the robot that is off by as much looks alike. A value type.
 class ScannerMountWatch {
  public:
@@ -33,9 +36,7 @@ class ScannerMountWatch {
 
   /// Of the scanner against its mount in robot.yaml, counter-clockwise; nothing before the first estimate.
   [[nodiscard]] std::optional<double> turned_rad() const { return turned_rad_; }
-  [[nodiscard]] bool is_turned() const {
-    return turned_rad_ && std::abs(*turned_rad_) > options_.max_turn_rad;
-  }
+  [[nodiscard]] bool is_turned() const { return agreeing_ >= options_.agreeing; }
 
  private:
   static constexpr int steps = 12;  ///< of half a degree, to either side
@@ -54,6 +55,7 @@ class ScannerMountWatch {
   std::deque<Sums> sums_;  ///< of `step` scans each, the newest last
   std::optional<Pose2> last_;
   std::optional<double> turned_rad_;
+  int agreeing_ = 0;  ///< of the newest estimates
 };
 
 }  // namespace lodestar

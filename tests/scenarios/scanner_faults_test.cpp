@@ -57,22 +57,18 @@ Watched drive(std::vector<Fault> faults, std::uint64_t seed, Duration at_most = 
   return watched;
 }
 
-/// The longest time to this reason, or the other, over drives with several seeds.
-double noticed_after_s(const Fault& fault, StopReason expected, StopReason other) {
+/// The longest time to one of these reasons, over drives with several seeds.
+double noticed_after_s(const Fault& fault, const std::vector<StopReason>& expected) {
   double longest_s = 0.0;
   for (const std::uint64_t seed : seeds) {
     const Watched watched = drive({fault}, seed);
     EXPECT_EQ(watched.contacts, 0) << seed;
     if (watched.reason)
-      EXPECT_TRUE(watched.reason == expected || watched.reason == other) << to_string(*watched.reason);
+      EXPECT_NE(std::ranges::find(expected, *watched.reason), expected.end()) << to_string(*watched.reason);
     longest_s = std::max(longest_s, watched.noticed_after_s);
   }
   fmt::print("    noticed after {:.2f} s\n", longest_s);
   return longest_s;
-}
-
-double noticed_after_s(const Fault& fault, StopReason expected) {
-  return noticed_after_s(fault, expected, expected);
 }
 
 TEST(ScannerFaults, a_sound_scanner_is_believed) {
@@ -84,19 +80,19 @@ TEST(ScannerFaults, a_sound_scanner_is_believed) {
 }
 
 TEST(ScannerFaults, silence_is_noticed_after_three_turns) {
-  EXPECT_LE(noticed_after_s({.kind = FaultKind::scanner_silent}, StopReason::scanner_silent), 0.3 + step_s);
+  EXPECT_LE(noticed_after_s({.kind = FaultKind::scanner_silent}, {StopReason::scanner_silent}), 0.3 + step_s);
 }
 
 // Two repetitions, and the turn that was under way.
 TEST(ScannerFaults, a_repeated_scan_is_noticed_at_its_second_repetition) {
-  EXPECT_LE(noticed_after_s({.kind = FaultKind::scanner_frozen}, StopReason::scanner_repeats),
+  EXPECT_LE(noticed_after_s({.kind = FaultKind::scanner_frozen}, {StopReason::scanner_repeats}),
             3.0 * turn_s + step_s);
 }
 
 TEST(ScannerFaults, lost_beams_are_noticed_after_a_second_and_a_covered_window_sooner) {
   const auto lost = [](double share) {
     return noticed_after_s({.kind = FaultKind::scanner_beams_dropped, .share = share},
-                           StopReason::scanner_blind);
+                           {StopReason::scanner_blind});
   };
   EXPECT_LE(lost(0.5), 1.0 + turn_s + step_s);
   EXPECT_LE(lost(1.0), 0.3 + turn_s + step_s);
@@ -105,53 +101,54 @@ TEST(ScannerFaults, lost_beams_are_noticed_after_a_second_and_a_covered_window_s
 
 TEST(ScannerFaults, late_scans_are_noticed_with_the_first) {
   const auto late = [](double delay_s) {
-    return noticed_after_s({.kind = FaultKind::scanner_late, .delay_s = delay_s}, StopReason::scanner_late,
-                           StopReason::scanner_silent);
+    return noticed_after_s({.kind = FaultKind::scanner_late, .delay_s = delay_s},
+                           {StopReason::scanner_late, StopReason::scanner_silent});
   };
   EXPECT_LE(late(0.15), 0.15 + turn_s + step_s);
   EXPECT_LE(late(1.0), 0.3 + step_s) << "none comes while the first is under way";
   EXPECT_EQ(late(0.05), INFINITY) << "beams are used at their own time";
 }
 
-// Stamps may be ahead by the delivery and a step, or behind by as much as late scans may be.
+// Stamps may be ahead by the delivery and two steps, or behind by as much as late scans may be; where the
+// robot turns, the map contradicts them sooner.
 TEST(ScannerFaults, a_foreign_clock_is_noticed_before_it_is_far_off) {
   const auto off = [](double jump_s, double drift_s_per_s) {
     return noticed_after_s(
         {.kind = FaultKind::scanner_clock, .delay_s = jump_s, .drift_s_per_s = drift_s_per_s},
-        StopReason::scanner_clock, StopReason::scanner_late);
+        {StopReason::scanner_clock, StopReason::scanner_late, StopReason::map_contradicted});
   };
   EXPECT_LE(off(3600.0, 0.0), turn_s + step_s);
   EXPECT_LE(off(-3600.0, 0.0), turn_s + step_s);
-  EXPECT_LE(off(0.0, 0.05), (delivery_s + step_s) / 0.05 + 2.0 * turn_s);
+  EXPECT_LE(off(0.0, 0.05), (delivery_s + 2.0 * step_s) / 0.05 + turn_s);
   EXPECT_LE(off(0.0, -0.05), (0.15 - delivery_s) / 0.05 + 2.0 * turn_s);
 }
 
 TEST(ScannerFaults, a_slow_motor_is_noticed_with_its_fifth_turn) {
   const auto turning = [](double speed_share) {
     return noticed_after_s({.kind = FaultKind::scanner_motor, .share = speed_share},
-                           StopReason::scanner_motor, StopReason::scanner_silent);
+                           {StopReason::scanner_motor, StopReason::scanner_silent});
   };
   EXPECT_LE(turning(0.7), turn_s + 5.0 * turn_s / 0.7 + delivery_s + step_s);
-  EXPECT_LE(turning(0.2), turn_s + 0.3 + delivery_s + step_s) << "no scan within 0.3 s";
+  EXPECT_LE(turning(0.2), turn_s + 0.3 + delivery_s + 2.0 * step_s) << "no scan within 0.3 s";
   EXPECT_EQ(turning(0.9), INFINITY);
 }
 
 TEST(ScannerFaults, damaged_packets_are_noticed_within_two_seconds) {
   const auto damaged = [](double share) {
     return noticed_after_s({.kind = FaultKind::scanner_packets_lost, .share = share},
-                           StopReason::scanner_damaged);
+                           {StopReason::scanner_damaged});
   };
   EXPECT_LE(damaged(0.15), 2.0);
   EXPECT_LE(damaged(0.5), 0.5);
   EXPECT_EQ(damaged(0.02), INFINITY);
 }
 
-// It holds against the map from the first scan on; the watch of the mount, where the walls are too few for
-// that, needs 50 scans from different places.
-TEST(ScannerFaults, a_mount_turned_by_2_degrees_is_noticed_within_50_scans) {
+// The map contradicts it at once where walls are all around; elsewhere the watch of the mount needs 70 scans
+// from different places.
+TEST(ScannerFaults, a_mount_turned_by_2_degrees_is_noticed_within_5_seconds) {
   for (const double turned_deg : {2.0, -2.0})
     EXPECT_LE(noticed_after_s({.kind = FaultKind::scanner_turned, .turn_rad = radians(turned_deg)},
-                              StopReason::scanner_turned, StopReason::map_contradicted),
+                              {StopReason::scanner_turned, StopReason::map_contradicted}),
               5.0)
         << turned_deg;
 }
