@@ -164,8 +164,10 @@ Fault random_fault(FaultKind kind, Random random) {
       fault.share = random.uniform(0.0, 0.5);
       break;
     case FaultKind::scanner_dirty:
-      fault.width_rad = random.uniform(0.05, 1.0);
-      fault.share = random.uniform() < 0.5 ? 0.0 : random.uniform();
+      // Dirt that shows nothing can hide a person for as long as it takes to notice it, where it is wider
+      // than a body at the distance that the field keeps.
+      fault.share = random.uniform() < 0.5 ? 0.0 : random.uniform(0.1, 1.0);
+      fault.width_rad = random.uniform(0.03, fault.share > 0.0 ? 1.0 : 0.14);
       break;
     case FaultKind::scanner_late:
       fault.lasts = passing(0.5, 8.0, random);

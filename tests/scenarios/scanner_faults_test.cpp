@@ -165,5 +165,20 @@ TEST(ScannerFaults, a_dirty_window_is_noticed_once_the_robot_has_turned) {
   fmt::print("    noticed after {:.1f} m and {:.1f} s\n", watched.rolled_m, watched.noticed_after_s);
 }
 
+// The field takes it for somebody who touches the robot.
+TEST(ScannerFaults, dirt_that_reflects_stops_the_robot_by_the_field) {
+  const double usual_m = drive({}, 1).rolled_m;
+  for (const double direction_deg : {0.0, 90.0}) {
+    const Fault dirt{.kind = FaultKind::scanner_dirty,
+                     .direction_rad = radians(direction_deg),
+                     .share = 1.0,
+                     .width_rad = radians(12.0)};
+    const double rolled_m = drive({dirt}, 1).rolled_m;
+    fmt::print("    {:.0f} degrees: {:.2f} m in 4 s instead of {:.2f} m\n", direction_deg, rolled_m, usual_m);
+    EXPECT_LT(rolled_m, 0.1) << direction_deg;
+    EXPECT_GT(usual_m, 0.5);
+  }
+}
+
 }  // namespace
 }  // namespace lodestar
