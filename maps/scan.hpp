@@ -33,6 +33,12 @@ struct Scan {
   double max_range_m = std::numeric_limits<double>::infinity();
 };
 
+/// What a scanner's driver made of its packets, since the beginning.
+struct ScanPackets {
+  std::uint64_t read = 0;
+  std::uint64_t refused = 0;  ///< for their checksum, or for impossible content
+};
+
 /// Where a scanner sits on the robot: its beams lie in a plane parallel to the floor, `height_m` above it.
 struct ScannerMount {
   Pose2 base_from_scanner;

@@ -1,6 +1,7 @@
 #include "app/campaign/campaign.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fcntl.h>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include "app/campaign/random_site.hpp"
 #include "app/common/parallel.hpp"
 #include "app/common/whole_number.hpp"
+#include "control/safety_stop.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker_code.hpp"
 #include "maps/random.hpp"
@@ -68,6 +70,13 @@ class SoleWriter {
   int descriptor_ = -1;
 };
 
+/// People and corners, which are no fault.
+bool is_of_the_field(const NoticeRecord& notice) {
+  using enum StopReason;
+  return std::ranges::any_of(std::array{person_near, obstacle_ahead, hidden_corner},
+                             [&](StopReason reason) { return notice.words == to_string(reason); });
+}
+
 /// Time from the start of the fault to the first notice or refused fix of the navigator.
 std::optional<double> noticed_after_s(const RunRecord& record) {
   if (record.faults.size() != 1) return std::nullopt;
@@ -77,7 +86,7 @@ std::optional<double> noticed_after_s(const RunRecord& record) {
     if (stamp >= begin && (!first || stamp < *first)) first = stamp;
   };
   for (const NoticeRecord& notice : record.notices)
-    if (!notice.words.empty()) consider(notice.stamp);
+    if (!notice.words.empty() && !is_of_the_field(notice)) consider(notice.stamp);
   for (const FixRecord& fix : record.fixes)
     if (!fix.accepted) consider(fix.stamp);
   if (!first) return std::nullopt;
@@ -131,15 +140,16 @@ CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>
   const Random random(number);
   CampaignMission mission;
   mission.site = random_site(robot_and_cameras, ids, random.stream(building).bits());
-  mission.replay = {.camera = robot_and_cameras.default_camera,
-                    .seed = number,
-                    .goals = mission.site.goals,
-                    .faults = random_faults(random.stream(faults).bits())};
+  if (with_people && !mission.site.robot.scanner) mission.site.robot.scanner.emplace();
+  mission.replay = {
+      .camera = robot_and_cameras.default_camera,
+      .seed = number,
+      .goals = mission.site.goals,
+      .faults = random_faults(random.stream(faults).bits(), mission.site.robot.scanner.has_value())};
   spoil_registry(mission, random.stream(registry_errors));
   if (!with_people) return mission;
   constexpr std::uint64_t most_people = 6;
   mission.replay.people.count = 1 + static_cast<int>(random.stream(people).below(most_people));
-  if (!mission.site.robot.scanner) mission.site.robot.scanner.emplace();
   return mission;
 }
 

@@ -50,10 +50,12 @@ bool blinds(const Fault& fault) {
 }
 
 /// All but the disk faults: a campaign mission writes no run folder.
-std::vector<FaultKind> kinds_of_faults() {
+std::vector<FaultKind> kinds_of_faults(bool has_scanner) {
   std::vector<FaultKind> kinds = all_fault_kinds();
-  std::erase_if(kinds,
-                [](FaultKind kind) { return kind == FaultKind::disk_full || kind == FaultKind::disk_slow; });
+  std::erase_if(kinds, [&](FaultKind kind) {
+    return kind == FaultKind::disk_full || kind == FaultKind::disk_slow ||
+           (concerns_scanner(kind) && !has_scanner);
+  });
   return kinds;
 }
 
@@ -149,6 +151,40 @@ Fault random_fault(FaultKind kind, Random random) {
       fault.shift_m = random.uniform(0.4, 3.0);
       fault.turn_rad = random.uniform(-pi, pi);
       break;
+    case FaultKind::scanner_silent:
+    case FaultKind::scanner_frozen:
+      fault.lasts = passing(0.2, 8.0, random);
+      break;
+    case FaultKind::scanner_beams_dropped:
+      fault.lasts = passing(0.2, 8.0, random);
+      fault.share = random.uniform(0.1, 1.0);
+      break;
+    case FaultKind::scanner_packets_lost:
+      fault.lasts = passing(0.5, 8.0, random);
+      fault.share = random.uniform(0.0, 0.5);
+      break;
+    case FaultKind::scanner_dirty:
+      // Dirt that shows nothing can hide a person for as long as it takes to notice it, where it is wider
+      // than a body at the distance that the field keeps.
+      fault.share = random.uniform() < 0.5 ? 0.0 : random.uniform(0.1, 1.0);
+      fault.width_rad = random.uniform(0.03, fault.share > 0.0 ? 1.0 : 0.14);
+      break;
+    case FaultKind::scanner_late:
+      fault.lasts = passing(0.5, 8.0, random);
+      fault.delay_s = random.uniform(0.0, 0.6);
+      break;
+    case FaultKind::scanner_clock:
+      fault.lasts = passing(0.5, 8.0, random);
+      fault.delay_s = random.uniform() < 0.5 ? 0.0 : 3600.0 * random.uniform(-1.0, 1.0);
+      fault.drift_s_per_s = random.uniform(-0.05, 0.05);
+      break;
+    case FaultKind::scanner_motor:
+      fault.lasts = passing(1.0, 8.0, random);
+      fault.share = random.uniform(0.1, 1.5);
+      break;
+    case FaultKind::scanner_turned:
+      fault.turn_rad = random.uniform(-0.2, 0.2);
+      break;
     case FaultKind::marker_wrong_id:
     case FaultKind::markers_swapped:
     case FaultKind::encoder_stuck:
@@ -161,9 +197,9 @@ Fault random_fault(FaultKind kind, Random random) {
 
 }  // namespace
 
-std::vector<Fault> random_faults(std::uint64_t seed) {
+std::vector<Fault> random_faults(std::uint64_t seed, bool has_scanner) {
   Random random(seed);
-  const std::vector<FaultKind> kinds = kinds_of_faults();
+  const std::vector<FaultKind> kinds = kinds_of_faults(has_scanner);
   std::vector<Fault> faults(static_cast<std::size_t>(how_many(random)));
   std::uint64_t number = 1;
   for (Fault& fault : faults)

@@ -8,7 +8,8 @@
 namespace lodestar {
 
 /// The faults of one campaign mission: most often one, sometimes none, two or three, of all kinds, from the
-/// start or during the drive. The same seed gives the same faults.
-std::vector<Fault> random_faults(std::uint64_t seed);
+/// start or during the drive; those of a scanner where the robot has one. The same seed gives the same
+/// faults.
+std::vector<Fault> random_faults(std::uint64_t seed, bool has_scanner);
 
 }  // namespace lodestar

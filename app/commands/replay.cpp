@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <fmt/core.h>
@@ -251,9 +252,16 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
   return all_arrived && is_recorded ? done : job_failed;
 }
 
+/// To see people, and to be at fault itself.
+bool needs_scanner(const ReplayArguments& arguments) {
+  if (arguments.people.count > 0) return true;
+  return !arguments.faults.empty() &&
+         std::ranges::any_of(faults_named(arguments.faults), concerns_scanner, &Fault::kind);
+}
+
 ExitCode replay_command(const ReplayArguments& arguments) {
   Site site = load_site(arguments.site.empty() ? lab_site() : fs::path(arguments.site));
-  if (arguments.people.count > 0 && !site.robot.scanner) site.robot.scanner.emplace();
+  if (needs_scanner(arguments) && !site.robot.scanner) site.robot.scanner.emplace();
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const SimulatedDriveOptions options = replay_options(arguments, site);
   if (arguments.explore) return replay_exploring(site, options, output_folder(site, arguments));

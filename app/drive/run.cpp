@@ -85,8 +85,10 @@ SensorInput sense(Camera& camera, Scanner* scanner, BaseDriver& base) {
     if (!frame) break;
     input.frames.push_back(std::move(*frame));
   }
-  if (scanner != nullptr)
+  if (scanner != nullptr) {
     while (std::optional<Scan> scan = scanner->poll()) input.scans.push_back(std::move(*scan));
+    input.packets = scanner->packets();
+  }
   return input;
 }
 

@@ -121,6 +121,7 @@ MappedPose Navigation::mapped_pose(const Facts& facts) const {
 /// A scanner that cannot be believed is a reason to stop, behind those of the pose.
 void Navigation::look_around(const SensorInput& input, Facts& facts) {
   if (!surroundings_) return;
+  surroundings_->add_packets(input.packets, input.now);
   surroundings_->add(input.base.travel, input.scans, input.now, mapped_pose(facts));
   plan_around_obstacles(facts);
   const std::optional<StopReason> reason = surroundings_->reason_to_stop(input.now);

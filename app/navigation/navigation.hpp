@@ -50,6 +50,7 @@ struct SensorInput {
   std::vector<Frame> frames;
   BaseFeedback base;
   std::vector<Scan> scans;
+  ScanPackets packets;  ///< of the scanner, since the beginning
 };
 
 /// How exactly a person says where the robot is; by default as with a click on the map.

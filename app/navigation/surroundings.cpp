@@ -120,6 +120,7 @@ void Surroundings::hold_against_map(const Scan& scan, const Pose2& map_from_odom
     if (!odom_from_base) return;
     map_from_scanner.push_back(map_from_odom * *odom_from_base * options_.mount.base_from_scanner);
   }
+  watch_.add_trusted(scan, map_from_scanner, mapped.map);
   const Eigen::Matrix3d& covariance = mapped.estimate->covariance;
   contradiction_.update(scan, map_from_scanner, mapped.map.map(),
                         {.position_m = larger_sigma(covariance.topLeftCorner<2, 2>()),

@@ -51,6 +51,9 @@ class Surroundings {
   void add(std::span<const WheelTravel> travel, std::span<const Scan> scans, Stamp now,
            const MappedPose& mapped);
 
+  /// What the scanner's driver has read and refused, since the beginning.
+  void add_packets(const ScanPackets& total, Stamp now) { watch_.add_packets(total, now); }
+
   /// Why the scanner, or the map held against it, forbids to move.
   [[nodiscard]] std::optional<StopReason> reason_to_stop(Stamp now) const;
 

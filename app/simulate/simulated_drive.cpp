@@ -70,8 +70,10 @@ MarkerRegistry markers_over(const Site& site, const SimulatedDriveOptions& optio
 SensorInput sense(Simulation& simulation, BaseDriver& base) {
   SensorInput input{.now = simulation.now(), .frames = {}, .base = base.poll(simulation.now())};
   while (std::optional<Frame> frame = simulation.camera().poll()) input.frames.push_back(std::move(*frame));
-  if (Scanner* scanner = simulation.scanner())
+  if (Scanner* scanner = simulation.scanner()) {
     while (std::optional<Scan> scan = scanner->poll()) input.scans.push_back(std::move(*scan));
+    input.packets = scanner->packets();
+  }
   return input;
 }
 

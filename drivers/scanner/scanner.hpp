@@ -18,6 +18,9 @@ class Scanner {
   /// The oldest complete scan not yet polled; empty when none has arrived. Never blocks.
   virtual std::optional<Scan> poll() = 0;
 
+  /// Packets so far; none of what has no packets.
+  [[nodiscard]] virtual ScanPackets packets() const { return {}; }
+
   /// What the device says about itself, in words; empty for what has none.
   [[nodiscard]] virtual std::string description() const { return {}; }
 };

@@ -36,6 +36,11 @@ std::optional<Scan> ScannerDriver::poll() {
   return scan;
 }
 
+ScanPackets ScannerDriver::packets() const {
+  const ProtocolCounts counts = protocol_->counts();
+  return {.read = counts.frames, .refused = counts.checksum_errors};
+}
+
 void ScannerDriver::read() {
   for (int i = 0; i < most_reads; ++i) {
     const ByteView bytes = link_->receive();

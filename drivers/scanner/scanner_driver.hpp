@@ -31,6 +31,7 @@ class ScannerDriver final : public Scanner {
 
   std::optional<Scan> poll() override;
   [[nodiscard]] std::string description() const override { return protocol_->description(); }
+  [[nodiscard]] ScanPackets packets() const override;
   [[nodiscard]] ProtocolCounts counts() const { return protocol_->counts(); }
 
  private:

@@ -33,6 +33,16 @@ enum class FaultKind {
   kidnapping,      ///< the robot is carried to another place
   disk_full,       ///< recordings of the drive can no longer be written
   disk_slow,       ///< each write takes `delay_s`
+  // Of a robot with a scanner:
+  scanner_silent,         ///< no scans
+  scanner_frozen,         ///< the same scan with new stamps
+  scanner_beams_dropped,  ///< a share of the beams brings nothing back
+  scanner_dirty,          ///< a sector of the window sees the dirt on it, or nothing
+  scanner_late,           ///< scans are delivered later
+  scanner_clock,          ///< the clock that stamps the beams jumps, and drifts from there on
+  scanner_motor,          ///< turns at a share of its speed
+  scanner_turned,         ///< on its mount
+  scanner_packets_lost,   ///< the driver refuses a share of the packets for their checksums
 };
 
 /// One fault with its time span. Which of the values apply depends on its kind.
@@ -44,13 +54,15 @@ struct Fault {
   std::optional<Duration> lasts;  ///< empty: to the end of the run
   std::optional<int> marker;      ///< its ID; empty: the one nearest to the robot at the begin, or all
   double shift_m = 0.0;
-  double direction_rad = 0.0;  ///< direction of the shift, in the map frame
+  double direction_rad = 0.0;  ///< of the shift in the map frame, or of the dirt in the scanner frame
   double turn_rad = 0.0;
   double count = 0.0;  ///< number of lamps
   double blur_sigma_px = 0.0;
   double delay_s = 0.0;
-  double share = 0.0;       ///< share of the frames affected
-  double left_share = 0.0;  ///< share of the left wheel's travel lost to slip
+  double share = 0.0;          ///< of the frames, beams or packets affected, or of the motor's speed left
+  double width_rad = 0.0;      ///< of the dirty sector, about `direction_rad` in the scanner frame
+  double drift_s_per_s = 0.0;  ///< of the clock
+  double left_share = 0.0;     ///< share of the left wheel's travel lost to slip
   double right_share = 0.0;
 };
 
@@ -64,6 +76,9 @@ struct FaultEvent {
 
 /// The name used in fault files, such as "wheel_slip".
 std::string_view to_string(FaultKind kind);
+
+/// Without effect on a robot that has no scanner.
+bool concerns_scanner(FaultKind kind);
 
 /// All of them, in the order of the enumeration.
 std::vector<FaultKind> all_fault_kinds();

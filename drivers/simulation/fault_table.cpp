@@ -18,10 +18,21 @@ constexpr std::array lamps{FaultParameter{"count", 1.0, 200.0, &Fault::count},
 constexpr std::array blur{FaultParameter{"blur_sigma_px", 0.1, 50.0, &Fault::blur_sigma_px}};
 constexpr std::array delay{FaultParameter{"delay_s", 0.0, 10.0, &Fault::delay_s}};
 constexpr std::array jump{FaultParameter{"jump_s", -1e5, 1e5, &Fault::delay_s}};
-constexpr std::array of_frames{share};
+constexpr std::array of_frames{share};  // or of beams, or packets
 constexpr std::array of_travel{FaultParameter{"left_share", -1.0, 1.0, &Fault::left_share},
                                FaultParameter{"right_share", -1.0, 1.0, &Fault::right_share}};
 constexpr std::array carried{shift, turn};
+constexpr std::array dirt{direction, FaultParameter{"width_deg", 0.1, 360.0, &Fault::width_rad, radians(1.0)},
+                          FaultParameter{"near_share", 0.0, 1.0, &Fault::share}};
+constexpr std::array foreign_clock{FaultParameter{"jump_s", -1e5, 1e5, &Fault::delay_s},
+                                   FaultParameter{"drift_s_per_s", -0.5, 0.5, &Fault::drift_s_per_s}};
+constexpr std::array speed{FaultParameter{"speed_share", 0.05, 3.0, &Fault::share}};
+constexpr std::array turned{turn};
+
+constexpr FaultRow of_scanner(FaultKind kind, std::string_view name,
+                              std::span<const FaultParameter> parameters) {
+  return {kind, name, parameters, false, false, true};
+}
 
 using enum FaultKind;
 constexpr std::array table{
@@ -47,6 +58,15 @@ constexpr std::array table{
     FaultRow{kidnapping, "kidnapping", carried, false, true},
     FaultRow{disk_full, "disk_full", {}},
     FaultRow{disk_slow, "disk_slow", delay},
+    of_scanner(scanner_silent, "scanner_silent", {}),
+    of_scanner(scanner_frozen, "scanner_frozen", {}),
+    of_scanner(scanner_beams_dropped, "scanner_beams_dropped", of_frames),
+    of_scanner(scanner_dirty, "scanner_dirty", dirt),
+    of_scanner(scanner_late, "scanner_late", delay),
+    of_scanner(scanner_clock, "scanner_clock", foreign_clock),
+    of_scanner(scanner_motor, "scanner_motor", speed),
+    of_scanner(scanner_turned, "scanner_turned", turned),
+    of_scanner(scanner_packets_lost, "scanner_packets_lost", of_frames),
 };
 
 }  // namespace
@@ -57,6 +77,10 @@ std::span<const FaultRow> fault_table() {
 
 std::string_view to_string(FaultKind kind) {
   return table[static_cast<std::size_t>(kind)].name;
+}
+
+bool concerns_scanner(FaultKind kind) {
+  return table[static_cast<std::size_t>(kind)].concerns_scanner;
 }
 
 std::vector<FaultKind> all_fault_kinds() {

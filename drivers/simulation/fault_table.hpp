@@ -23,6 +23,7 @@ struct FaultRow {
   std::span<const FaultParameter> parameters;
   bool concerns_a_marker = false;
   bool is_instantaneous = false;  ///< has no duration
+  bool concerns_scanner = false;
 };
 
 /// One row per kind, in the order of the enumeration.

@@ -49,7 +49,10 @@ OccupancyMap without_glass(OccupancyMap map, const std::vector<GlassPane>& glass
 
 SimulatedScanner::SimulatedScanner(const OccupancyMap& map, const SimulatedScannerOptions& options,
                                    std::uint64_t seed)
-    : options_(possible(options)), seed_(seed), map_(without_glass(map, options.glass)) {
+    : options_(possible(options)),
+      seed_(seed),
+      map_(without_glass(map, options.glass)),
+      base_from_scanner_(options.mount.base_from_scanner) {
   beams_.reserve(static_cast<std::size_t>(options_.beams));
 }
 
@@ -57,9 +60,16 @@ void SimulatedScanner::change_map(const OccupancyMap& map) {
   map_ = without_glass(map, options_.glass);
 }
 
-Stamp SimulatedScanner::stamp_of(std::uint64_t turn, int beam) const {
-  const double turns = static_cast<double>(turn) + static_cast<double>(beam) / options_.beams;
-  return Stamp(from_seconds(turns / options_.rate_hz));
+void SimulatedScanner::turn_on_mount(double turned_rad) {
+  base_from_scanner_ = options_.mount.base_from_scanner;
+  base_from_scanner_.yaw_rad += turned_rad;
+}
+
+/// Of a beam of the present turn.
+Stamp SimulatedScanner::stamp_of(int beam) const {
+  const double turns =
+      static_cast<double>(turn_ - speed_first_turn_) + static_cast<double>(beam) / options_.beams;
+  return speed_begin_ + from_seconds(turns / turns_per_second());
 }
 
 void SimulatedScanner::observe(Stamp now, const Pose2& true_map_from_base, std::span<const DiscState> discs) {
@@ -69,7 +79,7 @@ void SimulatedScanner::observe(Stamp now, const Pose2& true_map_from_base, std::
   for (const DiscState& disc : discs) append_visible(disc, visible_);
   while (true) {
     const auto beam = static_cast<int>(beams_.size());
-    const Stamp stamp = stamp_of(turn_, beam);
+    const Stamp stamp = stamp_of(beam);
     if (stamp > now) break;
     const double span_s = seconds(now - last_->stamp);
     const double share = span_s > 0.0 ? std::max(0.0, seconds(stamp - last_->stamp) / span_s) : 1.0;
@@ -78,8 +88,7 @@ void SimulatedScanner::observe(Stamp now, const Pose2& true_map_from_base, std::
         from.position_m + share * (current.map_from_base.position_m - from.position_m),
         from.yaw_rad + share * wrap_angle(current.map_from_base.yaw_rad - from.yaw_rad)};
     const double angle_rad = std::numbers::pi * (2.0 * (beam + 1.0) / options_.beams - 1.0);
-    const auto seen =
-        reflection(map_from_base * options_.mount.base_from_scanner, angle_rad, seconds(stamp - now));
+    const auto seen = reflection(map_from_base * base_from_scanner_, angle_rad, seconds(stamp - now));
     beams_.push_back(measure(stamp, angle_rad, seen));
     previous_ = seen;
     if (beam + 1 == options_.beams) finish_turn();
@@ -141,16 +150,19 @@ void SimulatedScanner::finish_turn() {
             .min_range_m = options_.min_range_m,
             .max_range_m = options_.range_m};
   beams_.reserve(scan.beams.size());
-  on_their_way_.push_back(std::move(scan));
+  const Stamp arrival = scan.beams.front().stamp + from_seconds(1.0 / turns_per_second()) + options_.delay;
+  on_their_way_.push_back({std::move(scan), arrival});
   if (on_their_way_.size() > most_unpolled) on_their_way_.pop_front();
   ++turn_;
+  if (next_speed_share_ == speed_share_) return;
+  speed_begin_ = stamp_of(0);
+  speed_first_turn_ = turn_;
+  speed_share_ = next_speed_share_;
 }
 
 std::optional<Scan> SimulatedScanner::poll() {
-  if (on_their_way_.empty()) return std::nullopt;
-  const Duration turn = from_seconds(1.0 / options_.rate_hz);
-  if (on_their_way_.front().beams.front().stamp + turn + options_.delay > now_) return std::nullopt;
-  Scan scan = std::move(on_their_way_.front());
+  if (on_their_way_.empty() || on_their_way_.front().arrival > now_) return std::nullopt;
+  Scan scan = std::move(on_their_way_.front().scan);
   on_their_way_.pop_front();
   return scan;
 }

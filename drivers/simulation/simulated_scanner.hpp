@@ -55,10 +55,20 @@ class SimulatedScanner final : public Scanner {
   /// Replaces the map of obstacles; the glass stays.
   void change_map(const OccupancyMap& map);
 
+  /// From the next turn on, at this share of its rate.
+  void set_speed(double share) { next_speed_share_ = share; }
+
+  /// The scanner turned so far, counter-clockwise, on the mount that the robot believes in.
+  void turn_on_mount(double turned_rad);
+
   std::optional<Scan> poll() override;
   [[nodiscard]] std::string description() const override { return "simulated scanner"; }
 
  private:
+  struct OnItsWay {
+    Scan scan;
+    Stamp arrival;
+  };
   struct Observation {
     Stamp stamp;
     Pose2 map_from_base;
@@ -69,7 +79,8 @@ class SimulatedScanner final : public Scanner {
     double signal = 0.0;  ///< over the least that is always detected at the rated range
   };
 
-  [[nodiscard]] Stamp stamp_of(std::uint64_t turn, int beam) const;
+  [[nodiscard]] Stamp stamp_of(int beam) const;
+  [[nodiscard]] double turns_per_second() const { return options_.rate_hz * speed_share_; }
   /// `later_s`: than the visible discs' positions, not positive.
   [[nodiscard]] std::optional<Reflection> reflection(const Pose2& map_from_scanner, double angle_rad,
                                                      double later_s) const;
@@ -81,10 +92,16 @@ class SimulatedScanner final : public Scanner {
   OccupancyMap map_;  ///< as the beams meet it
   std::optional<Observation> last_;
   std::vector<VisibleDisc> visible_;
+  Pose2 base_from_scanner_;  ///< the true one
   std::uint64_t turn_ = 0;
+  // Since the motor last changed its speed.
+  double speed_share_ = 1.0;
+  Stamp speed_begin_;
+  std::uint64_t speed_first_turn_ = 0;
+  double next_speed_share_ = 1.0;
   std::vector<Beam> beams_;  ///< of this turn so far
   std::optional<Reflection> previous_;
-  std::deque<Scan> on_their_way_;
+  std::deque<OnItsWay> on_their_way_;
   Stamp now_;
 };
 

@@ -9,6 +9,7 @@
 #include "drivers/simulation/fault_schedule.hpp"
 #include "drivers/simulation/faulty_bus.hpp"
 #include "drivers/simulation/faulty_camera.hpp"
+#include "drivers/simulation/faulty_scanner.hpp"
 #include "drivers/simulation/simulated_camera.hpp"
 #include "drivers/simulation/simulated_motion.hpp"
 #include "maps/input_error.hpp"
@@ -27,6 +28,7 @@ constexpr std::uint64_t lamps_stream = 6;
 constexpr std::uint64_t kidnapping_stream = 7;
 constexpr std::uint64_t scanner_stream = 8;
 constexpr std::uint64_t people_stream = 9;
+constexpr std::uint64_t bad_scanner_stream = 10;
 
 /// Between looks at the discs: at 2 m/s one moves by 2 cm, and straight on to a fraction of a millimetre.
 constexpr Duration disc_period = std::chrono::milliseconds(10);
@@ -71,7 +73,10 @@ struct Simulation::World {
     camera.observe(now, motion.true_map_from_base());
     scorer.record({now, motion.true_map_from_base()});
     next_record += options.scoring_period;
-    if (options.scanner) scanner.emplace(map, *options.scanner, seed_for(chosen.seed, scanner_stream));
+    if (options.scanner) {
+      scanner.emplace(map, *options.scanner, seed_for(chosen.seed, scanner_stream));
+      faulty_scanner.emplace(*scanner, seed_for(chosen.seed, bad_scanner_stream));
+    }
     if (options.people.count > 0)
       people.emplace(map, options.people, options.start, seed_for(chosen.seed, people_stream));
     for (const MovingDisc& disc : options.discs) trajectories.emplace_back(disc);
@@ -85,6 +90,7 @@ struct Simulation::World {
     bus.advance(now);
     faulty_bus.advance(now);
     faulty_camera.advance(now);
+    if (faulty_scanner) faulty_scanner->advance(now);
     base.step(now);
     camera.observe(now, motion.true_map_from_base());
     if (now >= next_discs) move_discs();
@@ -111,6 +117,7 @@ struct Simulation::World {
                   decoy_lamps(registry, active, seed_for(options.seed, lamps_stream)));
     faulty_camera.suffer(active);
     faulty_bus.suffer(active);
+    if (faulty_scanner) faulty_scanner->suffer(active);
     if (options.disk) options.disk->suffer(active);
     const auto slip = std::ranges::find(active, FaultKind::wheel_slip, &Fault::kind);
     motion.slip(slip != active.end() ? slip->left_share : 0.0,
@@ -146,6 +153,7 @@ struct Simulation::World {
   Scorer scorer;
   Stamp next_record;
   std::optional<SimulatedScanner> scanner;
+  std::optional<FaultyScanner> faulty_scanner;
   std::vector<FollowedTrajectory> trajectories;
   std::optional<Walkers> people;
   std::vector<DiscState> discs;
@@ -177,7 +185,7 @@ CanBus& Simulation::can() {
 }
 
 Scanner* Simulation::scanner() {
-  return world_->scanner ? &*world_->scanner : nullptr;
+  return world_->faulty_scanner ? &*world_->faulty_scanner : nullptr;
 }
 
 const std::vector<DiscState>& Simulation::discs() const {

@@ -6,7 +6,8 @@
 namespace lodestar {
 
 void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_scanner,
-                            const OccupancyMap& map, const DistanceField& field) {
+                            const ObstacleField& field) {
+  const OccupancyMap& map = field.map();
   const std::size_t beams = std::min(scan.beams.size(), map_from_scanner.size());
   if (beams == 0) return;
   const Pose2& now = map_from_scanner.front();
@@ -30,32 +31,47 @@ void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_sc
       const Vec2 end =
           map_from_scanner[i].position_m + beam.range_m * Vec2(std::cos(heading_rad), std::sin(heading_rad));
       const Cell cell = map.cell_at(end);
-      const double off_m = map.contains(cell) ? field.distance_m(cell) : 0.0;
+      const double off_m =
+          map.contains(cell) ? map.resolution_m * field.distance_cells(map.index(cell)) : 0.0;
       cost[k] += square(std::min(off_m, options_.most_off_m));
       explained[k] += off_m <= 1.5 * map.resolution_m ? 1.0 : 0.0;
     }
   }
   if (used == 0) return;
+  if (sums_.empty() || sums_.back().scans >= options_.step) sums_.emplace_back();
+  Sums& sums = sums_.back();
   for (std::size_t k = 0; k < cost.size(); ++k) {
-    cost_[k] += cost[k] / static_cast<double>(used);
-    explained_[k] += explained[k] / static_cast<double>(used);
+    sums.cost[k] += cost[k] / static_cast<double>(used);
+    sums.explained[k] += explained[k] / static_cast<double>(used);
   }
-  if (++added_ >= options_.scans) estimate();
+  if (++sums.scans >= options_.step) estimate();
 }
 
 /// The minimum of the parabola through the least cost and its neighbours.
 void ScannerMountWatch::estimate() {
-  const auto least = static_cast<std::size_t>(std::ranges::min_element(cost_) - cost_.begin());
-  const bool is_explained = explained_[least] >= options_.least_explained * static_cast<double>(added_);
-  double steps_off = static_cast<double>(least) - steps;
-  if (least > 0 && least + 1 < cost_.size()) {
-    const double bend = cost_[least - 1] - 2.0 * cost_[least] + cost_[least + 1];
-    if (bend > 0.0) steps_off += 0.5 * (cost_[least - 1] - cost_[least + 1]) / bend;
+  Sums all;
+  for (const Sums& sums : sums_) {
+    for (std::size_t k = 0; k < all.cost.size(); ++k) {
+      all.cost[k] += sums.cost[k];
+      all.explained[k] += sums.explained[k];
+    }
+    all.scans += sums.scans;
   }
-  if (is_explained) turned_rad_ = steps_off * step_rad;
-  cost_ = {};
-  explained_ = {};
-  added_ = 0;
+  if (all.scans < options_.scans) return;
+  sums_.pop_front();
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(all.cost) - all.cost.begin());
+  if (all.explained[least] < options_.least_explained * static_cast<double>(all.scans)) return;
+  double steps_off = static_cast<double>(least) - steps;
+  if (least > 0 && least + 1 < all.cost.size()) {
+    const double bend = all.cost[least - 1] - 2.0 * all.cost[least] + all.cost[least + 1];
+    if (bend > 0.0) steps_off += 0.5 * (all.cost[least - 1] - all.cost[least + 1]) / bend;
+  }
+  const double turned_rad = steps_off * step_rad;
+  if (std::abs(turned_rad) <= options_.max_turn_rad)
+    agreeing_ = 0;
+  else
+    agreeing_ = agreeing_ > 0 && turned_rad * *turned_rad_ > 0.0 ? agreeing_ + 1 : 1;
+  turned_rad_ = turned_rad;
 }
 
 }  // namespace lodestar

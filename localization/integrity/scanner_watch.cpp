@@ -168,11 +168,16 @@ void ScannerWatch::judge_lost(const Scan& scan, Stamp now) {
     ++aimed;
     lost += beam.echo == Echo::invalid ? 1 : 0;
   }
-  if (static_cast<double>(lost) <= options_.max_lost_share * static_cast<double>(aimed))
-    lost_since_.reset();
-  else if (!lost_since_)
-    lost_since_ = now;
-  is_losing_ = lost_since_ && now - *lost_since_ >= options_.lost_for;
+  const auto lasts = [&](double more_than, std::optional<Stamp>& since) {
+    if (static_cast<double>(lost) <= more_than * static_cast<double>(aimed))
+      since.reset();
+    else if (!since)
+      since = now;
+    return since ? now - *since : Duration::zero();
+  };
+  const Duration lost_for = lasts(options_.max_lost_share, lost_since_);
+  const Duration blind_for = lasts(options_.blind_share, blind_from_);
+  is_losing_ = lost_for >= options_.lost_for || blind_for >= options_.max_silence;
 }
 
 bool ScannerWatch::is_hidden(double angle_rad) const {
@@ -181,23 +186,29 @@ bool ScannerWatch::is_hidden(double angle_rad) const {
   });
 }
 
-void ScannerWatch::add_packets(std::size_t read, std::size_t refused, Stamp now) {
-  packets_.push_back({now, read, refused});
-  while (now - packets_.front().stamp > options_.packets_kept) packets_.pop_front();
+void ScannerWatch::add_packets(const ScanPackets& total, Stamp now) {
+  const auto runs_backwards = [&](const ScanPackets& before) {
+    return total.read < before.read || total.refused < before.refused;
+  };
+  if (!packets_.empty() && runs_backwards(packets_.back().total)) packets_.clear();
+  packets_.push_back({now, total});
+  while (packets_.size() > 2 && now - packets_[1].stamp >= options_.packets_kept) packets_.pop_front();
+}
+
+bool ScannerWatch::is_damaged() const {
+  if (packets_.empty()) return false;
+  const ScanPackets& now = packets_.back().total;
+  const ScanPackets& then = packets_.front().total;
+  const std::uint64_t refused = now.refused - then.refused;
+  const std::uint64_t all = now.read - then.read + refused;
+  return all >= options_.least_packets &&
+         static_cast<double>(refused) > options_.max_refused_share * static_cast<double>(all);
 }
 
 std::optional<ScannerFault> ScannerWatch::fault(Stamp now) const {
   if (last_arrival_ && now - *last_arrival_ > options_.max_silence) return ScannerFault::silent;
   if (scan_fault_) return scan_fault_;
-  std::size_t packets = 0;
-  std::size_t refused = 0;
-  for (const Packets& some : packets_) {
-    packets += some.read + some.refused;
-    refused += some.refused;
-  }
-  if (packets >= options_.least_packets &&
-      static_cast<double>(refused) > options_.max_refused_share * static_cast<double>(packets))
-    return ScannerFault::checksums;
+  if (is_damaged()) return ScannerFault::checksums;
   if (motor_wrong_ >= options_.motor_scans) return ScannerFault::motor;
   if (is_dirty_) return ScannerFault::dirty;
   if (is_losing_) return ScannerFault::beams_lost;

@@ -41,7 +41,7 @@ std::string_view to_string(ScannerFault fault);
 ///     checksums    within 2 s
 ///     motor        with the fifth scan, where it is off by more than 20 %
 ///     dirty        once the robot has turned 90 degrees and driven 1 m since the window became dirty
-///     beams_lost   after 1 s
+///     beams_lost   after 1 s; after 0.3 s where hardly a beam is left
 ///     turned       see ScannerMountWatch
 struct ScannerWatchOptions {
   Duration max_silence = std::chrono::milliseconds(300);  ///< three scans at 10 Hz
@@ -58,8 +58,8 @@ struct ScannerWatchOptions {
   std::size_t least_hits = 20;  ///< to tell one scan from another
   /// Share of beams that differ between two scans at rest, from which a scanner has noise.
   double noisy_share = 0.5;
-  double max_refused_share = 0.05;  ///< of packets; a sound cable has none
-  std::size_t least_packets = 50;   ///< of which the share is judged
+  double max_refused_share = 0.05;   ///< of packets; a sound cable has none
+  std::uint64_t least_packets = 50;  ///< of which the share is judged
   Duration packets_kept = std::chrono::seconds(2);
   std::optional<double> turns_per_second;  ///< as the device is set; empty: learned from the first 20 scans
   double max_motor_error = 0.2;
@@ -69,6 +69,7 @@ struct ScannerWatchOptions {
   int dirty_bins = 3;           ///< of 2 degrees each, side by side: a drop of water on the window
   double max_lost_share = 0.3;  ///< of all beams; black and glassy surroundings stay below
   Duration lost_for = std::chrono::seconds(1);
+  double blind_share = 0.8;  ///< of all beams: says no more than a silent scanner, and for no longer
   /// Angles in the scanner frame that the robot's own parts hide, low to high: never dirt.
   std::vector<std::pair<double, double>> hidden_rad;
   ScannerMountWatchOptions mount;
@@ -86,13 +87,12 @@ class ScannerWatch {
   /// used.
   std::optional<ScannerFault> update(const Scan& scan, Stamp now);
 
-  /// What the driver has read and refused since the last call.
-  void add_packets(std::size_t read, std::size_t refused, Stamp now);
+  /// What the driver has read and refused since the beginning.
+  void add_packets(const ScanPackets& total, Stamp now);
 
   /// A scan whose pose is trusted, one pose for each beam by the mount that robot.yaml has.
-  void add_trusted(const Scan& scan, std::span<const Pose2> map_from_scanner, const OccupancyMap& map,
-                   const DistanceField& field) {
-    mount_.add(scan, map_from_scanner, map, field);
+  void add_trusted(const Scan& scan, std::span<const Pose2> map_from_scanner, const ObstacleField& field) {
+    mount_.add(scan, map_from_scanner, field);
   }
 
   /// Current fault of the scanner, the gravest. Silence is no fault before the first scan.
@@ -105,8 +105,7 @@ class ScannerWatch {
   static constexpr std::size_t bins = 180;  ///< of 2 degrees
   struct Packets {
     Stamp stamp;
-    std::size_t read = 0;
-    std::size_t refused = 0;
+    ScanPackets total;
   };
   /// Distance driven and angle turned by the wheels, both ways counted.
   struct Motion {
@@ -120,6 +119,7 @@ class ScannerWatch {
   void judge_window(const Scan& scan);
   void judge_lost(const Scan& scan, Stamp now);
   [[nodiscard]] bool is_hidden(double angle_rad) const;
+  [[nodiscard]] bool is_damaged() const;
 
   ScannerWatchOptions options_;
   ScannerMountWatch mount_;
@@ -139,8 +139,9 @@ class ScannerWatch {
   std::array<std::optional<Motion>, bins> blind_since_;
   bool is_dirty_ = false;
   std::optional<Stamp> lost_since_;
+  std::optional<Stamp> blind_from_;
   bool is_losing_ = false;
-  std::deque<Packets> packets_;
+  std::deque<Packets> packets_;  ///< one older than `packets_kept` first, of which those since are counted
 };
 
 }  // namespace lodestar

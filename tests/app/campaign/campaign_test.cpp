@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -46,10 +47,16 @@ TEST(Campaign, builds_the_same_building_from_the_same_seed) {
 }
 
 TEST(Campaign, draws_faults_of_every_kind) {
-  std::set<FaultKind> seen;
-  for (std::uint64_t seed = 1; seed <= 400; ++seed)
-    for (const Fault& fault : random_faults(seed)) seen.insert(fault.kind);
-  EXPECT_EQ(seen.size(), all_fault_kinds().size() - 2) << "all but those of the disk";
+  const auto drawn = [](bool has_scanner) {
+    std::set<FaultKind> kinds;
+    for (std::uint64_t seed = 1; seed <= 600; ++seed)
+      for (const Fault& fault : random_faults(seed, has_scanner)) kinds.insert(fault.kind);
+    return kinds;
+  };
+  EXPECT_EQ(drawn(true).size(), all_fault_kinds().size() - 2) << "all but those of the disk";
+  EXPECT_EQ(std::ranges::count_if(drawn(false), concerns_scanner), 0);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(drawn(false).size()),
+            std::ranges::count_if(drawn(true), std::not_fn(concerns_scanner)));
 }
 
 TEST(Campaign, misleads_no_robot_that_has_seen_nothing_yet) {
@@ -57,7 +64,7 @@ TEST(Campaign, misleads_no_robot_that_has_seen_nothing_yet) {
   const std::set<FaultKind> misleading{marker_moved, marker_wrong_id, markers_swapped, marker_duplicated};
   int together = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
-    const std::vector<Fault> faults = random_faults(seed);
+    const std::vector<Fault> faults = random_faults(seed, false);
     const auto dark = std::ranges::find_if(faults, [](const Fault& fault) {
       return (fault.kind == camera_dropped || fault.kind == camera_black) && fault.begin == Duration::zero();
     });

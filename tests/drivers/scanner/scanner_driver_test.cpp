@@ -42,6 +42,7 @@ void expect_three_scans(const std::string& address, double unit_m) {
     EXPECT_GE(age, Duration::zero());
     EXPECT_LT(age, std::chrono::seconds(2));
   }
+  EXPECT_GE(scanner->packets().read, 3U) << address;
 }
 
 std::string pty_name(const std::string& name) {

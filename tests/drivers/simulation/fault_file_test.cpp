@@ -44,6 +44,13 @@ TEST(FaultFile, says_what_goes_wrong_when_where_and_by_how_much) {
   EXPECT_EQ(faults[0].shift_m, 0.3);
   EXPECT_DOUBLE_EQ(faults[0].direction_rad, radians(90.0));
   EXPECT_DOUBLE_EQ(faults[0].turn_rad, radians(-10.0));
+  const auto of_scanner = faults_in(head +
+                                    "  - {fault: scanner_dirty, at_s: 6, direction_deg: 90, width_deg: 12, "
+                                    "near_share: 0.5}\n"
+                                    "  - {fault: scanner_clock, at_s: 6, jump_s: 0, drift_s_per_s: -0.1}\n");
+  EXPECT_DOUBLE_EQ(of_scanner.at(0).width_rad, radians(12.0));
+  EXPECT_EQ(of_scanner.at(0).share, 0.5);
+  EXPECT_EQ(of_scanner.at(1).drift_s_per_s, -0.1);
   EXPECT_EQ(faults[1].latest_begin, std::chrono::seconds(9));
   EXPECT_FALSE(faults[1].lasts);
   EXPECT_EQ(faults[1].share, 0.3);
@@ -57,6 +64,8 @@ TEST(FaultFile, is_refused_with_its_line_when_anything_is_odd) {
   EXPECT_THAT(complaint_about("{fault: can_loss, share: 0.5}"), HasSubstr("at_s"));
   EXPECT_THAT(complaint_about("{fault: can_loss, between_s: [5, 2], share: 0.5}"), HasSubstr("between_s"));
   EXPECT_THAT(complaint_about("{fault: camera_black, at_s: 1, marker: 3}"), HasSubstr("marker"));
+  EXPECT_THAT(complaint_about("{fault: scanner_motor, at_s: 1, speed_share: 0}"), HasSubstr("speed_share"));
+  EXPECT_THAT(complaint_about("{fault: scanner_clock, at_s: 1, jump_s: 0}"), HasSubstr("drift_s_per_s"));
   EXPECT_THAT(complaint_about("{fault: kidnapping, at_s: 1, for_s: 3, shift_m: 1, turn_deg: 0}"),
               HasSubstr("for_s"));
 }
