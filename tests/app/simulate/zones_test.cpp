@@ -73,5 +73,14 @@ TEST(ZonesInTheLab, a_speed_zone_is_never_driven_through_faster) {
   }
 }
 
+/// At 0.05 m/s the way takes some 280 s, where 180 s would be enough for a robot that is stuck.
+TEST(ZonesInTheLab, a_robot_that_is_slow_all_the_way_is_not_taken_for_stuck) {
+  Site site = lab();
+  site.places.speed_zones = {{"all", {{0.0, 0.0}, {16.0, 0.0}, {16.0, 8.0}, {0.0, 8.0}}, 0.05}};
+  const RunRecord run = driven(site, 1);
+  EXPECT_TRUE(run.arrived()) << run.goals.front().failure;
+  EXPECT_GT(run.goals.front().travel_time, std::chrono::seconds(200));
+}
+
 }  // namespace
 }  // namespace lodestar
