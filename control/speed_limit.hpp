@@ -13,6 +13,7 @@ namespace lodestar {
 struct SpeedLimit {
   double forward_mps = std::numeric_limits<double>::infinity();
   double turn_radps = std::numeric_limits<double>::infinity();
+  double backward_mps = std::numeric_limits<double>::infinity();
 };
 
 /// The speed from which the robot brakes to rest within the distance: v^2 / (2 a) + latency v = distance.

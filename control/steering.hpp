@@ -19,7 +19,8 @@ struct SteeringOptions {
 /// May the robot be steered in spite of this reason to stop? Of its pose and camera a person knows enough.
 bool may_be_steered(const std::optional<StopReason>& stop);
 
-/// The velocity within the limits; ahead also within what the map leaves free, where the pose is known.
+/// The velocity within the limits; where the pose is known, also within what speed zones
+/// allow and, ahead, within what the map leaves free.
 BodyVelocity within(const BodyVelocity& wanted, const SpeedLimit& limit, const SteeringOptions& options);
 
 }  // namespace lodestar

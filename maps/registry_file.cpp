@@ -1,4 +1,3 @@
-#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -8,6 +7,7 @@
 #include "maps/marker_registry.hpp"
 #include "maps/registry_text.hpp"
 #include "maps/strict_yaml.hpp"
+#include "maps/tidy.hpp"
 
 namespace lodestar {
 namespace {
@@ -44,10 +44,8 @@ RegisteredMarker read_marker(StrictYaml& yaml) {
   return marker;
 }
 
-/// Degrees without the rounding error of the conversion: 90, not 90.00000000000001.
 double tidy_degrees(double angle_rad) {
-  constexpr double per_degree = 1e9;
-  return std::round(degrees(angle_rad) * per_degree) / per_degree;
+  return tidy(degrees(angle_rad));
 }
 
 std::string sigma_text(const std::optional<MarkerSigma>& sigma) {

@@ -70,7 +70,7 @@ RunFolderEnd RecordedRun::finish(const RunRecord& record) {
   remember(lost_pictures(record));
   try {
     if (disk_.is_full && disk_.is_full()) throw InputError("the disk is full");
-    write_run_folder(folder_, record, site_.map.map, site_.registry);
+    write_run_folder(folder_, record, site_.map.map, site_.registry, site_.places);
     end.has_report = true;
   } catch (const InputError& error) {
     remember(error.what());

@@ -87,7 +87,8 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
   }
   if (arguments.goals.empty()) return options;
   options.goals.clear();
-  for (const std::string& text : arguments.goals) options.goals.push_back(parse_goal("--goal", text));
+  for (const std::string& text : arguments.goals)
+    options.goals.push_back(parse_goal("--goal", text, site.places));
   return options;
 }
 
@@ -290,8 +291,9 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->check(CLI::IsMember(planner_names()))
       ->capture_default_str();
   command
-      ->add_option("--goal", arguments->goals,
-                   "X,Y[,DEG] in metres and degrees; repeat for more; default: the site's")
+      ->add_option(
+          "--goal", arguments->goals,
+          "X,Y[,DEG] in metres and degrees, or the name of a place; repeat for more; default: the site's")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command

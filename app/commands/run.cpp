@@ -193,7 +193,8 @@ ExitCode run_command(const RunArguments& arguments) {
       .hold_on_base_fault = true,
       .operator_wish = [&input] { return wish_of(input); },
       .tell = [](Severity severity, const std::string& words) { program_log().say(severity, words); }};
-  for (const std::string& text : arguments.goals) options.goals.push_back(parse_goal("--goal", text));
+  for (const std::string& text : arguments.goals)
+    options.goals.push_back(parse_goal("--goal", text, site.places));
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
 
@@ -218,7 +219,9 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
                                               "arrives and is recorded. After a fault it waits for the "
                                               "line 'resume' (or 'stop') on standard input, if that is open");
   command->add_option("site", arguments->site, "Site folder")->required();
-  command->add_option("--goal", arguments->goals, "X,Y[,DEG] in metres and degrees; repeat for more")
+  command
+      ->add_option("--goal", arguments->goals,
+                   "X,Y[,DEG] in metres and degrees, or the name of a place; repeat for more")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--serve", arguments->serve,

@@ -124,7 +124,6 @@ HttpResponse printed(const json& request) {
 DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::filesystem::path& runs_folder)
     : site_(load_site(site_folder)),
       registry_file_(site_.registry_file),
-      routes_file_(site_.folder / "routes.yaml"),
       history_(registry_file_.parent_path() / ".history"),
       runs_(runs_folder),
       coverage_(site_) {}
@@ -223,15 +222,16 @@ HttpResponse DocumentApi::save_markers(const HttpRequest& request) const {
 }
 
 HttpResponse DocumentApi::routes() const {
-  const Routes routes = load_routes(routes_file_);
-  return {.body = routes_json(routes).dump(), .etag = etag_of(routes_text(routes))};
+  const Places places = load_places(site_.folder);
+  return {.body = routes_json(places).dump(), .etag = etag_of(places_text(places))};
 }
 
 HttpResponse DocumentApi::save_routes(const HttpRequest& request) const {
-  const std::string before = routes_text(load_routes(routes_file_));
-  if (std::optional<HttpResponse> conflict = conflict_with(before, request.if_match)) return *conflict;
+  const Places before = load_places(site_.folder);
+  if (std::optional<HttpResponse> conflict = conflict_with(places_text(before), request.if_match))
+    return *conflict;
   try {
-    write_file_atomically(routes_file_, routes_text(parse_routes(request.body, "the routes sent")));
+    save_places(with_routes(before, request.body), site_.folder);
   } catch (const InputError& error) {
     return refusal(422, error.what());
   }

@@ -27,7 +27,7 @@ namespace lodestar {
 ///   POST /api/markers/export       {format, registry} -> {text}
 ///   POST /api/markers/import       {name, text} -> a registry
 ///   POST /api/markers/print        {ids, paper} -> a PDF
-///   GET  /api/routes               places and routes; PUT saves them, with If-Match
+///   GET  /api/routes               places and missions; PUT saves them, with If-Match
 ///   GET  /api/runs                 names of runs;  /api/runs/NAME  one of them
 ///   GET  /api/runs/NAME/pictures/T.jpg
 ///
@@ -63,7 +63,6 @@ class DocumentApi {
 
   Site site_;
   std::filesystem::path registry_file_;
-  std::filesystem::path routes_file_;
   DocumentHistory history_;
   RunArchive runs_;
   std::function<void(const MarkerRegistry&)> on_saved_;

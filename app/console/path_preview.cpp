@@ -9,7 +9,7 @@ namespace lodestar {
 using nlohmann::ordered_json;
 
 PathPreview::PathPreview(const Site& site)
-    : options_(navigation_options(site.robot)), planner_(site.map.map, options_.planner) {}
+    : options_(navigation_options(site.robot)), planner_(drivable_map(site), options_.planner) {}
 
 ordered_json PathPreview::plan(const Pose2& start, const std::vector<Goal>& goals) const {
   Path whole{{start.position_m}};

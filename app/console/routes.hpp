@@ -1,49 +1,19 @@
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
-#include "app/site/goal.hpp"
+#include "maps/places.hpp"
 
+// The page's document of places and of the routes over them, which are the missions of places.yaml.
 namespace lodestar {
 
-/// A named goal.
-struct Place {
-  std::string name;
-  Goal goal;
-};
+/// {"format": "lodestar-routes", "version", "places": [{"name", "x_m", "y_m", "yaw_deg"}],
+/// "routes": [{"name", "places": [...]}]}; yaw_deg only where a place has one.
+nlohmann::ordered_json routes_json(const Places& places);
 
-/// Places in driving order.
-struct NamedRoute {
-  std::string name;
-  std::vector<std::string> places;
-};
-
-/// routes.yaml of a site folder:
-///
-///     format: lodestar-routes
-///     version: 1
-///     places:
-///       - {name: "desk", x_m: 1.2, y_m: 3.4, yaw_deg: 90}
-///     routes:
-///       - {name: "round", places: ["desk", "door"]}
-struct Routes {
-  std::vector<Place> places;
-  std::vector<NamedRoute> routes;
-};
-
-/// Strict: throws InputError with file and line, also for a duplicate name, an empty route or an unknown
-/// place. JSON of the same shape is read as well. `file` is used in error messages only.
-Routes parse_routes(const std::string& text, const std::filesystem::path& file);
-
-/// Routes of a file; none when the file does not exist.
-Routes load_routes(const std::filesystem::path& file);
-
-/// YAML with one place or route a line.
-std::string routes_text(const Routes& routes);
-
-nlohmann::ordered_json routes_json(const Routes& routes);
+/// The places with those and the missions of a document of the page; all else stays. Throws InputError for an
+/// unusable document, and for one that takes away what an edge needs.
+Places with_routes(Places places, const std::string& document);
 
 }  // namespace lodestar

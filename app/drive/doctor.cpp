@@ -7,6 +7,7 @@
 #include "app/drive/camera_findings.hpp"
 #include "app/drive/camera_setup.hpp"
 #include "app/navigation/navigation_setup.hpp"
+#include "app/placement/places_check.hpp"
 #include "app/placement/registry_check.hpp"
 #include "drivers/can/can_interface.hpp"
 #include "drivers/can/socketcan_bus.hpp"
@@ -39,6 +40,19 @@ Finding look_at_registry(const Site& site) {
   finding.verdict = Verdict::bad;
   if (error != issues.end()) finding.found += "; " + error->words;
   finding.remedy = "see `lodestar markers check`";
+  return finding;
+}
+
+Finding look_at_places(const Site& site) {
+  const Places& places = site.places;
+  Finding finding{.what = "places",
+                  .found = fmt::format("{} places, {} keep-outs, {} speed zones", places.places.size(),
+                                       places.keep_out.size(), places.speed_zones.size())};
+  const std::vector<PlacesIssue> issues = check_places(site);
+  if (issues.empty()) return finding;
+  finding.verdict = issues.front().error ? Verdict::bad : Verdict::doubtful;
+  finding.found += "; " + issues.front().words;
+  finding.remedy = "see `lodestar places check`";
   return finding;
 }
 
@@ -123,7 +137,8 @@ Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& p
 }  // namespace
 
 std::vector<Finding> examine(const Site& site, const BaseConnection& connection) {
-  std::vector<Finding> findings{look_at_map(site), look_at_registry(site), look_at_calibration(site)};
+  std::vector<Finding> findings{look_at_map(site), look_at_registry(site), look_at_places(site),
+                                look_at_calibration(site)};
   const auto add = [&findings](std::vector<Finding> more) {
     std::ranges::move(more, std::back_inserter(findings));
   };

@@ -6,15 +6,22 @@
 namespace lodestar {
 
 BackgroundPlanner::BackgroundPlanner(const OccupancyMap& map, const TripPlannerOptions& options,
-                                     const PlanArrivalOptions& arrival)
-    : robot_(options.planner), arrival_(arrival) {
-  prepared_ = prepared_on(std::make_shared<const ObstacleField>(map));
-  planner_.emplace(prepared_.map, options);
+                                     const PlanArrivalOptions& arrival, std::vector<KeepOut> keep_out)
+    : robot_(options.planner), keep_out_(std::move(keep_out)), arrival_(arrival) {
+  prepared_ = prepared_on(map);
+  planner_.emplace(prepared_.drivable, options);
 }
 
-BackgroundPlanner::Prepared BackgroundPlanner::prepared_on(std::shared_ptr<const ObstacleField> map) const {
-  return {map, robot_.footprint ? std::make_shared<const ForwardClearance>(map, *robot_.footprint)
-                                : std::make_shared<const ForwardClearance>(map, robot_.radius_m)};
+BackgroundPlanner::Prepared BackgroundPlanner::prepared_on(OccupancyMap map) const {
+  Prepared prepared;
+  if (!keep_out_.empty())
+    prepared.drivable = std::make_shared<const ObstacleField>(with_keep_out(map, keep_out_));
+  prepared.map = std::make_shared<const ObstacleField>(std::move(map));
+  if (!prepared.drivable) prepared.drivable = prepared.map;
+  prepared.forward_clearance =
+      robot_.footprint ? std::make_shared<const ForwardClearance>(prepared.drivable, *robot_.footprint)
+                       : std::make_shared<const ForwardClearance>(prepared.drivable, robot_.radius_m);
+  return prepared;
 }
 
 void BackgroundPlanner::use_obstacles(std::vector<Vec2> occupied_in_map) {
@@ -46,9 +53,8 @@ bool BackgroundPlanner::begin_step(std::span<const Vec2> blind_m) {
 void BackgroundPlanner::prepare_next(std::span<const Vec2> blind_m) {
   auto prepare = [this, ground = std::move(*next_), before = prepared_,
                   blind = std::vector<Vec2>(blind_m.begin(), blind_m.end())]() mutable {
-    const Prepared prepared =
-        ground.map ? prepared_on(std::make_shared<const ObstacleField>(std::move(*ground.map))) : before;
-    planner_->use_map(prepared.map, ground.obstacles_in_map, blind);
+    const Prepared prepared = ground.map ? prepared_on(std::move(*ground.map)) : before;
+    planner_->use_map(prepared.drivable, ground.obstacles_in_map, blind);
     return prepared;
   };
   next_.reset();

@@ -11,6 +11,7 @@
 #include "app/navigation/task_thread.hpp"
 #include "app/navigation/trip_planner.hpp"
 #include "control/forward_clearance.hpp"
+#include "maps/zones.hpp"
 
 namespace lodestar {
 
@@ -28,8 +29,9 @@ struct PlanArrivalOptions {
 /// step and taken in a later one. All calls are from one thread.
 class BackgroundPlanner {
  public:
+  /// Plans around the keep-outs on every map.
   BackgroundPlanner(const OccupancyMap& map, const TripPlannerOptions& options,
-                    const PlanArrivalOptions& arrival);
+                    const PlanArrivalOptions& arrival, std::vector<KeepOut> keep_out = {});
 
   /// Call first in each step. Is the path to be reviewed, as all plans from now on are made on another map?
   bool begin_step(std::span<const Vec2> blind_m);
@@ -50,8 +52,9 @@ class BackgroundPlanner {
   /// The answer, once it has arrived. Throws what the planner threw.
   std::optional<TripPlan> take();
 
-  /// On the newest map that is prepared and due.
+  /// On the newest map that is prepared and due; a keep-out bounds the clearance as a wall does.
   [[nodiscard]] const ForwardClearance& forward_clearance() const { return *prepared_.forward_clearance; }
+  /// What there is to see, without the keep-outs.
   [[nodiscard]] const ObstacleField& map() const { return *prepared_.map; }
 
  private:
@@ -62,6 +65,7 @@ class BackgroundPlanner {
   };
   struct Prepared {
     std::shared_ptr<const ObstacleField> map;
+    std::shared_ptr<const ObstacleField> drivable;  ///< with the keep-outs; the same where there are none
     std::shared_ptr<const ForwardClearance> forward_clearance;
   };
   struct AwaitedPlan {
@@ -78,10 +82,11 @@ class BackgroundPlanner {
 
   template <typename Awaited, typename Result>
   [[nodiscard]] bool has_arrived(const Awaited& awaited, const std::future<Result>& result) const;
-  [[nodiscard]] Prepared prepared_on(std::shared_ptr<const ObstacleField> map) const;
+  [[nodiscard]] Prepared prepared_on(OccupancyMap map) const;
   void prepare_next(std::span<const Vec2> blind_m);
 
   GridPlannerOptions robot_;
+  std::vector<KeepOut> keep_out_;
   PlanArrivalOptions arrival_;
   std::uint64_t step_ = 0;
   Prepared prepared_;

@@ -5,6 +5,14 @@
 #include "control/travel_time.hpp"
 
 namespace lodestar {
+namespace {
+
+/// Of the time that was planned, at this share of the full speed.
+Duration time_lost(Duration elapsed, double share_of_speed) {
+  return from_seconds((1.0 - share_of_speed) * seconds(elapsed));
+}
+
+}  // namespace
 
 std::string_view to_string(MissionPhase phase) {
   switch (phase) {
@@ -165,6 +173,8 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
     return MissionEvent::none;
   }
   if (step.is_slowed) state.ends += input.now - last_step_;  // by others, who are not its fault
+  if (step.zone_mps)
+    state.ends += time_lost(input.now - last_step_, *step.zone_mps / drive_options_.max_forward_mps);
   if (input.now > state.ends) return fail(input.now, "no progress: the robot is stuck");
   if (!step.stop) {
     state.stopped_since.reset();

@@ -29,6 +29,10 @@ VarianceFactor variance_factor(const NavigationOptions& options) {
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
+      zone_speed_(world.zones.speed_zones,
+                  options.planner.footprint ? RobotShape(*options.planner.footprint)
+                                            : RobotShape(options.planner.radius_m),
+                  options.drive),
       behaviour_options_{.drive = options.drive,
                          .spin = options.spin,
                          .backtrack = options.backtrack,
@@ -37,7 +41,7 @@ Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options
       localizer_(world.registry, world.camera, world.base_from_camera, options.detector, options.fix,
                  filter_options(options), variance_factor(options)),
       planner_(world.map, {.planner = options.planner, .route = options.route, .drive = options.drive},
-               options.plan_arrival),
+               options.plan_arrival, world.zones.keep_out),
       known_{PoseFilter(filter_options(options)), MarkerTrust(options.trust), CameraWatch(options.camera),
              IntegrityMonitor(options.integrity)},
       behaviour_{Standing{}, Backtrack(options.backtrack)} {
@@ -63,6 +67,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
     if (std::optional<FixAttempt> used = localizer_.see(frame, input.now, known))
       step.fixes.push_back(std::move(*used));
   step.estimate = known.filter.estimate();
+  if (step.estimate) step.zone_mps = zone_speed_.limit_mps(*step.estimate);
 
   // Judge.
   const bool map_changed = planner_.begin_step(behaviour_.places.blind_places_m());
@@ -111,6 +116,8 @@ Facts Navigation::judge(const SensorInput& input, const NavigationStep& step, co
               .may_look_around = may_look_around_,
               .map_changed = map_changed};
   judge_room(facts, known.integrity.is_contradicted());
+  facts.limit = lowered(facts.limit, step.zone_mps);
+  facts.limit_on_backtrack = lowered(facts.limit_on_backtrack, step.zone_mps);
   return facts;
 }
 

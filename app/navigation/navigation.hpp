@@ -9,9 +9,11 @@
 #include "app/navigation/surroundings.hpp"
 #include "app/site/goal.hpp"
 #include "control/behaviour.hpp"
+#include "control/zone_speed.hpp"
 #include "drivers/base/base_driver.hpp"
 #include "maps/frame.hpp"
 #include "maps/scan.hpp"
+#include "maps/zones.hpp"
 #include "planning/route.hpp"
 
 namespace lodestar {
@@ -22,6 +24,7 @@ struct KnownWorld {
   MarkerRegistry registry;
   CameraModel camera;
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  Zones zones;
 };
 
 struct NavigationOptions {
@@ -67,6 +70,7 @@ struct NavigationStep {
   bool backtracks = false;         ///< lost, the robot drives back to where it saw a marker
   BodyVelocity command;
   bool is_slowed = false;                    ///< by the protective field
+  std::optional<double> zone_mps;            ///< what a speed zone allows, where less than the robot can
   std::optional<RouteUpdate> reroute;        ///< the path is replaced, or lost
   std::optional<CameraFault> camera;         ///< present fault of the camera
   double rolled_unseen_m = 0.0;              ///< wheel travel since a frame confirmed the estimate
@@ -87,8 +91,8 @@ class Navigation {
   /// `reroute` has the result: the robot comes to rest and localizes first, and a plan takes some steps.
   void go_to(const Goal& goal);
 
-  /// Sets a new map, in use some steps later. When it blocks the path or makes another clearly faster, the
-  /// robot brakes to rest and replans from there.
+  /// Sets a new map, in use some steps later, with the same zones. When it blocks the path or makes another
+  /// clearly faster, the robot brakes to rest and replans from there.
   void map_changed(OccupancyMap map) { planner_.use_map(std::move(map)); }
 
   /// Goes by these markers from now on: a survey under way knows more of them, and better.
@@ -132,6 +136,7 @@ class Navigation {
                     std::optional<RouteUpdate>& update);
 
   NavigationOptions options_;
+  ZoneSpeed zone_speed_;
   BehaviourOptions behaviour_options_;
   MarkerLocalizer localizer_;
   BackgroundPlanner planner_;

@@ -19,7 +19,12 @@ KnownWorld known_world(const Site& site, const std::string& camera) {
   return {.map = site.map.map,
           .registry = site.registry,
           .camera = site.cameras.at(camera),
-          .base_from_camera = site.robot.base_from_camera};
+          .base_from_camera = site.robot.base_from_camera,
+          .zones = {site.places.keep_out, site.places.speed_zones}};
+}
+
+OccupancyMap drivable_map(const Site& site) {
+  return with_keep_out(site.map.map, site.places.keep_out);
 }
 
 StateOwner state_owner(const Site& site, const std::string& camera) {

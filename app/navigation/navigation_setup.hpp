@@ -10,6 +10,9 @@ namespace lodestar {
 /// The world model of a site's robot, with one of the site's cameras.
 KnownWorld known_world(const Site& site, const std::string& camera);
 
+/// The map of a site with its keep-outs as obstacles: what to plan on.
+OccupancyMap drivable_map(const Site& site);
+
 /// Whom a state learned on this site, with one of its cameras, belongs to.
 StateOwner state_owner(const Site& site, const std::string& camera);
 

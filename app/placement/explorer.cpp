@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/navigation/navigation_setup.hpp"
 #include "planning/collision_checker.hpp"
 #include "planning/margin_planner.hpp"
 
@@ -30,7 +31,7 @@ Explorer::Explorer(const Site& site, const std::string& camera, const PlacedStar
                    const ExplorerOptions& options)
     : options_(options) {
   const double radius_m = outer_radius_m(site.robot);
-  const CollisionChecker roomy(site.map.map, radius_m + options.margin_m);
+  const CollisionChecker roomy(drivable_map(site), radius_m + options.margin_m);
   const CollisionChecker passable(roomy.shared_field(), radius_m + default_margins_m.back());
   const CoverageLanesOptions lanes{.spacing_m = spacing_m(site, site.cameras.at(camera), options.ceiling_m)};
   for (const Lane& lane : coverage_lanes(roomy, passable, start.map_from_base.position_m, lanes))

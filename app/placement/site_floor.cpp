@@ -33,7 +33,7 @@ AllHeadingsView all_headings_view(const Site& site) {
 }
 
 std::vector<Path> usual_routes(const Site& site) {
-  const MarginPlanner planner(site.map.map, navigation_options(site.robot).planner);
+  const MarginPlanner planner(drivable_map(site), navigation_options(site.robot).planner);
   std::vector<Path> routes;
   Vec2 from_m = site.start.position_m;
   for (const Goal& goal : site.goals) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/report/canvas.hpp"
+#include "app/report/places_figure.hpp"
 #include "app/report/run_statistics.hpp"
 #include "app/report/ticks.hpp"
 #include "app/report/visibility_figure.hpp"
@@ -169,9 +170,11 @@ Legend legend_of(Canvas& canvas) {
 
 }  // namespace
 
-cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const MarkerRegistry& registry) {
+cv::Mat draw_experiment(const RunRecord& record, const OccupancyMap& map, const MarkerRegistry& registry,
+                        const Places& places) {
   Canvas canvas = canvas_for(map, figure_width_px);
   canvas.draw_map(map);
+  draw_places(canvas, places);
   draw_axes(canvas);
   draw_markers(canvas, registry);
   std::vector<Path> planned;

@@ -115,9 +115,9 @@ void make_run_folder(const std::filesystem::path& folder) {
 }
 
 void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
-                      const MarkerRegistry& registry) {
+                      const MarkerRegistry& registry, const Places& places) {
   make_run_folder(folder);
-  const std::string picture = png_bytes(draw_experiment(record, map, registry));
+  const std::string picture = png_bytes(draw_experiment(record, map, registry, places));
   write_file_atomically(folder / "summary.json", summary_of(record).dump(2) + "\n");
   write_file_atomically(folder / "map.png", picture);
   write_file_atomically(folder / "estimate.tum", estimate_tum(record));

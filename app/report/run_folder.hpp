@@ -5,6 +5,7 @@
 #include "app/report/run_record.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
+#include "maps/places.hpp"
 
 namespace lodestar {
 
@@ -16,6 +17,6 @@ void make_run_folder(const std::filesystem::path& folder);
 /// kept frames, named by their stamp in seconds (12.350.jpg). The same record gives the same bytes. Throws
 /// InputError when the folder cannot be written; what was written until then is whole.
 void write_run_folder(const std::filesystem::path& folder, const RunRecord& record, const OccupancyMap& map,
-                      const MarkerRegistry& registry);
+                      const MarkerRegistry& registry, const Places& places = {});
 
 }  // namespace lodestar

@@ -1,8 +1,13 @@
 #include "app/site/arguments.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "maps/input_error.hpp"
@@ -26,6 +31,33 @@ std::optional<std::vector<double>> numbers_in(const std::string& text) {
   }
 }
 
+/// How many letters must be put in, taken out or replaced to make one word of the other (Levenshtein 1966),
+/// whether capital or not.
+std::size_t edits_between(const std::string& a, const std::string& b) {
+  const auto small = [](char letter) { return std::tolower(static_cast<unsigned char>(letter)); };
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const std::size_t replaced = diagonal + (small(a[i]) == small(b[k]) ? 0 : 1);
+      diagonal = row[k + 1];
+      row[k + 1] = std::min({replaced, row[k] + 1, row[k + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// Names of places, those spelt most like the given one first.
+std::string nearest_names(const std::string& name, const Places& places) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> names;
+  for (const Place& place : places.places) names.push_back(place.name);
+  std::ranges::stable_sort(names, {}, [&](const std::string& known) { return edits_between(name, known); });
+  names.resize(std::min(names.size(), most));
+  return fmt::format("'{}'", fmt::join(names, "', '"));
+}
+
 }  // namespace
 
 Vec2 parse_point(const std::string& option, const std::string& text) {
@@ -45,6 +77,15 @@ Goal parse_goal(const std::string& option, const std::string& text) {
   Goal goal{{(*numbers)[0], (*numbers)[1]}, std::nullopt};
   if (numbers->size() == 3) goal.heading_rad = wrap_angle(radians((*numbers)[2]));
   return goal;
+}
+
+Goal parse_goal(const std::string& option, const std::string& text, const Places& places) {
+  if (const Place* const place = places.find(text)) return {place->position_m, place->yaw_rad};
+  const bool is_name = !text.empty() && !numbers_in(text);
+  if (!is_name || places.places.empty()) return parse_goal(option, text);
+  throw InputError(
+      fmt::format("{}: found '{}', wanted X,Y or X,Y,DEG in metres and degrees or a place such as {}", option,
+                  text, nearest_names(text, places)));
 }
 
 }  // namespace lodestar

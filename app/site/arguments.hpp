@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/site/goal.hpp"
+#include "maps/places.hpp"
 
 namespace lodestar {
 
@@ -11,5 +12,8 @@ Vec2 parse_point(const std::string& option, const std::string& text);
 
 /// "X,Y[,DEG]": metres, and the final heading in degrees.
 Goal parse_goal(const std::string& option, const std::string& text);
+
+/// The same, or the name of a place. The error names the places that are spelt most like an unknown name.
+Goal parse_goal(const std::string& option, const std::string& text, const Places& places);
 
 }  // namespace lodestar

@@ -13,6 +13,7 @@
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"
 #include "maps/motion.hpp"
+#include "maps/places.hpp"
 #include "maps/scan.hpp"
 
 namespace lodestar {
@@ -101,13 +102,15 @@ struct Site {
   Robot robot;
   Pose2 start;
   std::vector<Goal> goals;
+  Places places;
   std::string camera;  ///< the camera device, or "simulated"; empty when the site names none
   CameraSettings camera_settings;
   std::string scanner;                 ///< where the robot's scanner is; empty when the site names none
   std::optional<BaseConnection> base;  ///< nothing when the site is for simulation only
 };
 
-/// Reads `folder`/site.yaml and all files that it names. Throws InputError with file and line.
+/// Reads `folder`/site.yaml, all files that it names, and places.yaml beside it if there is one. Throws
+/// InputError with file and line.
 Site load_site(const std::filesystem::path& folder);
 
 Robot load_robot(const std::filesystem::path& file);

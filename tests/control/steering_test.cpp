@@ -35,6 +35,7 @@ TEST(Steering, is_slow_ahead_slower_backwards_and_within_what_the_map_leaves) {
   EXPECT_EQ(within(full_ahead, {.forward_mps = 0.1}, options).forward_mps, 0.1);
   EXPECT_EQ(within({-2.0, 0.0}, {.forward_mps = 0.0}, options).forward_mps, -options.max_backward_mps)
       << "away from what is ahead";
+  EXPECT_EQ(within({-2.0, 0.0}, {.backward_mps = 0.05}, options).forward_mps, -0.05) << "in a speed zone";
 }
 
 TEST(Steering, needs_no_pose_but_a_base_that_answers) {

@@ -15,6 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const InputError&) {
   }
   try {
+    const Places places{.places = {{"desk", Vec2::Ones(), std::nullopt}}};
+    if (!parse_goal("--goal", text, places).position_m.allFinite()) __builtin_trap();
+  } catch (const InputError&) {
+  }
+  try {
     if (!parse_point("--start", text).allFinite()) __builtin_trap();
   } catch (const InputError&) {
   }

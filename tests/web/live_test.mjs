@@ -117,7 +117,7 @@ describe('driving', () => {
     await keep('#place-keep', 'by the door');
     await page.evaluate(() => window.lodestar.console.live.goals.set([{ x: 2.2, y: 4.3, yawDeg: 90 }, { x: 1.7, y: 5.6, yawDeg: null }]));
     await keep('#route-keep', '<b>round</b>');
-    const text = readFileSync(join(robot.site, 'routes.yaml'), 'utf8');
+    const text = readFileSync(join(robot.site, 'places.yaml'), 'utf8');
     assert.ok(text.includes('  - {name: "by the door", x_m: 2.2, y_m: 4.3, yaw_deg: 90}\n'), text);
     assert.ok(text.includes('  - {name: "<b>round</b>", places: ["by the door", "<b>round</b> 2"]}\n'), text);
     await page.reload();

@@ -5,8 +5,6 @@
 #include <thread>
 
 #include "app/console/live_json.hpp"
-#include "app/console/routes.hpp"
-#include "maps/input_error.hpp"
 
 // Clients without sockets: their messages, what is queued for them, and the orders to the robot.
 namespace lodestar {
@@ -212,35 +210,6 @@ TEST(LiveLink, gives_the_newest_state_once_and_only_when_wanted) {
   link.publish(standing(2.0, 1.0));
   EXPECT_EQ(link.newest()->estimate->map_from_base.position_m.x(), 2.0);
   EXPECT_FALSE(link.newest().has_value());
-}
-
-TEST(Routes, are_read_strictly_and_written_as_they_are_read) {
-  const std::string text =
-      "format: lodestar-routes\nversion: 1\nplaces:\n  - {name: \"desk: \\\"A\\\"\", x_m: 1.25, y_m: -2, "
-      "yaw_deg: 90}\n"
-      "  - {name: \"door\", x_m: 0.1, y_m: 2}\nroutes:\n  - {name: \"round\", places: [\"door\", \"desk: "
-      "\\\"A\\\"\"]}\n";
-  const Routes routes = parse_routes(text, "routes.yaml");
-  EXPECT_EQ(routes.places.front().name, "desk: \"A\"");
-  EXPECT_EQ(routes_text(routes), text);
-  EXPECT_EQ(routes_text(parse_routes(routes_json(routes).dump(), "sent")), text);
-  EXPECT_EQ(routes_text(parse_routes(routes_text({}), "none")), routes_text({}));
-
-  const auto complaint = [&](const std::string& from, const std::string& to) -> std::string {
-    std::string wrong = text;
-    wrong.replace(wrong.find(from), from.size(), to);
-    try {
-      (void)parse_routes(wrong, "routes.yaml");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_THAT(complaint("[\"door\"", "[\"gate\""), HasSubstr("routes.yaml:7"));
-  EXPECT_THAT(complaint("\"door\", x_m: 0.1", "\"desk: \\\"A\\\"\", x_m: 0.1"), HasSubstr("twice"));
-  EXPECT_THAT(complaint("x_m: 0.1", "x: 0.1"), HasSubstr("routes.yaml:5"));
-  EXPECT_THAT(complaint("y_m: -2", "y_m: .inf"), HasSubstr("routes.yaml:4"));
-  EXPECT_THAT(complaint("lodestar-routes", "lodestar-markers"), HasSubstr("lodestar-routes"));
 }
 
 }  // namespace

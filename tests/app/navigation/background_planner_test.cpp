@@ -148,6 +148,23 @@ TEST(BackgroundPlanner, prepares_only_the_newest_of_many_maps) {
   EXPECT_LT(planner.forward_clearance().ahead_m({{8.0, 3.4}, 0.0}, 3.0), 1.0);
 }
 
+TEST(BackgroundPlanner, obeys_keep_outs_on_every_map_and_shows_none_of_them) {
+  const OccupancyMap map = lab().map.map;
+  const KeepOut across{"across", {{8.8, -1.0}, {9.0, -1.0}, {9.0, 9.0}, {8.8, 9.0}}};
+  BackgroundPlanner planner(map, planner_options(), {}, {across});
+  for (int round = 0; round < 3; ++round) {
+    planner.ask(query_to(far_m));
+    std::optional<TripPlan> plan;
+    steps_until_taken(planner, plan);
+    EXPECT_TRUE(std::holds_alternative<PathNotFound>(plan->answer)) << round;
+    EXPECT_LT(planner.forward_clearance().ahead_m({{8.0, 3.4}, 0.0}, 3.0), 0.6) << round;
+    EXPECT_EQ(planner.map().map().cells, map.cells) << "no beam of a scanner ends at a keep-out";
+    if (round == 0) planner.use_map(map);
+    if (round == 1) planner.use_obstacles({{3.0, 5.0}});
+    for (int step = 0; step < 10; ++step) planner.begin_step({});
+  }
+}
+
 /// A robot in the lab that knows where it is and stands.
 class PlanAwaited : public testing::Test {
  protected:

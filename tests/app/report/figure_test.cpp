@@ -58,6 +58,26 @@ TEST(Figure, shows_the_planned_curve_between_the_circles_of_the_track) {
   EXPECT_EQ(color_at(draw_experiment(record, sample::floor(), {}), {1.75, 1.0}), white);
 }
 
+TEST(Figure, shows_zones_ways_and_places) {
+  const Places places{.places = {{"desk", {2.6, 0.4}, std::nullopt}},
+                      .nodes = {{"N1", {1.2, 0.4}}},
+                      .edges = {{.from = "N1", .to = "desk", .one_way = true, .max_mps = std::nullopt}},
+                      .keep_out = {{"", {{0.8, 1.4}, {1.4, 1.4}, {1.4, 1.9}, {0.8, 1.9}}}},
+                      .speed_zones = {{"", {{2.4, 1.2}, {2.8, 1.2}, {2.8, 1.9}, {2.4, 1.9}}, 0.2}}};
+  const cv::Mat plain = draw_experiment(sample::run(), sample::floor(), {});
+  const cv::Mat picture = draw_experiment(sample::run(), sample::floor(), {}, places);
+  const auto differs = [&](const Vec2& at_m) { return color_at(plain, at_m) != color_at(picture, at_m); };
+  EXPECT_TRUE(is_red(color_at(picture, {1.1, 1.4})));  // outline of the keep-out
+  EXPECT_TRUE(differs({2.4, 1.7}));                    // of the speed zone
+  EXPECT_FALSE(differs({2.45, 1.85}));                 // which is empty
+  EXPECT_TRUE(differs({1.6, 0.4}));                    // the edge
+  EXPECT_FALSE(differs({1.6, 0.42}));
+  int hatched = 0;  // a stroke each 12 pixels of a line across the keep-out, 0.6 m of 450 pixels each
+  for (double x_m = 0.82; x_m < 1.38; x_m += 1.0 / 450.0) hatched += differs({x_m, 1.65}) ? 1 : 0;
+  EXPECT_GT(hatched, 20);
+  EXPECT_LT(hatched, 120);
+}
+
 TEST(Figure, way_there_and_way_back_differ) {
   const auto differing = [](std::size_t goals) {
     RunRecord record = sample::run();

@@ -47,6 +47,30 @@ TEST(Site, names_its_cameras_as_it_likes_and_warns_of_keys_of_other_programs) {
   EXPECT_THROW((void)load_site(site), InputError);
 }
 
+TEST(Site, has_the_places_beside_it_and_no_zone_that_its_motors_cannot_obey) {
+  const TemporaryFolder folder;
+  fs::copy(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", folder / "site", fs::copy_options::recursive);
+  Places places{.places = {{"desk", {2.5, 5.0}, std::nullopt}},
+                .keep_out = {{"", {{9.0, 2.0}, {10.0, 2.0}, {10.0, 3.0}}}},
+                .speed_zones = {{"ward", {{5.0, 0.0}, {8.0, 0.0}, {8.0, 7.5}}, 0.03}}};
+  save_places(places, folder / "site");
+  const Site site = load_site(folder / "site");
+  EXPECT_EQ(places_text(site.places), places_text(places));
+  EXPECT_EQ(site.map.map.at(site.map.map.cell_at({9.8, 2.2})), OccupancyMap::free);
+  const OccupancyMap drivable = drivable_map(site);
+  EXPECT_EQ(drivable.at(drivable.cell_at({9.8, 2.2})), OccupancyMap::occupied);
+
+  std::string robot = folder.read("site/robot.yaml");
+  const std::string piece = "dead_band_mps: 0.02";
+  folder.write("site/robot.yaml", robot.replace(robot.find(piece), piece.size(), "dead_band_mps: 0.05"));
+  try {
+    (void)load_site(folder / "site");
+    FAIL() << "slower than the motors can";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("found max_mps 0.03 of speed zone 'ward'"));
+  }
+}
+
 TEST(Site, of_the_lab_is_the_papers) {
   const Site site = lab();
   EXPECT_EQ(site.map.map.columns, 306);
