@@ -10,7 +10,7 @@ namespace {
 
 using Json = MessageJson;
 
-constexpr const char* base_frame = "base_link";
+constexpr const char* seen_frame = "base_link";
 constexpr double scan_height_m = 0.1;  ///< in the picture only: a scan is planar
 // Foxglove's NumericType.
 constexpr int uint8_type = 1;
@@ -73,7 +73,7 @@ Json scan_message(Stamp stamp, const SeenSurroundings& seen) {
     bytes += static_cast<char>(point.presence);
   }
   return {{"timestamp", time_json(stamp)},
-          {"frame_id", base_frame},
+          {"frame_id", seen_frame},
           {"pose", pose_json(lifted({}, scan_height_m))},
           {"point_stride", bytes_a_point},
           {"fields",
@@ -87,7 +87,7 @@ Json memory_message(Stamp stamp, const SeenSurroundings& seen) {
   const double cell_m = seen.cell_m;
   const Box box = box_around(seen);
   return {{"timestamp", time_json(stamp)},
-          {"frame_id", base_frame},
+          {"frame_id", seen_frame},
           {"pose", pose_json(lifted(seen.base_from_odom * Pose2{box.low_m, 0.0}))},
           {"column_count", box.columns},
           {"cell_size", {{"x", cell_m}, {"y", cell_m}}},
