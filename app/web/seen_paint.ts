@@ -60,5 +60,5 @@ function drawCells(c: CanvasRenderingContext2D, view: View, seen: Seen, cells: n
 /** The protective field in plain words; nothing where the way is clear. */
 export function fieldWords(field: { state: string; why: string | null } | null): string {
   if (field === null || field.state === 'free') return '';
-  return `${field.state === 'stopped' ? 'waits' : 'drives slowly'}: ${field.why}`;
+  return `${field.state === 'stopped' ? 'waits' : 'slowed'}: ${field.why}`;
 }
