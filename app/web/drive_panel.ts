@@ -22,7 +22,7 @@ export class DrivePanel {
   private nameField(): HTMLElement {
     const input = el('input', { id: 'my-name', maxlength: '20', autocomplete: 'name', value: this.live.control.name });
     input.addEventListener('change', () => { this.live.control.name = input.value.trim(); });
-    return el('p', { class: 'row' }, el('label', { for: 'my-name' }, 'Your name, for others '), input);
+    return el('p', { class: 'row' }, el('label', { for: 'my-name' }, 'Shown to others as '), input);
   }
 
   /** `shown`: else only what stands in the head of the page, in every mode. */
