@@ -1,6 +1,7 @@
 #include "app/commands/console_service.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 #include "app/common/log.hpp"
 #include "app/common/low_priority.hpp"
@@ -27,21 +28,33 @@ ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* l
   channels_.push_back(std::make_unique<FoxgloveView>(documents_.site()));
   documents_.on_saved_markers([this](const MarkerRegistry& saved) {
     log_info(fmt::format("{} markers were saved through the console", saved.markers.size()));
-    for (const auto& channel : channels_) channel->take_markers(saved);
+    const std::lock_guard lock(saving_);
+    saved_ = saved;
   });
   server_ = std::make_unique<HttpServer>(
-      HttpServerOptions{.access = options.access, .takes_long = DocumentApi::takes_long},
+      HttpServerOptions{.access = options.access,
+                        .takes_long = DocumentApi::takes_long,
+                        .uses_files = DocumentApi::uses_files},
       [this](const HttpRequest& request) { return documents_.answer(request); }, protocols_of(channels_));
 }
 
 void ConsoleService::serve_a_turn() {
   attempt([this] { server_->run_for(turn); });
+  tell_of_saved_markers();
   const std::optional<RobotState> fresh = link_ != nullptr ? link_->newest() : std::nullopt;
   const Stamp now = monotonic_now();
   for (const auto& channel : channels_) attempt([&] { channel->pump(now, fresh ? &*fresh : nullptr); });
   const bool watched =
       std::ranges::any_of(channels_, [](const auto& channel) { return channel->is_watched(); });
   if (watched && link_ != nullptr) link_->want_state();
+}
+
+void ConsoleService::tell_of_saved_markers() {
+  std::unique_lock lock(saving_);
+  const std::optional<MarkerRegistry> saved = std::exchange(saved_, std::nullopt);
+  lock.unlock();
+  if (!saved) return;
+  for (const auto& channel : channels_) attempt([&] { channel->take_markers(*saved); });
 }
 
 void ConsoleService::attempt(const std::function<void()>& step) {

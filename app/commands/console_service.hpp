@@ -3,6 +3,8 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -34,11 +36,14 @@ class ConsoleService {
 
  private:
   void attempt(const std::function<void()>& step);
+  void tell_of_saved_markers();
 
   DocumentApi documents_;
   LiveLink* link_;
   std::vector<std::unique_ptr<LiveChannel>>
-      channels_;  ///< declared before the server, whose sessions refer to them
+      channels_;       ///< declared before the server, whose sessions refer to them
+  std::mutex saving_;  ///< of what follows: markers are saved on another thread of the server
+  std::optional<MarkerRegistry> saved_;
   std::unique_ptr<HttpServer> server_;
   std::string last_error_;  ///< logged once, not in every turn
 };

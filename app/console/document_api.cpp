@@ -155,6 +155,10 @@ bool DocumentApi::takes_long(const HttpRequest& head) {
   return head.method == "POST" && head.target.starts_with("/api/markers/");
 }
 
+bool DocumentApi::uses_files(const HttpRequest& head) {
+  return head.target.starts_with("/api/") && head.target != "/api/session" && !takes_long(head);
+}
+
 HttpResponse DocumentApi::site_document() const {
   ordered_json goals = ordered_json::array();
   for (const Goal& goal : site_.goals) {

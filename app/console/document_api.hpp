@@ -43,7 +43,11 @@ class DocumentApi {
   /// beside other requests: it reads only what does not change.
   [[nodiscard]] static bool takes_long(const HttpRequest& head);
 
-  /// Called with the markers each time a client has saved them.
+  /// Documents are read, written and listed, which takes seconds for long runs and thousands of markers. One
+  /// at a time may be answered, beside a draft and beside all other requests.
+  [[nodiscard]] static bool uses_files(const HttpRequest& head);
+
+  /// Called with the markers each time a client has saved them, from the thread that answers.
   void on_saved_markers(std::function<void(const MarkerRegistry&)> tell) { on_saved_ = std::move(tell); }
 
   [[nodiscard]] const Site& site() const { return site_; }

@@ -22,6 +22,15 @@ class Lease {
   /// Renews it. False, and nothing changes, for a client that does not have it (any more).
   bool hold(int client, Stamp now) { return holder(now) == client && take(client, now); }
 
+  /// Hands it over to another client without a pause. False, and nothing changes, where `from` does not have
+  /// it.
+  bool pass(int from, int to, Stamp now) {
+    if (holder(now) != from) return false;
+    holder_ = to;
+    until_ = now + lasts_;
+    return true;
+  }
+
   /// Gives it back, if the client has it.
   void release(int client) {
     if (holder_ == client) holder_.reset();

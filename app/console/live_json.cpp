@@ -57,7 +57,55 @@ Goal goal_from_json(const json& goal) {
   return read;
 }
 
+/// What the protective field does, and why; null without a scanner.
+ordered_json field_json(const RobotState& state) {
+  if (!state.seen) return nullptr;
+  const bool stands = state.stop && waits_for_others(*state.stop);
+  const std::optional<StopReason> why = stands ? state.stop : state.slowed_by;
+  return {{"state", stands ? "stopped"
+                    : why  ? "slowed"
+                           : "free"},
+          {"why", why ? ordered_json(to_string(*why)) : ordered_json(nullptr)}};
+}
+
+const char* list_of(Presence presence) {
+  switch (presence) {
+    case Presence::mapped:
+      return "mapped";
+    case Presence::standing:
+      return "standing";
+    case Presence::person:
+      return "person";
+    case Presence::hidden:
+      return "hidden";
+  }
+  return "person";
+}
+
+/// To a centimetre: the scanner knows no better, and there are hundreds.
+void add_point(ordered_json& list, const Vec2& point_m) {
+  list.push_back(rounded(point_m.x(), 1e2));
+  list.push_back(rounded(point_m.y(), 1e2));
+}
+
 }  // namespace
+
+ordered_json seen_json(const RobotState& state) {
+  ordered_json out{{"type", "seen"}};
+  for (const char* const name : {"mapped", "standing", "person", "hidden", "cells_standing", "cells_moving"})
+    out[name] = ordered_json::array();
+  if (!state.seen || !state.estimate) return out;
+  const SeenSurroundings& seen = *state.seen;
+  const Pose2& map_from_base = state.estimate->map_from_base;
+  const Pose2 map_from_odom = map_from_base * seen.base_from_odom;
+  out["cell_m"] = seen.cell_m;
+  out["cell_yaw_deg"] = short_number(degrees(map_from_odom.yaw_rad));
+  for (const SeenPoint& point : seen.points)
+    add_point(out[list_of(point.presence)], map_from_base * point.point_in_base);
+  for (const RememberedCell& cell : seen.cells)
+    add_point(out[cell.stands ? "cells_standing" : "cells_moving"], map_from_odom * cell.center_in_odom);
+  return out;
+}
 
 ordered_json state_json(const RobotState& state) {
   ordered_json out{{"type", "state"},
@@ -71,6 +119,7 @@ ordered_json state_json(const RobotState& state) {
                    {"goals", ordered_json::array()},
                    {"current", state.current},
                    {"stop", state.stop ? ordered_json(to_string(*state.stop)) : ordered_json(nullptr)},
+                   {"field", field_json(state)},
                    {"base", to_string(state.base)},
                    {"base_ready", state.base == BaseState::ready},
                    {"fault", state.fault ? ordered_json(in_words(*state.fault, state.fault_details))

@@ -11,6 +11,11 @@ namespace lodestar {
 nlohmann::ordered_json state_json(const RobotState& state);
 
 /// [[x_m, y_m], ...]
+/// What the scanner sees, in the map where the pose is known: {"type", "cell_m", "cell_yaw_deg", "mapped",
+/// "standing", "person", "hidden", "cells_standing", "cells_moving"}, each of the last six a list of
+/// x, y, x, y, ... in metres.
+nlohmann::ordered_json seen_json(const RobotState& state);
+
 nlohmann::ordered_json points_json(const Path& path);
 
 /// Reads [[x_m, y_m], [x_m, y_m, yaw_deg], ...]. Throws InputError for anything else, for an empty list and

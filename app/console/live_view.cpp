@@ -16,10 +16,27 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t most_previews = 8;  ///< that wait; later ones wait in their clients
 
-enum Slot : int { state_slot, path_slot, picture_slot, preview_slot, survey_slot };
+enum Slot : int { state_slot, path_slot, picture_slot, preview_slot, survey_slot, seen_slot };
 
 SocketMessage message_of(const ordered_json& content) {
   return text_message(content.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+/// "client 2", or "client 2 (Ada)".
+std::string in_words(int client, const std::string& name) {
+  return name.empty() ? fmt::format("client {}", client) : fmt::format("client {} ({})", client, name);
+}
+
+/// The words of a client about itself, which others read.
+std::string name_from_json(const json& message) {
+  constexpr std::size_t longest = 40;
+  const auto name = message.at("name").get<std::string>();
+  if (name.size() > longest) throw InputError("found a long name, wanted at most 40 bytes");
+  return name;
+}
+
+bool is_for_once(const std::string& type) {
+  return type == "place" || type == "clear_fault";
 }
 
 }  // namespace
@@ -52,6 +69,7 @@ LiveView::LiveView(const Site& site, LiveLink* link, const LiveSurvey* survey, c
       preview_(site),
       camera_(site.registry),
       lease_(options.lease),
+      session_(monotonic_now().time_since_epoch().count()),
       planner_(most_previews) {}
 
 std::vector<SocketProtocol> LiveView::protocols() {
@@ -68,6 +86,7 @@ void LiveView::add_client(Client& client) {
                                    {"client", client.number},
                                    {"role", to_string(client.role)},
                                    {"robot", link_ != nullptr},
+                                   {"session", session_},
                                    {"survey", survey_ != nullptr},
                                    {"lease_s", seconds(options_.lease)}}));
   if (path_message_.bytes) client.outbox->offer(path_slot, path_message_);
@@ -100,30 +119,84 @@ std::optional<std::string> LiveView::handle(Client& client, const std::string& t
     client.wants_camera = message.at("on").get<bool>();
     return std::nullopt;
   }
-  if (client.role < Role::drive) return "this needs the token to drive";
-  if (type == "take") {
-    if (lease_.take(client.number, now)) return std::nullopt;
-    return fmt::format("client {} has control", *lease_.holder(now));
-  }
-  if (type == "release") {
-    lease_.release(client.number);
-    return std::nullopt;
-  }
   try {
+    if (type == "name") {
+      client.name = name_from_json(message);
+      return std::nullopt;
+    }
+    if (client.role < Role::drive) return "this needs the token to drive";
     if (type == "preview") {
       client.preview = goals_from_json(message.at("goals"));
       return std::nullopt;
     }
-    if (!lease_.hold(client.number, now)) return "this client does not have control: take it first";
-    return give_order(client, type, message);
+    return handle_control(client, type, message, now);
   } catch (const InputError& error) {
     return error.what();
   }
 }
 
+std::optional<std::string> LiveView::handle_control(Client& client, const std::string& type,
+                                                    const json& message, Stamp now) {
+  const bool is_free = lease_.holder(now).value_or(client.number) == client.number;
+  if (type == "take") {
+    if (lease_.take(client.number, now)) return std::nullopt;
+    return driver_in_words(now) + " has control";
+  }
+  if (type == "release") {
+    lease_.release(client.number);
+    return std::nullopt;
+  }
+  if (type == "ask") return pass_request(client, now);
+  if (type == "hand_over" || type == "keep")
+    return answer_request(client, type, message.at("client").get<int>(), now);
+  if (is_for_once(type) && !is_free) return driver_in_words(now) + " has control";
+  if (!is_for_once(type) && !lease_.hold(client.number, now))
+    return "this client does not have control: take it first";
+  return give_order(client, type, message);
+}
+
+LiveView::Client* LiveView::find(int number) const {
+  const auto found = std::ranges::find(clients_, number, &Client::number);
+  return found == clients_.end() ? nullptr : *found;
+}
+
+std::string LiveView::driver_in_words(Stamp now) const {
+  const std::optional<int> driver = lease_.holder(now);
+  const Client* const client = driver ? find(*driver) : nullptr;
+  return client == nullptr ? "nobody" : in_words(client->number, client->name);
+}
+
+/// Asks the driver on behalf of a client. A free lease is the client's at once.
+std::optional<std::string> LiveView::pass_request(const Client& client, Stamp now) {
+  if (lease_.take(client.number, now)) {
+    client.outbox->queue(message_of({{"type", "control"}}));
+    return std::nullopt;
+  }
+  if (const Client* const driver = find(*lease_.holder(now)))
+    driver->outbox->queue(message_of({{"type", "asked"}, {"client", client.number}, {"name", client.name}}));
+  return std::nullopt;
+}
+
+std::optional<std::string> LiveView::answer_request(const Client& driver, const std::string& type, int asker,
+                                                    Stamp now) {
+  if (lease_.holder(now) != driver.number) return "this client does not have control";
+  const Client* const other = find(asker);
+  if (other == nullptr || other->role < Role::drive || other == &driver)
+    return "the client that asked has left";
+  if (type == "keep") {
+    other->outbox->queue(message_of({{"type", "refused"},
+                                     {"what", "ask"},
+                                     {"why", in_words(driver.number, driver.name) + " keeps control"}}));
+    return std::nullopt;
+  }
+  (void)lease_.pass(driver.number, other->number, now);
+  other->outbox->queue(message_of({{"type", "control"}}));
+  return std::nullopt;
+}
+
 std::optional<std::string> LiveView::give_order(const Client& client, const std::string& type,
                                                 const json& message) {
-  Order order{.by = fmt::format("client {}", client.number), .what = PauseOrder{}};
+  Order order{.by = in_words(client.number, client.name), .what = PauseOrder{}};
   if (type == "hold") return std::nullopt;
   if (type == "go") {
     order.what = GoOrder{goals_from_json(message.at("goals"))};
@@ -157,9 +230,20 @@ void LiveView::show(const RobotState& state, Stamp now) {
   ordered_json content = state_json(state);
   const std::optional<int> driver = lease_.holder(now);
   content["driver"] = driver ? ordered_json(*driver) : ordered_json(nullptr);
+  const Client* const driving = driver ? find(*driver) : nullptr;
+  content["driver_name"] = driving != nullptr ? driving->name : "";
   content["viewers"] = clients_.size();
   state_ = message_of(content);
   for (const Client* const client : clients_) client->outbox->offer(state_slot, state_);
+  show_seen(state, now);
+}
+
+/// Less often than the rest: hundreds of points, and no scanner turns 20 times a second.
+void LiveView::show_seen(const RobotState& state, Stamp now) {
+  if (!state.seen || now - last_seen_ < options_.seen_period) return;
+  last_seen_ = now;
+  const SocketMessage message = message_of(seen_json(state));
+  for (const Client* const client : clients_) client->outbox->offer(seen_slot, message);
 }
 
 void LiveView::show_path(const std::shared_ptr<const Path>& path) {

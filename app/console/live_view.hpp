@@ -19,20 +19,26 @@ namespace lodestar {
 struct LiveViewOptions {
   Duration lease = std::chrono::seconds(1);  ///< the robot pauses when the driver is silent for longer
   Duration camera_period = std::chrono::milliseconds(200);  ///< of the pictures sent
+  Duration seen_period = std::chrono::milliseconds(200);    ///< of what the scanner sees
 };
 
 /// The page's own subprotocol, `lodestar.v1`: JSON both ways, pictures as binary messages (see
 /// CameraPicture).
 ///
-/// Server to client: `hello` first (role, client number, whether a robot is connected), then `state`, `path`
-/// when it changes, `survey` (survey_json.hpp) when there is a new estimate, `preview`, and `refused` with
-/// the reason in words. Client to server: {"type": ...}
+/// Server to client: `hello` first (role, client number, session, whether a robot is connected), then
+/// `state`, `path` when it changes, `seen` by the scanner, `survey` (survey_json.hpp) when there is a new
+/// estimate, `preview`, `asked` {client, name} when another asks the driver for control, `control` when it
+/// was handed over to this client, and `refused` with the reason in words. Client to server: {"type": ...}
 ///   stop                                  from anyone who may view
 ///   camera   {on}                         pictures on or off
+///   name     {name}                       what others are to call this client
 ///   preview  {goals}                      plans without driving; needs the role drive, as do all below
 ///   take, hold, release                   the control lease: one driver at a time, who must keep renewing it
-///   go {goals}, pause, resume, clear_fault, place {pose}, steer {forward_mps, turn_degps}      only from the
-///   client that has the lease
+///   ask                                   asks the driver for it
+///   hand_over {client}, keep {client}     the driver's answer
+///   clear_fault, place {pose}             while no other client has the lease; they take none
+///   go {goals}, pause, resume, steer {forward_mps, turn_degps}        only from the client that has the
+///   lease
 class LiveView : public LiveChannel {
  public:
   /// `link`: null when no robot is connected. `survey`: the one under way; null when there is none. All must
@@ -50,6 +56,7 @@ class LiveView : public LiveChannel {
   class Session;
   struct Client {
     int number = 0;
+    std::string name;  ///< as its user gave it; may be empty
     Role role = Role::view;
     Outbox* outbox = nullptr;
     bool wants_camera = false;
@@ -63,11 +70,19 @@ class LiveView : public LiveChannel {
   /// The reason of a refusal, in words; nothing when it was done.
   std::optional<std::string> handle(Client& client, const std::string& type, const nlohmann::json& message,
                                     Stamp now);
+  std::optional<std::string> handle_control(Client& client, const std::string& type,
+                                            const nlohmann::json& message, Stamp now);
+  std::optional<std::string> pass_request(const Client& client, Stamp now);
+  std::optional<std::string> answer_request(const Client& driver, const std::string& type, int asker,
+                                            Stamp now);
+  [[nodiscard]] Client* find(int number) const;
+  [[nodiscard]] std::string driver_in_words(Stamp now) const;
   std::optional<std::string> give_order(const Client& client, const std::string& type,
                                         const nlohmann::json& message);
   void show(const RobotState& state, Stamp now);
   void show_path(const std::shared_ptr<const Path>& path);
   void show_camera(Stamp now);
+  void show_seen(const RobotState& state, Stamp now);
   void show_survey();
   void begin_previews();
   void show_previews();
@@ -86,7 +101,9 @@ class LiveView : public LiveChannel {
   std::optional<PoseEstimate> estimate_;
   std::optional<Frame> frame_;  ///< not shown yet
   Stamp last_picture_;
-  SocketMessage state_;  ///< the newest, for clients that connect later
+  Stamp last_seen_;
+  std::int64_t session_;  ///< tells this program's run from others
+  SocketMessage state_;   ///< the newest, for clients that connect later
   std::shared_ptr<const Path> path_;
   SocketMessage path_message_;
   std::uint64_t survey_number_ = 0;

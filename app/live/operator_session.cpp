@@ -109,6 +109,7 @@ void OperatorSession::publish(const SensorInput& input, const MissionStep& step,
   RobotState state{.now = input.now,
                    .estimate = navigation.estimate,
                    .stop = navigation.stop,
+                   .slowed_by = navigation.slowed_by,
                    .commanded = navigation.command,
                    .measured = input.base.measured,
                    .phase = mission.phase(),
@@ -123,6 +124,8 @@ void OperatorSession::publish(const SensorInput& input, const MissionStep& step,
                    .error_m = error_m ? error_m() : std::nullopt,
                    .events = {events_.begin(), events_.end()}};
   if (input.base.system && input.base.system->battery_v > 0.0) state.battery_v = input.base.system->battery_v;
+  if (auto seen = mission.seen(input.now))
+    state.seen = std::make_shared<const SeenSurroundings>(std::move(*seen));
   if (last_fix_) {
     state.markers = last_fix_->fix.ids;
     state.confidence = last_fix_->fix.confidence;

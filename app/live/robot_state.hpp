@@ -26,7 +26,8 @@ struct DriveEvent {
 struct RobotState {
   Stamp now;
   std::optional<PoseEstimate> estimate;
-  std::optional<StopReason> stop;  ///< why it may not move, if so
+  std::optional<StopReason> stop;       ///< why it may not move, if so
+  std::optional<StopReason> slowed_by;  ///< why the protective field allows less than is wanted
   BodyVelocity commanded;
   std::optional<BodyVelocity> measured;
   MissionPhase phase = MissionPhase::idle;
@@ -43,6 +44,8 @@ struct RobotState {
   std::optional<Stamp> last_seen;  ///< when that frame was taken
   std::vector<DistrustedMarker> distrusted;
   std::optional<Frame> frame;  ///< the newest
+
+  std::shared_ptr<const SeenSurroundings> seen;  ///< by the scanner; null without one
 
   std::optional<double> error_m;   ///< true position error; in simulation only
   std::vector<DriveEvent> events;  ///< the latest, oldest first

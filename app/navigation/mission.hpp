@@ -74,6 +74,8 @@ class Mission {
   [[nodiscard]] const Path& path() const { return path_; }
   /// Ideal driving time of that path, without stops, speed limits and settling.
   [[nodiscard]] double ideal_s() const { return ideal_s_; }
+  /// What the scanner shows around the robot, as Navigation::seen() does.
+  [[nodiscard]] std::optional<SeenSurroundings> seen(Stamp now) const { return navigation_.seen(now); }
   /// What the robot has learned so far, to begin with after a restart.
   [[nodiscard]] std::optional<LearnedState> learned() const { return navigation_.learned(); }
   /// Why the last goal failed, as text.

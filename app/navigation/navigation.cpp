@@ -158,7 +158,12 @@ void Navigation::protect(const SensorInput& input, Duration elapsed, Moved& afte
   after.behaviour = after_sending(std::move(after.behaviour), allowed.velocity, elapsed);
   step.is_slowed = allowed.velocity.forward_mps != after.command.forward_mps ||
                    allowed.velocity.turn_radps != after.command.turn_radps;
+  step.slowed_by = allowed.slowed_by;
   if (!step.stop) step.stop = allowed.reason;
+}
+
+std::optional<SeenSurroundings> Navigation::seen(Stamp now) const {
+  return surroundings_ ? surroundings_->seen(now, {planner_.map(), estimate_}) : std::nullopt;
 }
 
 /// Sets the speed limits, with the safety margin for the pose uncertainty kept; zero where the clearance is

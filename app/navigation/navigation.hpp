@@ -71,6 +71,7 @@ struct NavigationStep {
   BodyVelocity command;
   bool is_slowed = false;                    ///< by the protective field
   std::optional<double> zone_mps;            ///< what a speed zone allows, where less than the robot can
+  std::optional<StopReason> slowed_by;       ///< why the field allows less than is wanted
   std::optional<RouteUpdate> reroute;        ///< the path is replaced, or lost
   std::optional<CameraFault> camera;         ///< present fault of the camera
   double rolled_unseen_m = 0.0;              ///< wheel travel since a frame confirmed the estimate
@@ -121,6 +122,9 @@ class Navigation {
 
   /// What has been learned so far, in this drive and those before it. Nothing while the pose is unknown.
   [[nodiscard]] std::optional<LearnedState> learned() const;
+
+  /// What the scanner shows around the robot; nothing without one, or before its first scan.
+  [[nodiscard]] std::optional<SeenSurroundings> seen(Stamp now) const;
 
   [[nodiscard]] bool arrived() const { return std::holds_alternative<Arrived>(behaviour_.state); }
 

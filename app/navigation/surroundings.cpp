@@ -178,9 +178,33 @@ Surroundings::Allowed Surroundings::allowed(Stamp now, const std::optional<BodyV
           ? field_.limit(field_scan_, now, *odom_from_base, measured.value_or(track_.velocity()), wanted)
           : FieldLimit{.share = 0.0, .reason = FieldReason::no_scan, .nearest = std::nullopt};
   const double outline_mps = release_.released_mps(now, allowed_mps(limit, wanted, field_.shape()));
-  Allowed allowed{slowed_to(outline_mps, wanted, field_.shape()), std::nullopt};
+  Allowed allowed{slowed_to(outline_mps, wanted, field_.shape()), std::nullopt, std::nullopt};
   if (limit.reason && moves(wanted) && !moves(allowed.velocity)) allowed.reason = stop_for(*limit.reason);
+  if (limit.reason && limit.share < 1.0) allowed.slowed_by = stop_for(*limit.reason);
   return allowed;
+}
+
+std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& mapped) const {
+  const std::optional<Pose2> odom_from_base = track_.pose_at(now);
+  if (!field_scan_ || !odom_from_base) return std::nullopt;
+  SeenSurroundings seen{.stamp = field_scan_->newest,
+                        .points = {},
+                        .base_from_odom = inverse(*odom_from_base),
+                        .cell_m = options_.memory.cell_m,
+                        .cells = {}};
+  if (now - seen.stamp <= options_.field.max_scan_age) {
+    for (const FieldPoint& point : field_scan_->points)
+      seen.points.push_back({seen.base_from_odom * point.point_in_odom, point.presence});
+  }
+  const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
+  std::optional<MapExplanation> explanation;
+  if (map_from_odom) explanation.emplace(mapped.map, mapped.estimate->covariance);
+  for (const Vec2& center_in_odom : memory_.occupied_m(now)) {
+    const double range_m = (center_in_odom - odom_from_base->position_m).norm();
+    if (explanation && explanation->explains(*map_from_odom * center_in_odom, range_m)) continue;
+    seen.cells.push_back({center_in_odom, memory_.stands_at(center_in_odom, now)});
+  }
+  return seen;
 }
 
 std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) const {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "app/navigation/seen_surroundings.hpp"
 #include "control/field_release.hpp"
 #include "control/hidden_corners.hpp"
 #include "control/protective_field.hpp"
@@ -59,7 +60,8 @@ class Surroundings {
 
   struct Allowed {
     BodyVelocity velocity;
-    std::optional<StopReason> reason;  ///< why the robot must stand, where it wants to move
+    std::optional<StopReason> reason;     ///< why the robot must stand, where it wants to move
+    std::optional<StopReason> slowed_by;  ///< why it may not move as fast as it wants to
   };
   /// What may be sent of the wanted velocity; once a control step.
   Allowed allowed(Stamp now, const std::optional<BodyVelocity>& measured, const BodyVelocity& wanted);
@@ -71,6 +73,9 @@ class Surroundings {
   /// second; nothing where the way is clear.
   std::optional<std::vector<Vec2>> obstacles_in_the_way(Stamp now, const MappedPose& mapped,
                                                         const Path& path);
+
+  /// What the scanner shows, for people to look at; nothing before the first scan.
+  [[nodiscard]] std::optional<SeenSurroundings> seen(Stamp now, const MappedPose& mapped) const;
 
   /// After the robot has been told where it stands.
   void pose_was_set() { contradiction_.reset(); }

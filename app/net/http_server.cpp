@@ -119,7 +119,8 @@ class HttpServer::Impl {
         handler_(std::move(handler)),
         protocols_(std::move(protocols)),
         acceptor_(context_),
-        worker_(options.most_waiting) {
+        drafts_(options.most_waiting),
+        files_(static_cast<std::size_t>(options.max_connections)) {
     AccessRules& access = options_.access;
     if (!is_loopback(access.bind) && !access.asks_for_token()) {
       throw InputError("--bind: found '" + access.bind + "' without a token, wanted --token or 127.0.0.1");
@@ -182,6 +183,7 @@ class HttpServer::Impl {
     HttpRequest request = head_of(parser);
     std::optional<HttpResponse> response = rejection(request, options_.access);
     const bool takes_long = !request.wants_socket && options_.takes_long && options_.takes_long(request);
+    const bool uses_files = !takes_long && options_.uses_files && options_.uses_files(request);
     if (!response && takes_long && role_of(request, options_.access) < Role::edit) {
       response = refusal(403, "found a token to view, wanted one to edit");
     }
@@ -198,8 +200,9 @@ class HttpServer::Impl {
       co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
       if (error) co_return co_await complain(stream, error);
       request.body = std::move(parser.get().body());
-      if (takes_long) {
-        response = co_await long_answer(stream.socket(), std::move(request));
+      if (takes_long || uses_files) {
+        Worker& worker = takes_long ? drafts_ : files_;
+        response = co_await long_answer(worker, stream.socket(), std::move(request));
       } else {
         response = answer(request);
       }
@@ -255,10 +258,10 @@ class HttpServer::Impl {
   }
 
   /// The worker's answer. Clients after this one are served meanwhile, this one's next requests are not.
-  asio::awaitable<HttpResponse> long_answer(tcp::socket& socket, HttpRequest request) {
+  asio::awaitable<HttpResponse> long_answer(Worker& worker, tcp::socket& socket, HttpRequest request) {
     const auto answered = std::make_shared<LongAnswer>(context_.get_executor());
-    const std::optional<std::stop_source> cancel = worker_.give(
-        [this, answered, request = std::move(request)](const std::stop_token& cancelled) mutable {
+    const std::optional<std::stop_source> cancel =
+        worker.give([this, answered, request = std::move(request)](const std::stop_token& cancelled) mutable {
           request.cancelled = cancelled;
           if (!cancelled.stop_requested()) answered->response = answer(request);
           asio::post(context_, [answered] {
@@ -301,7 +304,8 @@ class HttpServer::Impl {
   tcp::acceptor acceptor_;
   int connections_ = 0;
   int sockets_ = 0;
-  Worker worker_;  // ends before the context that it posts to
+  Worker drafts_;  // both end before the context that they post to
+  Worker files_;
 };
 
 HttpServer::HttpServer(const HttpServerOptions& options, Handler handler,

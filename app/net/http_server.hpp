@@ -23,13 +23,17 @@ struct HttpServerOptions {
   /// them one after the other, so that a stop over a WebSocket never waits for them.
   std::function<bool(const HttpRequest& head)> takes_long;
   std::size_t most_waiting = 8;  ///< requests that take long, beside the one under way; 503 beyond that
+  /// Which read or write files, by their header: another thread handles these, for all roles, so that neither
+  /// the sockets nor who only looks wait for a disk or for somebody's draft.
+  std::function<bool(const HttpRequest& head)> uses_files;
 };
 
 /// An HTTP/1.1 and WebSocket server on one thread, the caller's. It enforces the access rules and the limits
 /// before the handler or a session sees anything; a handler that throws gives 500 with its message. A
 /// WebSocket request, on any target, gets the subprotocol that it offers. Boost.Beast stays in the .cpp.
-/// The handler of a request that takes long runs beside the server's thread: it may read only what does not
-/// change, and should end early when the request is cancelled, as it is when its client has left.
+/// The handlers of requests that take long and of those that use files run beside the server's thread, at
+/// most one of each kind at a time: they may share only what does not change, and should end early when the
+/// request is cancelled, as it is when its client has left.
 class HttpServer {
  public:
   using Handler = std::function<HttpResponse(const HttpRequest&)>;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "app/placement/plausibility.hpp"
 #include "maps/distance_field.hpp"
 
 namespace lodestar {
@@ -247,7 +248,7 @@ std::vector<RegistryIssue> find_blind_stretches(const MarkerRegistry& registry, 
 std::vector<RegistryIssue> check_coverage(const MarkerRegistry& registry, const CoveredFloor& floor,
                                           const std::stop_token& cancelled) {
   std::vector<RegistryIssue> issues = check_registry(registry, floor.map);
-  for (auto* find : {find_blind_stretches, find_gaps}) {
+  for (auto* find : {find_implausible, find_blind_stretches, find_gaps}) {
     if (cancelled.stop_requested()) break;
     for (RegistryIssue& issue : find(registry, floor)) issues.push_back(std::move(issue));
   }

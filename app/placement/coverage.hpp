@@ -43,8 +43,8 @@ std::vector<RegistryIssue> find_gaps(const MarkerRegistry& registry, const Cover
 /// alone (1 m), the longest first. A stretch driven in both directions counts once.
 std::vector<RegistryIssue> find_blind_stretches(const MarkerRegistry& registry, const CoveredFloor& floor);
 
-/// All errors and warnings about the markers of a site: those of check_registry, blind stretches and gaps.
-/// When cancelled it ends after the step at hand, with what it has.
+/// All errors and warnings about the markers of a site: those of check_registry, implausible numbers, blind
+/// stretches and gaps. When cancelled it ends after the step at hand, with what it has.
 std::vector<RegistryIssue> check_coverage(const MarkerRegistry& registry, const CoveredFloor& floor,
                                           const std::stop_token& cancelled = {});
 

@@ -157,6 +157,10 @@ std::string_view to_string(IssueKind kind) {
       return "similar-ids";
     case IssueKind::mirror_images:
       return "mirror-images";
+    case IssueKind::implausible_height:
+      return "implausible-height";
+    case IssueKind::inside_structure:
+      return "inside-structure";
     case IssueKind::blind_route:
       return "blind-route";
     case IssueKind::gap:

@@ -17,6 +17,8 @@ enum class IssueKind {
   outside_map,
   similar_ids,
   mirror_images,
+  implausible_height,  ///< this one and the next: see app/placement/plausibility.hpp
+  inside_structure,
   blind_route,  ///< this one and the next: see app/placement/coverage.hpp
   gap
 };

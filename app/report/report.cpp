@@ -23,6 +23,19 @@ std::string goal_row(const GoalRecord& goal, const std::optional<ArrivalScore>& 
       seconds(goal.travel_time), error, heading);
 }
 
+std::string waits_table(const std::vector<Wait>& waits) {
+  if (waits.empty()) return {};
+  std::string html =
+      "<h2>Where it waited, and why</h2>\n<table><tr><th>Why</th><th>From</th><th>For</th><th>At "
+      "(m)</th></tr>\n";
+  for (const Wait& wait : waits) {
+    html += fmt::format("<tr><td>{}</td><td>{:.1f} s</td><td>{:.1f} s</td><td>{:.2f}, {:.2f}</td></tr>\n",
+                        escaped(wait.why), seconds(wait.from), seconds(wait.to - wait.from),
+                        wait.position_m.x(), wait.position_m.y());
+  }
+  return html + "</table>\n";
+}
+
 std::string faults_table(const std::vector<FaultEvent>& faults) {
   if (faults.empty()) return {};
   std::string html =
@@ -133,7 +146,7 @@ std::string report_html(const RunRecord& record, const std::string& map_png) {
       "<h2>Goals</h2>\n<table><tr><th>Goal (m)</th><th>End</th><th>Planned</th><th>Time</th><th>Off "
       "by</th><th>Heading off by</th></tr>\n";
   for (std::size_t i = 0; i < record.goals.size(); ++i) html += goal_row(record.goals[i], record.score_of(i));
-  html += "</table>\n" + faults_table(record.faults);
+  html += "</table>\n" + waits_table(waits_of(record)) + faults_table(record.faults);
   html +=
       "<h2>Errors against the truth</h2>\n<table><tr><th></th><th>median</th><th>95 "
       "%</th><th>largest</th></tr>\n";

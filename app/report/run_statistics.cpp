@@ -70,6 +70,18 @@ Json distrusted_json(const std::vector<DistrustedMarker>& distrusted) {
   return markers;
 }
 
+Json waits_json(const std::vector<Wait>& waits) {
+  Json list = Json::array();
+  for (const Wait& wait : waits) {
+    list.push_back({{"from_s", seconds(wait.from)},
+                    {"duration_s", seconds(wait.to - wait.from)},
+                    {"x_m", wait.position_m.x()},
+                    {"y_m", wait.position_m.y()},
+                    {"why", wait.why}});
+  }
+  return list;
+}
+
 Json faults_json(const std::vector<FaultEvent>& faults) {
   Json list = Json::array();
   for (const FaultEvent& fault : faults) {
@@ -133,6 +145,22 @@ std::optional<double> mean_nees(const std::vector<EstimateError>& errors) {
   return sum / static_cast<double>(errors.size());
 }
 
+std::vector<Wait> waits_of(const DriveRecord& record) {
+  constexpr Duration shortest = std::chrono::milliseconds(500);
+  std::vector<Wait> waits;
+  for (std::size_t i = 0; i < record.notices.size(); ++i) {
+    const NoticeRecord& notice = record.notices[i];
+    const bool is_last = i + 1 == record.notices.size();
+    if (!notice.stops || (is_last && record.steps.empty())) continue;
+    const Stamp to = is_last ? record.steps.back().estimate.stamp : record.notices[i + 1].stamp;
+    const auto at = std::ranges::lower_bound(record.steps, notice.stamp, {},
+                                             [](const StepRecord& step) { return step.estimate.stamp; });
+    if (at == record.steps.end() || at->estimate.stamp > to || to - notice.stamp < shortest) continue;
+    waits.push_back({notice.stamp, to, at->estimate.map_from_base.position_m, notice.words});
+  }
+  return waits;
+}
+
 nlohmann::ordered_json summary_of(const RunRecord& record) {
   std::vector<double> position_m;
   std::vector<double> heading_deg;
@@ -168,6 +196,7 @@ nlohmann::ordered_json summary_of(const RunRecord& record) {
           {"mean_confidence", mean_confidence(record)},
           {"nees", optional_json(mean_nees(errors))},
           {"distrusted_markers", distrusted_json(record.distrusted)},
+          {"waits", waits_json(waits_of(record))},
           {"faults", faults_json(record.faults)}};
 }
 

@@ -27,6 +27,17 @@ std::optional<double> mean_nees(const std::vector<EstimateError>& errors);
 /// The true track, split where a goal was reached or given up.
 std::vector<std::vector<TruePose>> parts_of_track(const RunRecord& record);
 
+/// A stretch of the drive in which the robot stood because it had to.
+struct Wait {
+  Stamp from;
+  Stamp to;
+  Vec2 position_m = Vec2::Zero();  ///< by the estimate
+  std::string why;
+};
+
+/// Waits of half a second or more with the pose known, in order.
+std::vector<Wait> waits_of(const DriveRecord& record);
+
 /// The content of summary.json; nothing in it depends on wall time.
 nlohmann::ordered_json summary_of(const RunRecord& record);
 

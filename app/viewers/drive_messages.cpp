@@ -7,6 +7,7 @@
 #include "app/common/rounding.hpp"
 #include "app/report/run_statistics.hpp"
 #include "app/viewers/foxglove_schemas.hpp"
+#include "app/viewers/scanner_messages.hpp"
 
 namespace lodestar {
 namespace {
@@ -25,7 +26,9 @@ enum DriveChannel : std::size_t {
   calibration,
   truth,
   error,
-  static_transform
+  static_transform,
+  scan,
+  obstacles
 };
 
 constexpr Duration message_period = std::chrono::milliseconds(50);  ///< of poses, at most
@@ -64,7 +67,8 @@ MessageJson drive_json(const EstimateMoment& moment) {
           {"measured_mps", short_number(measured.forward_mps)},
           {"measured_degps", short_number(degrees(measured.turn_radps))},
           {"base", in_words(moment.base, moment.fault)},
-          {"stop", moment.stop ? std::string(to_string(*moment.stop)) : ""}};
+          {"stop", moment.stop ? std::string(to_string(*moment.stop)) : ""},
+          {"slowed_by", moment.slowed_by ? std::string(to_string(*moment.slowed_by)) : ""}};
 }
 
 MessageJson fix_json(const FixAttempt& used) {
@@ -113,7 +117,9 @@ const std::vector<Channel>& drive_channels() {
                                              channel("/camera/calibration", "foxglove.CameraCalibration"),
                                              channel("/truth", "foxglove.PoseInFrame"),
                                              channel("/error", "lodestar.EstimateError"),
-                                             channel("/tf_static", "foxglove.FrameTransform")};
+                                             channel("/tf_static", "foxglove.FrameTransform"),
+                                             channel("/scan", "foxglove.PointCloud"),
+                                             channel("/obstacles", "foxglove.Grid")};
   return channels;
 }
 
@@ -156,6 +162,11 @@ Message camera_message(Stamp stamp, const std::string& jpeg) {
   return message(camera, stamp, picture_message(stamp, jpeg));
 }
 
+std::vector<Message> seen_messages(Stamp stamp, const SeenSurroundings& seen) {
+  return {message(scan, stamp, scan_message(stamp, seen)),
+          message(obstacles, stamp, memory_message(stamp, seen))};
+}
+
 Message error_message(const PoseEstimate& estimate, double error_m) {
   return message(error, estimate.stamp,
                  {{"timestamp", time_json(estimate.stamp)},
@@ -180,6 +191,7 @@ std::vector<Message> DriveMessages::of(const DriveMoment& moment) {
   say_estimate(moment, messages);
   for (const FixAttempt& used : moment.step.navigation.fixes)
     messages.push_back(message(fix, used.fix.stamp, fix_json(used)));
+  say_seen(moment, messages);
   say_distrust(moment, messages);
   say_base(moment, messages);
   if (const std::string words = in_words(moment.mission, moment.step.event); !words.empty()) {
@@ -201,9 +213,19 @@ void DriveMessages::say_estimate(const DriveMoment& moment, std::vector<Message>
                                           .measured = base.measured,
                                           .base = base.state,
                                           .fault = base.fault,
-                                          .stop = step.stop},
+                                          .stop = step.stop,
+                                          .slowed_by = step.slowed_by},
                                          body_))
     messages.push_back(std::move(said));
+}
+
+void DriveMessages::say_seen(const DriveMoment& moment, std::vector<Message>& messages) {
+  constexpr Duration scan_period = std::chrono::milliseconds(100);  // scanners turn about so often
+  const Stamp now = moment.input.now;
+  if (!is_due(last_scan_, now, scan_period)) return;
+  last_scan_ = now;
+  if (const auto seen = moment.mission.seen(now))
+    for (Message& said : seen_messages(now, *seen)) messages.push_back(std::move(said));
 }
 
 void DriveMessages::say_distrust(const DriveMoment& moment, std::vector<Message>& messages) {

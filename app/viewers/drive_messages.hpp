@@ -20,6 +20,7 @@ namespace lodestar {
 ///   /drive, /fix      numbers for plots: velocities, deviations, state; every pose fix
 ///   /log              events, in words
 ///   /camera           pictures and calibration
+///   /scan, /obstacles where the beams end and what is known of each; the memory of what the map lacks
 ///   /truth, /error    in simulation: the true pose, and the error of the estimate
 const std::vector<Channel>& drive_channels();
 
@@ -34,6 +35,7 @@ struct EstimateMoment {
   BaseState base = BaseState::waiting_for_base;
   std::optional<BaseFault> fault;
   std::optional<StopReason> stop;
+  std::optional<StopReason> slowed_by;  ///< by the protective field
 };
 
 RobotBody body_of(const Robot& robot);
@@ -47,6 +49,8 @@ Message ceiling_message(Stamp stamp, const MarkerRegistry& registry, const std::
 Message words_message(Stamp stamp, LogLevel level, const std::string& words);
 /// `jpeg`: the picture, encoded.
 Message camera_message(Stamp stamp, const std::string& jpeg);
+/// /scan and /obstacles.
+std::vector<Message> seen_messages(Stamp stamp, const SeenSurroundings& seen);
 /// Position error of the estimate; the heading's error is not known.
 Message error_message(const PoseEstimate& estimate, double error_m);
 
@@ -65,6 +69,7 @@ class DriveMessages {
 
  private:
   void say_estimate(const DriveMoment& moment, std::vector<Message>& messages);
+  void say_seen(const DriveMoment& moment, std::vector<Message>& messages);
   void say_distrust(const DriveMoment& moment, std::vector<Message>& messages);
   void say_base(const DriveMoment& moment, std::vector<Message>& messages);
 
@@ -72,6 +77,7 @@ class DriveMessages {
   RobotBody body_;
   bool has_begun_ = false;
   std::optional<Stamp> last_pose_;
+  std::optional<Stamp> last_scan_;
   std::string base_said_;
   std::vector<int> distrusted_;
 };

@@ -86,6 +86,16 @@ Json grid() {
                  {"data", bytes}});
 }
 
+Json point_cloud() {
+  const Json field = object({{"name", text}, {"offset", integer}, {"type", integer}});
+  return object({{"timestamp", time_of_day},
+                 {"frame_id", text},
+                 {"pose", pose_type},
+                 {"point_stride", integer},
+                 {"fields", list_of(field)},
+                 {"data", bytes}});
+}
+
 Json camera_calibration() {
   return object({{"timestamp", time_of_day},
                  {"frame_id", text},
@@ -110,7 +120,8 @@ Json drive_schema() {
                  {"measured_mps", number},
                  {"measured_degps", number},
                  {"base", text},
-                 {"stop", text}});
+                 {"stop", text},
+                 {"slowed_by", text}});
 }
 
 Json fix_schema() {
@@ -144,6 +155,7 @@ std::map<std::string, Json, std::less<>> all_schemas() {
       {"foxglove.PosesInFrame",
        object({{"timestamp", time_of_day}, {"frame_id", text}, {"poses", list_of(pose_type)}})},
       {"foxglove.Grid", grid()},
+      {"foxglove.PointCloud", point_cloud()},
       {"foxglove.SceneUpdate", scene_update()},
       {"foxglove.CompressedImage",
        object({{"timestamp", time_of_day}, {"frame_id", text}, {"data", bytes}, {"format", text}})},

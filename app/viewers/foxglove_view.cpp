@@ -33,10 +33,12 @@ void FoxgloveView::show(const RobotState& state) {
                                .measured = state.measured,
                                .base = state.base,
                                .fault = state.fault,
-                               .stop = state.stop},
+                               .stop = state.stop,
+                               .slowed_by = state.slowed_by},
                               body_));
     if (state.error_m) publish({error_message(*state.estimate, *state.error_m)});
   }
+  if (state.seen) publish(seen_messages(state.now, *state.seen));
   if (state.path && state.path != path_) publish({planned_message(state.now, *state.path)});
   path_ = state.path;
   const std::vector<int> distrusted = ids_of(state.distrusted);

@@ -4,7 +4,7 @@ import type { Coverage } from './coverage.js';
 import { ask, askNumbers, el, plural } from './dom.js';
 import type { Editor } from './editor.js';
 import { fillGaps } from './fill.js';
-import { sideM } from './geometry.js';
+import { idCount, sideM } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import { IdPicker } from './ids.js';
 import { turned } from './pointer.js';
@@ -75,7 +75,7 @@ export class Actions {
     if (!shape) return '';
     const offsets = arrayOffsets({ columns: Math.round(shape['columns']!), rows: Math.round(shape['rows']!),
       stepX: shape['stepX']!, stepY: shape['stepY']!, turnDeg: shape['turnDeg']! });
-    if (offsets.length * chosen.length + this.editor.markers.size > 10_000) return 'More than 10,000 markers: nothing pasted';
+    if (offsets.length * chosen.length + this.editor.markers.size > idCount) return `More than ${idCount} markers, as many as there are IDs: nothing pasted`;
     const copies = this.copies(chosen, offsets);
     if (copies.length > 0) this.editor.add(copies);
     return `Pasted ${plural(copies.length, 'marker')}`;

@@ -12,13 +12,12 @@ interface Pair { marker: Marker; to: Point }
 export function alignByPairs(editor: Editor, pointer: Pointer, stage: Stage, say: (words: string) => void): void {
   const pairs: Pair[] = [];
   let open: Marker | null = null;
-  const end = () => {
-    pointer.pick = null;
+  const over = () => {
     stage.pins = [];
     stage.redraw();
   };
   say('Align: click a marker, then the place on the map where its dot O truly is. Escape cancels.');
-  pointer.pick = (at, marker) => {
+  pointer.beginPick((at, marker) => {
     if (!open) {
       open = marker;
       say(marker ? `Now the position of marker ${marker.id}'s dot O` : 'No marker there; click one');
@@ -31,10 +30,10 @@ export function alignByPairs(editor: Editor, pointer: Pointer, stage: Stage, say
     if (pairs.length < 2) return say('One pair; one more at least: click another marker');
     void propose(editor, pairs).then((answer) => {
       if (answer === 'more') return say(`${plural(pairs.length, 'pair')}; click another marker`);
-      end();
+      pointer.endPick();
       say(answer === 'go' ? 'Aligned; undo restores the previous alignment' : 'Nothing aligned');
     });
-  };
+  }, over);
 }
 
 async function propose(editor: Editor, pairs: Pair[]): Promise<string> {

@@ -6,6 +6,7 @@ import type { Command } from './commands.js';
 import { Coverage } from './coverage.js';
 import type { Floor } from './coverage.js';
 import { Documents } from './documents.js';
+import { Draft } from './draft.js';
 import { button, byId } from './dom.js';
 import { Editor } from './editor.js';
 import type { Point } from './geometry.js';
@@ -39,6 +40,7 @@ export class Console implements Page {
   readonly actions: Actions;
   readonly documents: Documents;
   readonly modes: Modes;
+  private readonly draft: Draft;
   readonly commands: Command[];
   readonly routes: Point[][];
   private readonly panel: Panel;
@@ -56,6 +58,7 @@ export class Console implements Page {
     this.actions = new Actions(this.editor, this.coverage, say);
     this.measure = new Measure(this.stage, this.pointer, say);
     this.documents = new Documents(this.editor, tagged, () => this.live.hello?.robot === true);
+    this.draft = new Draft(this.editor, site.name, complain);
     this.routes = site.routes.map((route) => route.map(([x, y]) => ({ x, y })));
     this.stage.painters.push((c) => { if (this.layers.shown.route && this.modes.now === 'edit') paintRoutes(c, this.stage, this.routes); });
     this.commands = pageCommands(this);
@@ -65,6 +68,7 @@ export class Console implements Page {
     byId('title').textContent = `Lodestar: ${site.name}`;
     this.editor.load(tagged.registry);
     this.fit();
+    attempt(() => this.draft.offer());
   }
 
   // -- after a change ---------------------------------------------------------------------------------------
@@ -75,6 +79,7 @@ export class Console implements Page {
     this.stage.redraw();
     this.panel.show();
     this.refreshTools();
+    this.draft.changed();
     document.title = `${this.editor.dirty ? '• ' : ''}${this.site.name} - Lodestar`;
     this.judge();
   }
@@ -162,6 +167,7 @@ export class Console implements Page {
 
   private run(command: Command): void {
     if (command.possible?.() === false) return;
+    say('');  // what was said of the command before
     command.run();
     this.refreshTools();
   }
@@ -183,6 +189,7 @@ export class Console implements Page {
       if (isTyping(e.target) && !['Ctrl+S', 'Ctrl+P'].includes(key)) return;
       const command = this.commands.find((c) => c.key === key);
       if (!command || !this.isPossibleNow(command)) return;
+      if (command.onMap && document.activeElement !== byId('stage')) return;
       e.preventDefault();
       this.run(command);
     });

@@ -3,7 +3,7 @@ import * as api from './api.js';
 import type { Command } from './commands.js';
 import { ask, byId, el, plural } from './dom.js';
 import type { Editor, Registry } from './editor.js';
-import { summary } from './history.js';
+import { differences, summary } from './history.js';
 
 const suffixes: Record<string, string> = {
   lodestar: '.yaml', csv: '.csv', stargazer: '.yaml', apriltag: '.json', fiducial_slam: '.txt', geojson: '.geojson',
@@ -53,13 +53,33 @@ export async function askAboutConflict(base: Registry, mine: Registry, theirs: R
     [['merge', 'Merge'], ['theirs', 'Take theirs'], ['mine', 'Overwrite with mine'], ['', 'Continue editing']]) as Resolution;
 }
 
+const mostLines = 40;
+
+/** The changes that are not saved, marker by marker. */
+const changesOf = (from: Registry, to: Registry): HTMLElement[] => {
+  const lines = differences(from, to);
+  return [el('ul', { class: 'plain' }, ...lines.slice(0, mostLines).map((line) => el('li', {}, line))),
+    ...(lines.length > mostLines ? [el('p', {}, `and ${lines.length - mostLines} more`)] : [])];
+};
+
+export async function confirmReload(theirs: Registry, mine: Registry): Promise<boolean> {
+  return await ask('Throw away your changes?', [el('p', {}, `Not saved: ${summary(theirs, mine)}.`), ...changesOf(theirs, mine)],
+    [['', 'Keep editing'], ['go', 'Throw away and reload']]) === 'go';
+}
+
+/** `sinceWhen`: in words. */
+export async function offerDraft(saved: Registry, draft: Registry, sinceWhen: string): Promise<boolean> {
+  return await ask('Changes that were not saved', [el('p', {}, `This browser kept changes of ${sinceWhen}: ${summary(saved, draft)}.`), ...changesOf(saved, draft)],
+    [['go', 'Bring them back'], ['', 'Throw them away']]) === 'go';
+}
+
 export async function showHelp(commands: Command[]): Promise<void> {
   const mouse: [string, string][] = [
     ['Drag', 'a marker: move the selection; the round handle: rotate; the floor: pan'],
     ['Shift+click', 'add to the selection'], ['Shift+drag', 'select all in a box'], ['Alt while dragging', 'no snapping'],
     ['Wheel', 'zoom at the pointer'], ['Right drag', 'pan, wherever it starts'],
-    ['Live: click, Shift+click', 'set a goal, add a goal; drag the end of its arrow for a heading'], ['Live: space bar', 'stop the robot'],
-    ['Replay: arrows, space bar', 'half a second forward or back (Shift: five), play or pause']];
+    ['Live: click, Shift+click', 'set a goal, add a goal; drag the end of its arrow for a heading'], ['Space bar', 'stop the robot, wherever the focus is; Escape leaves a text field first'],
+    ['Replay: arrows, P', 'half a second forward or back (Shift: five), play or pause']];
   const keys = commands.filter((c) => c.key).map((c): [string, string] => [c.key!, c.title]);
   const list = el('dl', {}, ...[...mouse, ...keys].flatMap(([key, words]) => [el('dt', {}, key), el('dd', {}, words)]));
   await ask('Mouse and keys', [list, el('p', {}, 'A marker is given by the centre of its dot O (orange) and the direction from O ' +

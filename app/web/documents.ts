@@ -1,6 +1,6 @@
 // The registry of the site: loads, saves, and resolves conflicts with another user's save.
 import * as api from './api.js';
-import { askAboutConflict } from './dialogs.js';
+import { askAboutConflict, confirmReload } from './dialogs.js';
 import { plural } from './dom.js';
 import type { Editor, Registry } from './editor.js';
 import { merged } from './history.js';
@@ -26,11 +26,14 @@ export class Documents {
     }
   }
 
+  /** What is thrown away is asked for, and undo brings it back. */
   async reload(): Promise<string> {
     const tagged = await api.getMarkers();
+    if (this.editor.dirty && !await confirmReload(tagged.registry, this.editor.registry())) return 'Kept your changes';
     this.take(tagged);
-    this.editor.load(tagged.registry);
-    return 'Reloaded from the site';
+    this.editor.replaceAll(tagged.registry);
+    this.editor.markSaved();
+    return 'Reloaded from the site; undo brings your markers back';
   }
 
   private async settle(mine: Registry): Promise<string> {

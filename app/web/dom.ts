@@ -23,15 +23,25 @@ export const positive = (text: string): string => text.replace(/^-(0(\.0*)?)$/, 
 
 export const plural = (count: number, word: string): string => `${count} ${word}${count === 1 ? '' : 's'}`;
 
-/** A dialog with a head, contents and buttons; resolves with the name of the button, or '' when it is cancelled. */
-export function ask(head: string, contents: Child[], answers: [string, string][]): Promise<string> {
+/** A dialog with a head, contents and buttons; resolves with the name of the button, or '' when it is cancelled. Enter in a
+ *  field is the first button. `wrong`: what keeps it from being pressed, if anything. */
+export function ask(head: string, contents: Child[], answers: [string, string][], wrong: () => string = () => ''): Promise<string> {
   const dialog = byId('dialog') as HTMLDialogElement;
+  const reason = el('p', { class: 'error', id: 'dialog-reason', role: 'alert' });
   const row = el('div', { class: 'row' }, ...answers.map(([name, text], i) =>
-    button(text, text, () => dialog.close(name), i === 0 ? { class: 'main' } : {})));
-  dialog.replaceChildren(el('h3', { id: 'dialog-head' }, head), ...contents, row);
+    i === 0 ? el('button', { type: 'submit', title: text, class: 'main' }, text) : button(text, text, () => dialog.close(name))));
+  const form = el('form', {}, el('h3', { id: 'dialog-head' }, head), ...contents, reason, row);
+  form.noValidate = true;
+  form.addEventListener('submit', (e) => {
+    e.preventDefault();
+    reason.textContent = wrong();
+    if (reason.textContent === '') dialog.close(answers[0]![0]);
+  });
+  dialog.replaceChildren(form);
   dialog.setAttribute('aria-labelledby', 'dialog-head');
   dialog.returnValue = '';
   dialog.showModal();
+  dialog.scrollTop = 0;
   return new Promise((resolve) => {
     dialog.addEventListener('close', () => resolve(dialog.returnValue), { once: true });
   });
@@ -39,18 +49,21 @@ export function ask(head: string, contents: Child[], answers: [string, string][]
 
 export interface NumberField { name: string; label: string; value: number; step: number; least?: number; most?: number }
 
-/** A dialog with numbers to fill in; null when it is cancelled. Throws for an unusable number. */
+const farthest = 1e5;
+
+/** A dialog with numbers to fill in, which stays open until all of them are usable; null when it is cancelled. */
 export async function askNumbers(head: string, fields: NumberField[], words: string, go: string): Promise<Record<string, number> | null> {
-  const inputs = fields.map((field) => {
-    const input = el('input', { type: 'number', id: `ask-${field.name}`, step: String(field.step), value: String(field.value) });
-    input.addEventListener('keydown', (e) => { if (e.key === 'Enter') (byId('dialog') as HTMLDialogElement).close('go'); });
-    return { field, input };
-  });
+  const inputs = fields.map((field) =>
+    ({ field, input: el('input', { type: 'number', id: `ask-${field.name}`, step: String(field.step), value: String(field.value) }) }));
   const grid = el('div', { class: 'fields wide' }, ...inputs.flatMap(({ field, input }) => [el('label', { for: input.id }, field.label), input]));
-  if (await ask(head, [el('p', {}, words), grid], [['go', go], ['', 'Cancel']]) !== 'go') return null;
-  const usable = ({ field, input }: typeof inputs[number]) => Number.isFinite(input.valueAsNumber) && Math.abs(input.valueAsNumber) <= 1e5 &&
+  const isUsable = ({ field, input }: typeof inputs[number]) => Number.isFinite(input.valueAsNumber) && Math.abs(input.valueAsNumber) <= farthest &&
     input.valueAsNumber >= (field.least ?? -Infinity) && input.valueAsNumber <= (field.most ?? Infinity);
-  const wrong = inputs.find((i) => !usable(i));
-  if (wrong) throw new Error(`${wrong.field.label}: found '${wrong.input.value}', wanted a number${wrong.field.least === undefined ? '' : ` in ${wrong.field.least}..${wrong.field.most}`}`);
+  const wrong = () => {
+    for (const one of inputs) one.input.setAttribute('aria-invalid', String(!isUsable(one)));
+    const first = inputs.find((one) => !isUsable(one));
+    first?.input.focus();
+    return first ? `${first.field.label}: wanted a number${first.field.least === undefined ? '' : ` from ${first.field.least} to ${first.field.most}`}` : '';
+  };
+  if (await ask(head, [el('p', {}, words), grid], [['go', go], ['', 'Cancel']], wrong) !== 'go') return null;
   return Object.fromEntries(inputs.map(({ field, input }) => [field.name, input.valueAsNumber]));
 }

@@ -51,11 +51,18 @@ export class Layers {
   /** The legend of lines and floor colours, for the present mode. */
   showLegend(): void {
     const colours = inkNow();
-    const lines = (lineKeys[document.body.dataset['mode'] ?? ''] ?? []).flatMap(([kind, words]) => {
+    const lines: (HTMLElement | string)[] = (lineKeys[document.body.dataset['mode'] ?? ''] ?? []).flatMap(([kind, words]) => {
       const swatch = el('span', { class: 'swatch' });
       swatch.style.background = colours[kind];
       return [swatch, words];
     });
+    if (document.body.dataset['mode'] === 'live' && document.body.dataset['scanner'] !== undefined) {
+      for (const [kind, shape, words] of [['person', 'disc', 'scanner: person, or moves'], ['stands', '', 'stands, not on the map']] as const) {
+        const swatch = el('span', { class: `swatch ${shape}` });
+        swatch.style.background = colours[kind];
+        lines.push(swatch, words);
+      }
+    }
     byId('legend').replaceChildren(lines.length === 0 ? 'From above, as through the ceiling.' : '', ...lines,
       ...legends[this.floor].flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words]));
   }

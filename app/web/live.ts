@@ -1,58 +1,61 @@
 // The live view: the robot's state, and its goals.
 import type { Site } from './api.js';
 import { CameraPicture } from './camera_picture.js';
+import { Control } from './control.js';
 import { button, byId, el } from './dom.js';
 import { Goals, goalJson } from './goals.js';
 import type { Goal } from './goals.js';
 import { LiveSocket } from './live_socket.js';
-import type { Hello, Listener, Picture, Preview, State } from './live_socket.js';
+import type { Hello, Listener, Picture, Preview, Seen, State } from './live_socket.js';
+import { LiveTrace } from './live_trace.js';
 import { DrivePanel } from './drive_panel.js';
 import { HandDrive } from './hand.js';
 import { Places } from './places.js';
-import { DrivePlots } from './plots.js';
 import type { Guest } from './pointer.js';
-import { drawEllipse, drawGoal, drawRobot, drawWay, ellipseOf, inkNow } from './robot_paint.js';
+import { drawEllipse, drawGoal, drawRobot, drawWay, inkNow } from './robot_paint.js';
+import { drawSeen, fieldWords, seenForMs } from './seen_paint.js';
 import type { Stage } from './stage.js';
+import { stopAlways } from './stop.js';
 import type { Point } from './geometry.js';
 import { SurveyView } from './survey.js';
 import type { Survey } from './survey.js';
 
-const holdEveryMs = 250;
+const beatEveryMs = 250;
 const staleAfterMs = 1500;
-const keptRows = 1200;       // a minute
-const plotEveryMs = 200;
-const trackStepM = 0.02;
-const mostTrack = 5000;
 
 export class Live implements Guest, Listener {
   hello: Hello | null = null;
   state: State | null = null;
   preview: Preview | null = null;
+  /** Is the socket open? Then a state may still be late. */
+  connected = false;
   readonly goals: Goals;
   readonly camera = new CameraPicture();
+  readonly control: Control;
+  readonly trace = new LiveTrace();
   onRobot: () => void = () => {};
   private readonly socket: LiveSocket;
   private readonly panel: DrivePanel;
   private readonly places: Places;
   readonly hand: HandDrive;
   readonly survey: SurveyView;
-  private plots: DrivePlots | null = null;
   private path: Point[] = [];
-  private track: Point[] = [];
-  private columns: (number | null)[][] = Array.from({ length: 7 }, () => []);
+  private seen: Seen | null = null;
+  private seenAt = 0;
   private heardAt = 0;
-  private plottedAt = 0;
   private shown = false;
   private surveys = false;
-  private wantsControl = false;
-  private hasDriven = false;
+  private sent = '';  // the goals of the drive under way
+  private replan = false;
 
   constructor(private readonly stage: Stage, private readonly site: Site, private readonly say: (words: string, bad?: boolean) => void) {
+    const live = this;
+    this.control = new Control({ say, send: (message) => this.socket.send(message), driveOver: () => this.driveOver(), get atWheel() { return live.atWheel; } });
     this.goals = new Goals(stage.view);
     this.goals.onChange = () => this.goalsChanged();
     this.panel = new DrivePanel(this);
     this.places = new Places(this.goals, say);
-    this.hand = new HandDrive((order) => this.order(order), () => this.releaseControl());
+    this.hand = new HandDrive((order) => this.control.order(order), () => this.control.release());
     this.survey = new SurveyView(stage, stage.editor, { say, goTo: (at) => { stage.view.fit([at], 3); stage.redraw(); },
       driveTo: (at) => this.goals.set([{ ...at, yawDeg: null }]) });
     byId('hand').append(this.hand.element);
@@ -60,7 +63,7 @@ export class Live implements Guest, Listener {
     this.makeControls();
     stage.painters.push((c) => { if (this.shown) this.paint(c); });
     this.socket = new LiveSocket(this);
-    setInterval(() => this.beat(), holdEveryMs);
+    setInterval(() => this.beat(), beatEveryMs);
   }
 
   /** While shown, pictures are requested, and clicks on the map set goals. `surveys`: a survey is shown too. */
@@ -69,42 +72,69 @@ export class Live implements Guest, Listener {
     this.surveys = surveys;
     if (!shown) this.hand.set(false);
     if (shown) {
-      this.plots ??= new DrivePlots(byId('live-plots'));
+      this.trace.show();
       this.places.open();
     }
     this.wantPictures();
+    this.panel.refresh();
     this.stage.redraw();
   }
 
   private wantPictures(): void { if (this.hello?.robot) this.socket.send({ type: 'camera', on: this.shown }); }
 
-  get canDrive(): boolean { return this.hello?.role === 'drive' && this.hello.robot; }
-  get atWheel(): boolean { return this.state !== null && this.state.driver === this.hello?.client; }
-  get isStale(): boolean { return performance.now() - this.heardAt > staleAfterMs; }
+  get mayDrive(): boolean { return this.hello?.role === 'drive' && this.hello.robot; }
+  get canDrive(): boolean { return this.mayDrive && this.connected; }
+  get atWheel(): boolean { return this.connected && this.state !== null && this.state.driver === this.hello?.client; }
+  get isStale(): boolean { return !this.connected || performance.now() - this.heardAt > staleAfterMs; }
+  get silentS(): number { return (performance.now() - this.heardAt) / 1000; }
 
   // -- messages from the robot ------------------------------------------------------------------------------
 
   onHello(hello: Hello): void {
-    const first = this.hello === null;
+    const before = this.hello;
     this.hello = hello;
-    this.wantsControl = false;
+    this.connected = true;
+    if (before !== null && before.session !== hello.session) this.reset();
+    this.control.lose();
+    if (hello.robot) this.control.name = this.control.name;
     this.wantPictures();
-    if (hello.robot) document.body.dataset['robot'] = '';
+    document.body.toggleAttribute('data-robot', hello.robot);
     if (hello.survey) document.body.dataset['survey'] = '';
-    if (first && hello.robot) this.onRobot();
-    this.panel.refresh();
+    if (before === null) this.heardAt = performance.now();
+    if (before === null && hello.robot) this.onRobot();
+    this.goalsChanged();
+  }
+
+  /** The robot's program was started anew: nothing that was shown of it holds any more, but for the user's own goals. */
+  private reset(): void {
+    [this.state, this.preview, this.seen, this.path, this.sent] = [null, null, null, [], ''];
+    this.trace.reset();
+    this.replan = true;
+    this.say('The robot\'s program was started anew');
   }
 
   onState(state: State): void {
     this.heardAt = performance.now();
     this.state = state;
-    if (state.pose) this.addToTrack({ x: state.pose.x_m, y: state.pose.y_m });
-    this.addToPlots(state);
-    this.watchControl(state);
-    if (!this.shown) return;
-    this.panel.refresh();
-    this.stage.redrawOverlay();
+    document.body.toggleAttribute('data-scanner', state.field !== null);
+    this.trace.add(state, this.shown);
+    this.control.watch(state, this.hand.on);
+    if (state.driver !== this.hello?.client || !this.connected) byId('asked').hidden = true;
+    if (this.replan && state.pose) {
+      this.replan = false;
+      this.goalsChanged();
+    }
+    this.panel.refresh(this.shown);
+    if (this.shown) this.stage.redrawOverlay();
   }
+
+  onSeen(seen: Seen): void {
+    if (this.seen === null) this.stage.layers.showLegend();
+    [this.seen, this.seenAt] = [seen, performance.now()];
+  }
+
+  onAsked(client: number, name: string): void { this.control.showRequest(client, name); }
+  onControl(): void { this.control.receive(); }
 
   onPath(points: [number, number][]): void {
     this.path = points.map(([x, y]) => ({ x, y }));
@@ -118,7 +148,8 @@ export class Live implements Guest, Listener {
   }
 
   onRefused(what: string, why: string): void {
-    if (what === 'take' || what === 'hold') this.wantsControl = false;
+    if (what !== 'ask' && what !== 'stop' && what !== 'camera') this.control.lose();
+    if (what === 'place') this.sent = '';
     if (what !== 'hold') this.say(`Not done (${what}): ${why}`, true);
   }
 
@@ -127,33 +158,13 @@ export class Live implements Guest, Listener {
   onPicture(picture: Picture): void { if (this.shown) this.camera.show(picture); }
 
   onGone(): void {
-    this.wantsControl = false;
-    if (this.hello?.robot) this.say('The connection to the robot is lost; trying again', true);
+    this.connected = false;
+    this.control.lose();
+    [this.preview, this.seen] = [null, null];
+    byId('asked').hidden = true;
     this.panel.refresh();
+    this.showSilence();
     this.stage.redrawOverlay();
-  }
-
-  private addToTrack(at: Point): void {
-    const last = this.track.at(-1);
-    if (last && Math.hypot(at.x - last.x, at.y - last.y) < trackStepM) return;
-    this.track.push(at);
-    if (this.track.length > mostTrack) this.track.splice(0, mostTrack / 10);
-  }
-
-  private addToPlots(state: State): void {
-    const sigmaMm = state.pose ? 1000 * ellipseOf(state.pose.covariance_m2, 3).long : null;
-    const errorMm = state.error_m === null ? null : 1000 * state.error_m;
-    const sees = state.seen_s !== null && state.time_s - state.seen_s < 0.5;
-    const row = [state.time_s, sigmaMm, errorMm, state.commanded.forward_mps, state.measured?.forward_mps ?? null,
-      sees ? state.confidence : null, sees ? state.markers.length : 0];
-    this.columns.forEach((column, i) => {
-      column.push(row[i]!);
-      if (column.length > keptRows) column.shift();
-    });
-    if (!this.shown || performance.now() - this.plottedAt < plotEveryMs) return;
-    this.plottedAt = performance.now();
-    this.plots?.set(this.columns);
-    this.plots?.tell(this.columns[0]!.length - 1);
   }
 
   // -- the user's orders ------------------------------------------------------------------------------------
@@ -165,48 +176,42 @@ export class Live implements Guest, Listener {
 
   drive(): void {
     if (this.goals.list.length === 0) return;
-    this.order({ type: 'go', goals: this.goals.list.map(goalJson) });
-    this.hasDriven = false;
+    this.sent = JSON.stringify(this.goals.list);
+    this.control.order({ type: 'go', goals: this.goals.list.map(goalJson) });
   }
 
-  order(message: Record<string, unknown>): void {
-    if (!this.atWheel) this.socket.send({ type: 'take' });
-    this.wantsControl = true;
-    if (!this.socket.send(message)) this.say('No connection to the robot', true);
+  /** Goals set meanwhile are the user's next ones, and are planned from where the robot is now. */
+  private driveOver(): void {
+    if (JSON.stringify(this.goals.list) === this.sent) this.goals.set([]);
+    else this.goalsChanged();
+    this.sent = '';
   }
 
-  releaseControl(): void {
-    this.wantsControl = false;
-    this.socket.send({ type: 'release' });
+  ask(): void {
+    this.control.once({ type: 'ask' });
+    this.say('Asked for the wheel');
   }
 
   /** Sets the robot's pose to the first goal's position and heading. */
   placeRobot(): void {
     const goal = this.goals.list[0];
     if (goal?.yawDeg == null) return this.say('Set a goal on the map and drag its arrow to the robot\'s heading first', true);
-    this.order({ type: 'place', pose: goalJson(goal) });
+    this.control.once({ type: 'place', pose: goalJson(goal) });
     this.goals.set([]);
   }
 
-  /** Renews the control lease while this page is visible. */
   private beat(): void {
-    if (this.wantsControl && !document.hidden) this.socket.send({ type: 'hold' });
-    byId('stale').hidden = !(this.hello?.robot && this.shown && this.isStale);
-    if (this.isStale && this.shown) {
-      byId('stale').textContent = `No data from the robot for ${((performance.now() - this.heardAt) / 1000).toFixed(0)} s`;
+    this.control.beat();
+    this.showSilence();
+    if (this.isStale) {
+      this.panel.refresh(this.shown);
       this.stage.redrawOverlay();
     }
   }
 
-  /** Releases the control lease when the drive is over. */
-  private watchControl(state: State): void {
-    if (state.moving) this.hasDriven = true;
-    if (this.hand.on) this.hasDriven = false;
-    if (this.wantsControl && this.hasDriven && !state.moving) {
-      this.hasDriven = false;
-      this.releaseControl();
-      this.goals.set([]);
-    }
+  private showSilence(): void {
+    byId('stale').hidden = !(this.hello?.robot && this.isStale);
+    byId('stale').textContent = `${this.connected ? 'No data from the robot' : 'No connection to the robot, and no data'} for ${this.silentS.toFixed(0)} s`;
   }
 
   private goalsChanged(): void {
@@ -219,17 +224,12 @@ export class Live implements Guest, Listener {
   private makeControls(): void {
     byId('live-controls').append(
       button('Stop', 'Stop the robot (space bar)', () => this.stop(), { id: 'live-stop' }),
-      button('Pause', 'Stop and keep the goal', () => this.order({ type: 'pause' }), { id: 'live-pause' }),
-      button('Resume', 'Continue to the goal', () => this.order({ type: 'resume' }), { id: 'live-resume' }),
-      button('Clear fault', 'Clear the latched fault of the base, if its cause is gone', () => this.order({ type: 'clear_fault' }), { id: 'live-clear' }),
+      button('Pause', 'Stop and keep the goal', () => this.control.order({ type: 'pause' }), { id: 'live-pause' }),
+      button('Resume', 'Continue to the goal', () => this.control.order({ type: 'resume' }), { id: 'live-resume' }),
+      button('Clear fault', 'Clear the latched fault of the base, if its cause is gone', () => this.control.once({ type: 'clear_fault' }), { id: 'live-clear' }),
       el('span', { id: 'live-phase' }),
     );
-    addEventListener('keydown', (e) => {
-      const onControl = e.target instanceof HTMLElement && e.target.closest('button, input, select, dialog') !== null;
-      if (e.key !== ' ' || !this.shown || onControl) return;
-      e.preventDefault();
-      this.stop();
-    });
+    stopAlways(() => this.stop());
   }
 
   // -- the map ----------------------------------------------------------------------------------------------
@@ -243,7 +243,8 @@ export class Live implements Guest, Listener {
     const { view } = this.stage;
     const colours = inkNow();
     if (this.surveys) this.survey.paint(c);
-    else drawWay(c, view, this.track, colours.track, 1.5);
+    else drawWay(c, view, this.trace.track, colours.track, 1.5);
+    if (this.seen && performance.now() - this.seenAt < seenForMs) drawSeen(c, view, this.seen);
     drawWay(c, view, this.path, colours.path, 3);
     if (this.preview?.points) drawWay(c, view, this.preview.points.map(([x, y]) => ({ x, y })), colours.preview, 3, [8, 6]);
     this.paintMarkersInView(c);
@@ -280,11 +281,17 @@ export class Live implements Guest, Listener {
 
   middle(): Point { return this.stage.view.center; }
 
+  /** The state in words, never older than it says. */
   words(): string {
     const state = this.state;
     if (!this.hello) return 'No connection yet';
     if (!this.hello.robot) return 'No robot is connected: start the console with lodestar replay --serve, or lodestar run --serve';
+    if (!this.connected) return 'No connection to the robot';
     if (!state) return 'Waiting for the robot';
-    return `${state.phase}${state.moving && state.goals.length > 1 ? `, goal ${state.current + 1} of ${state.goals.length}` : ''}`;
+    if (this.isStale) return `Not heard of for ${this.silentS.toFixed(0)} s`;
+    const goal = state.moving && state.goals.length > 1 ? `, goal ${state.current + 1} of ${state.goals.length}` : '';
+    const field = state.moving ? fieldWords(state.field) : '';
+    const must = field === '' && state.stop !== null ? `must not move: ${state.stop}` : field;
+    return `${state.phase}${goal}${must === '' ? '' : `; ${must}`}`;
   }
 }

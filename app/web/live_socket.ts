@@ -12,23 +12,30 @@ export interface Velocity { forward_mps: number; turn_degps: number }
 export interface State {
   time_s: number; pose: Estimate | null; commanded: Velocity; measured: Velocity | null;
   phase: string; moving: boolean; paused: boolean; goals: number[][]; current: number;
-  stop: string | null; base: string; base_ready: boolean; fault: string | null; battery_v: number | null;
+  stop: string | null; field: { state: 'free' | 'slowed' | 'stopped'; why: string | null } | null; base: string; base_ready: boolean; fault: string | null; battery_v: number | null;
   markers: number[]; confidence: number; seen_s: number | null; distrusted: number[];
   error_m: number | null; events: { number: number; time_s: number; words: string }[];
-  driver: number | null; viewers: number;
+  driver: number | null; driver_name: string; viewers: number;
 }
 
-export interface Hello { client: number; role: 'view' | 'edit' | 'drive'; robot: boolean; survey: boolean; lease_s: number }
+export interface Hello { client: number; role: 'view' | 'edit' | 'drive'; robot: boolean; session: number; survey: boolean; lease_s: number }
 
 export interface Preview {
   points?: [number, number][]; length_m?: number; time_s?: number; turns?: number;
   why?: string; goal?: number; nearest?: [number, number] | null;
 }
 
+/** By the scanner: lists of x, y, x, y, ... in the map; cells along axes turned by cell_yaw_deg. */
+export interface Seen {
+  mapped: number[]; standing: number[]; person: number[]; hidden: number[];
+  cells_standing: number[]; cells_moving: number[]; cell_m?: number; cell_yaw_deg?: number;
+}
+
 export interface SeenMarker { id: number; confidence: number; o_px: [number, number]; x_px: [number, number]; y_px: [number, number]; dots_px: [number, number][] }
 export interface Picture { time_s: number; width_px: number; height_px: number; markers: SeenMarker[]; jpeg: Blob }
 
 type Message = ({ type: 'hello' } & Hello) | ({ type: 'state' } & State) | { type: 'path'; points: [number, number][] }
+  | ({ type: 'seen' } & Seen) | { type: 'asked'; client: number; name: string } | { type: 'control' }
   | ({ type: 'preview' } & Preview) | ({ type: 'survey' } & Survey) | { type: 'refused'; what: string; why: string };
 
 export interface Listener {
@@ -37,6 +44,9 @@ export interface Listener {
   onPath(points: [number, number][]): void;
   onPreview(preview: Preview): void;
   onSurvey(survey: Survey): void;
+  onSeen(seen: Seen): void;
+  onAsked(client: number, name: string): void;
+  onControl(): void;
   onRefused(what: string, why: string): void;
   onPicture(picture: Picture): void;
   onGone(): void;
@@ -77,6 +87,9 @@ export class LiveSocket {
       case 'path': return this.listener.onPath(message.points);
       case 'preview': return this.listener.onPreview(message);
       case 'survey': return this.listener.onSurvey(message);
+      case 'seen': return this.listener.onSeen(message);
+      case 'asked': return this.listener.onAsked(message.client, message.name);
+      case 'control': return this.listener.onControl();
       case 'refused': return this.listener.onRefused(message.what, message.why);
     }
   }

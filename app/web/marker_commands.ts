@@ -21,7 +21,7 @@ export function markerCommands(page: MarkerTools, attempt: (action: () => Promis
   const { snap } = page.pointer;
   const nudges: Command[] = ([['', 0.01, '1 cm'], ['Shift+', 0.1, '10 cm'], ['Alt+', 0.001, '1 mm']] as const).flatMap(([mod, by, words]) =>
     ([['ArrowLeft', -1, 0], ['ArrowRight', 1, 0], ['ArrowUp', 0, 1], ['ArrowDown', 0, -1]] as const).map(([key, x, y]): Command =>
-      ({ name: `${mod}${key}`, key: `${mod}${key}`, title: `move by ${words}`, run: () => page.actions.nudge(x * by, y * by), possible: any })));
+      ({ name: `${mod}${key}`, key: `${mod}${key}`, title: `move by ${words} (with the map in focus)`, onMap: true, run: () => page.actions.nudge(x * by, y * by), possible: any })));
   return [
     { name: 'add', button: 'Add', key: 'N', title: 'new marker at the centre of the view', run: () => page.actions.addAt(page.view.center) },
     { name: 'duplicate', button: 'Duplicate', key: 'Ctrl+D', title: 'duplicate, with the safest free IDs', run: () => page.actions.duplicate(), possible: any },
@@ -32,7 +32,7 @@ export function markerCommands(page: MarkerTools, attempt: (action: () => Promis
     { name: 'pick-id', key: 'I', title: 'another ID, the safest free ones first', run: () => attempt(() => page.actions.pickId()), possible: () => editor.selection.size === 1 },
     { name: 'delete', button: 'Delete', key: 'Delete', title: 'delete', run: () => editor.remove(editor.selection), possible: any },
     { name: 'all', key: 'Ctrl+A', title: 'select all', run: () => editor.select(editor.markers.keys()) },
-    { name: 'none', key: 'Escape', title: 'clear the selection; cancel a drag', run: () => { page.measure.end(); page.pointer.pick = null; page.pointer.cancel(); editor.select([]); } },
+    { name: 'none', key: 'Escape', everywhere: true, title: 'end measuring or aligning; cancel a drag; clear the selection', run: () => { page.pointer.endPick(); page.pointer.cancel(); editor.select([]); } },
     { name: 'ccw', key: '[', title: 'turn by 1° counter-clockwise', run: () => page.actions.turn(1), possible: any },
     { name: 'cw', key: ']', title: 'turn by 1° clockwise', run: () => page.actions.turn(-1), possible: any },
     { name: 'quarter', key: 'R', title: 'turn by 90°', run: () => page.actions.turn(90), possible: any },

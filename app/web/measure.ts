@@ -16,9 +16,9 @@ export class Measure {
   toggle(): void { this.on ? this.end() : this.begin(); }
 
   begin(): void {
+    this.pointer.beginPick((at, marker) => this.take(at, marker), () => this.end());
     this.on = true;
     this.from = this.to = null;
-    this.pointer.pick = (at, marker) => this.take(at, marker);
     this.say('Measure: click two points, or markers for their centres. Escape cancels.');
   }
 
@@ -26,7 +26,7 @@ export class Measure {
     if (!this.on) return;
     this.on = false;
     this.from = this.to = null;
-    this.pointer.pick = null;
+    this.pointer.endPick();
     this.stage.redraw();
   }
 

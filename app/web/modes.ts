@@ -42,6 +42,7 @@ export class Modes {
     this.now = mode;
     document.body.dataset['mode'] = mode;
     for (const [other] of titles) byId(`tool-${other}`).setAttribute('aria-pressed', String(other === mode));
+    pointer.endPick();
     pointer.cancel();
     const isLive = mode === 'live' || mode === 'survey';
     pointer.guest = mode === 'edit' ? null : isLive ? live : passive;

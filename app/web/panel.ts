@@ -20,10 +20,21 @@ export interface PanelActions {
 type FieldName = 'id' | 'x' | 'y' | 'z' | 'yawDeg';
 const fields: [FieldName, string, string][] = [
   ['id', 'ID', '1'], ['x', 'x (m)', '0.01'], ['y', 'y (m)', '0.01'], ['z', 'z (m)', '0.01'], ['yawDeg', 'yaw (°)', '1']];
+const farthestM = 1e5;
+
+/** Without the last digits of binary fractions. */
+const shortly = (value: number): string => String(Number(value.toFixed(6)));
+
+interface ListRow { row: HTMLTableRowElement; id: HTMLButtonElement; cells: HTMLTableCellElement[] }
 
 export class Panel {
   private shownSelection = '';
   private readonly coverageWords = el('p', { id: 'coverage-words' });
+  private readonly reason = el('p', { class: 'error', id: 'field-reason', role: 'alert' });
+  private readonly rows = new Map<number, ListRow>();
+  private listedKeys = '';
+  private readonly listBody = el('tbody');
+  private readonly listRest = el('p');
   private readonly gapWords = el('p', { id: 'gap-words' });
 
   constructor(private readonly editor: Editor, private readonly actions: PanelActions) {
@@ -31,6 +42,8 @@ export class Panel {
       button('Suggest next marker', 'Place a marker where it closes most of the gaps', () => actions.suggest()),
       button('Fill the gaps', 'Place as many markers as needed, by a greedy search (K)', () => actions.fill())));
     byId('filter').addEventListener('input', () => this.showList());
+    const head = el('thead', {}, el('tr', {}, ...['ID', 'x (m)', 'y (m)', 'yaw (°)'].map((t) => el('th', { scope: 'col' }, t))));
+    byId('list').replaceChildren(el('table', {}, head, this.listBody), this.listRest);
   }
 
   show(): void {
@@ -61,19 +74,21 @@ export class Panel {
   private fieldsOf(marker: Marker): HTMLElement {
     const grid = el('div', { class: 'fields' });
     for (const [name, label, step] of fields) {
-      const input = el('input', { id: `field-${name}`, type: 'number', step, value: String(marker[name]) });
+      const input = el('input', { id: `field-${name}`, type: 'number', step, value: shortly(marker[name]), 'aria-describedby': 'field-reason' });
       input.addEventListener('change', () => this.enter(marker.key, name, input));
       grid.append(el('label', { for: `field-${name}` }, label), input);
     }
-    return grid;
+    this.reason.textContent = '';
+    return el('div', {}, grid, this.reason);
   }
 
   private refreshFields(marker: Marker): void {
     for (const [name] of fields) {
       const input = byId(`field-${name}`) as HTMLInputElement;
-      input.value = String(marker[name]);
+      input.value = shortly(marker[name]);
       input.removeAttribute('aria-invalid');
     }
+    this.reason.textContent = '';
     const faces = document.querySelector('.faces');
     if (faces?.getAttribute('data-id') !== String(marker.id)) faces?.replaceWith(facesOf(marker.id));
   }
@@ -81,10 +96,11 @@ export class Panel {
   private enter(key: number, name: FieldName, input: HTMLInputElement): void {
     const marker = this.editor.chosen().find((m) => m.key === key);
     const value = input.valueAsNumber;
-    const wrong = !marker || !Number.isFinite(value) || Math.abs(value) > 1e5 ||
-      (name === 'id' && (!Number.isInteger(value) || value < 0 || value >= idCount));
-    input.toggleAttribute('aria-invalid', wrong);
-    if (wrong) return;
+    if (!marker) return;
+    const wrong = whyNot(name, value);
+    input.setAttribute('aria-invalid', String(wrong !== ''));
+    this.reason.textContent = wrong === '' ? '' : `${wrong}; the marker keeps ${shortly(marker[name])}`;
+    if (wrong !== '') return;
     this.editor.change([{ ...marker, [name]: name === 'yawDeg' ? wrapDeg(value) : value }]);
   }
 
@@ -128,19 +144,42 @@ export class Panel {
   private showList(): void {
     const filter = (byId('filter') as HTMLInputElement).value.trim();
     const all = [...this.editor.markers.values()].filter((m) => String(m.id).includes(filter)).sort((a, b) => a.id - b.id);
-    const rows = all.slice(0, mostRows).map((marker) => {
-      const m = this.editor.onMap(marker);
-      const choose = button(String(m.id), 'Choose and show', () => {
-        this.editor.select([m.key]);
-        this.actions.goTo([m]);
-      });
-      return el('tr', this.editor.selection.has(m.key) ? { class: 'chosen' } : {}, el('td', {}, choose),
-        el('td', {}, m.x.toFixed(3)), el('td', {}, m.y.toFixed(3)), el('td', {}, m.yawDeg.toFixed(1)));
-    });
-    const head = el('thead', {}, el('tr', {}, ...['ID', 'x (m)', 'y (m)', 'yaw (°)'].map((t) => el('th', { scope: 'col' }, t))));
-    byId('list').replaceChildren(el('table', {}, head, el('tbody', {}, ...rows)));
-    if (all.length > mostRows) byId('list').append(el('p', {}, `The first ${mostRows} of ${all.length}; filter to see others.`));
+    const listed = all.slice(0, mostRows);
+    for (const marker of listed) this.showRow(marker);
+    this.listRest.textContent = all.length > mostRows ? `The first ${mostRows} of ${all.length}; filter to see others.` : '';
+    const keys = listed.map((m) => m.key).join();
+    if (keys === this.listedKeys) return;  // rows that stay where they are keep the focus, and a press under way
+    this.listedKeys = keys;
+    const focused = document.activeElement;
+    this.listBody.replaceChildren(...listed.map((m) => this.rows.get(m.key)!.row));
+    if (focused instanceof HTMLElement && this.listBody.contains(focused)) focused.focus({ preventScroll: true });
+    for (const key of this.rows.keys()) if (!this.editor.markers.has(key)) this.rows.delete(key);
   }
+
+  private showRow(marker: Marker): void {
+    const m = this.editor.onMap(marker);
+    let shown = this.rows.get(m.key);
+    if (!shown) {
+      const id = button('', 'Choose and show', () => {
+        this.editor.select([m.key]);
+        const now = this.editor.chosen()[0];
+        if (now) this.actions.goTo([now]);
+      });
+      const cells = [el('td'), el('td'), el('td')];
+      this.rows.set(m.key, shown = { row: el('tr', {}, el('td', {}, id), ...cells), id, cells });
+    }
+    shown.row.className = this.editor.selection.has(m.key) ? 'chosen' : '';
+    [String(m.id), m.x.toFixed(3), m.y.toFixed(3), m.yawDeg.toFixed(1)].forEach((text, i) => {
+      const cell = i === 0 ? shown!.id : shown!.cells[i - 1]!;
+      if (cell.textContent !== text) cell.textContent = text;
+    });
+  }
+}
+
+/** What is wrong with a number for a field of a marker; nothing when it can be used. */
+function whyNot(name: FieldName, value: number): string {
+  if (name === 'id') return Number.isInteger(value) && value >= 0 && value < idCount ? '' : `IDs are whole numbers from 0 to ${idCount - 1}`;
+  return Number.isFinite(value) && Math.abs(value) <= farthestM ? '' : `${name === 'yawDeg' ? 'yaw' : name} needs a number`;
 }
 
 function listOf(items: HTMLElement[]): HTMLElement {

@@ -49,7 +49,7 @@ export class Places {
 
   private async nameFor(what: string): Promise<string> {
     const field = el('input', { 'aria-label': 'Name', id: 'place-name', maxlength: '80' });
-    const answer = await ask(`Keep this ${what}`, [el('p', {}, 'Under which name?'), field], [['keep', 'Keep'], ['', 'Cancel']]);
+    const answer = await ask(`Keep this ${what}`, [el('p', {}, 'Under which name?'), field], [['keep', 'Keep'], ['', 'Cancel']], () => field.value.trim() === '' ? 'Wanted a name' : '');
     return answer === 'keep' ? field.value.trim() : '';
   }
 

@@ -27,6 +27,7 @@ export class Pointer {
   snap: Snap = { on: true, gridM: 0.05, angleDeg: 15 };
   /** Set while a point on the map is requested: receives the next click. */
   pick: ((at: Point, marker: Marker | null) => void) | null = null;
+  private pickOver: () => void = () => {};
   guest: Guest | null = null;
   onHover: (at: Point | null) => void = () => {};
   onDrag: () => void = () => {};
@@ -48,6 +49,18 @@ export class Pointer {
       stage.view.zoomAt(this.at(e), Math.exp(-e.deltaY * (e.deltaMode === 1 ? 0.05 : 0.0015)));
       stage.redraw();
     }, { passive: false });
+  }
+
+  /** Requests points; `over`: called when it ends, whoever ends it. One request at a time. */
+  beginPick(pick: (at: Point, marker: Marker | null) => void, over: () => void): void {
+    this.endPick();
+    [this.pick, this.pickOver] = [pick, over];
+  }
+
+  endPick(): void {
+    const over = this.pickOver;
+    [this.pick, this.pickOver] = [null, () => {}];
+    over();
   }
 
   /** Restores the state before the gesture. */

@@ -29,7 +29,7 @@ export class Replay {
   private readonly runs = el('select', { 'aria-label': 'Run' });
   private readonly slider = el('input', { type: 'range', min: '0', step: '0.01', value: '0', 'aria-label': 'Time' });
   private readonly speed = el('select', { 'aria-label': 'Speed' }, ...speeds.map((s) => el('option', { value: s }, `${s} ×`)));
-  private readonly play = button('Play', 'Play or pause (space bar)', () => this.toggle());
+  private readonly play = button('Play', 'Play or pause (P; the space bar too while no robot is connected)', () => this.toggle());
   private readonly words = el('output', { id: 'replay-words' });
   private readonly noPicture = el('p', { class: 'faint' }, 'No pictures: lodestar replay --pictures 2 keeps two per second');
   private readonly picture = el('img', { id: 'replay-picture', alt: 'Camera picture of that time', hidden: '' });
@@ -103,7 +103,7 @@ export class Replay {
     const onControl = e.target instanceof HTMLElement && e.target.closest('button, input, select, dialog') !== null;
     if (!this.run || onControl) return;
     const step = e.shiftKey ? 5 : 0.5;
-    if (e.key === ' ') this.toggle();
+    if (e.key === ' ' || e.key === 'p') this.toggle();
     else if (e.key === 'ArrowLeft') this.goTo(this.time - step);
     else if (e.key === 'ArrowRight') this.goTo(this.time + step);
     else return;

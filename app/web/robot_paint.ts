@@ -3,10 +3,10 @@ import { degrees } from './geometry.js';
 import type { Point, Pose } from './geometry.js';
 import type { View } from './view.js';
 
-export interface Ink { robot: string; path: string; preview: string; track: string; truth: string; goal: string; stale: string }
+export interface Ink { robot: string; path: string; preview: string; track: string; truth: string; goal: string; stale: string; person: string; stands: string; rim: string }
 export const ink: Record<'light' | 'dark', Ink> = {
-  light: { robot: '#0b5fce', path: '#1d6b34', preview: '#8a5a00', track: '#c33cc0', truth: '#e07000', goal: '#b3261e', stale: '#7d8794' },
-  dark: { robot: '#7fb2ff', path: '#7fd699', preview: '#f0c060', track: '#e58ae2', truth: '#ffb067', goal: '#ff9a92', stale: '#8b95a3' },
+  light: { robot: '#0b5fce', path: '#1d6b34', preview: '#8a5a00', track: '#c33cc0', truth: '#e07000', goal: '#b3261e', stale: '#7d8794', person: '#d0006f', stands: '#00707a', rim: '#ffffff' },
+  dark: { robot: '#7fb2ff', path: '#7fd699', preview: '#f0c060', track: '#e58ae2', truth: '#ffb067', goal: '#ff9a92', stale: '#8b95a3', person: '#ff5fa8', stands: '#5fd0d8', rim: '#12161d' },
 };
 export const inkNow = (): Ink => ink[document.documentElement.dataset['theme'] === 'dark' ? 'dark' : 'light'];
 

@@ -107,7 +107,8 @@ describe('editing', () => {
     await page.getByLabel('yaw (°)').fill('270');
     await page.getByLabel('ID', { exact: true }).fill('5000');
     await page.keyboard.press('Enter');
-    assert.equal(await page.getByLabel('ID', { exact: true }).getAttribute('aria-invalid'), '');
+    assert.equal(await page.getByLabel('ID', { exact: true }).getAttribute('aria-invalid'), 'true');
+    assert.match(await page.locator('#field-reason').textContent(), /0 to 4095; the marker keeps 2826/);
     const m = await marker(page, 2826);
     assert.deepEqual([m.id, m.x, m.z, m.yawDeg], [2826, 11.123456, 2.75, -90]);
     await save(page);

@@ -35,7 +35,7 @@ export const serveRobotAt = (place, ...options) => start(place,
     '--lease', '3', ...options], 'ignore');  // a page may take its time where the machine is busy
 
 async function start({ folder, site }, command, words = 'inherit') {
-  const server = spawn(binary, [...command, '--port', '0'], { stdio: ['ignore', 'pipe', words] });
+  const server = spawn(binary, command.includes('--port') ? command : [...command, '--port', '0'], { stdio: ['ignore', 'pipe', words] });
   const ended = new Promise((done) => server.on('exit', done));
   const url = await new Promise((found, failed) => {
     server.stdout.on('data', (bytes) => found(String(bytes).trim()));

@@ -5,6 +5,9 @@
 #include <thread>
 
 #include "app/console/live_json.hpp"
+#include "app/console/routes.hpp"
+#include "drivers/system/clock.hpp"
+#include "maps/input_error.hpp"
 
 // Clients without sockets: their messages, what is queued for them, and the orders to the robot.
 namespace lodestar {
@@ -119,6 +122,79 @@ TEST(LiveView, lets_one_drive_at_a_time_and_everyone_stop) {
   first.send({{"type", "release"}});
   second.send({{"type", "take"}});
   EXPECT_TRUE(second.newest("refused").is_null());
+}
+
+TEST(LiveView, what_is_ordered_once_takes_no_control_and_waits_for_who_has_it) {
+  const Site site = lab();
+  LiveLink link;
+  LiveView view(site, &link);
+  Client first(view);
+  Client second(view);
+  first.send({{"type", "place"}, {"pose", {1.0, 2.0, 90.0}}});
+  first.send({{"type", "clear_fault"}});
+  EXPECT_EQ(link.take_orders().size(), 2U);
+  second.send({{"type", "take"}});  // free at once
+  EXPECT_TRUE(second.newest("refused").is_null());
+  second.send({{"type", "name"}, {"name", "Ada"}});
+  first.send({{"type", "place"}, {"pose", {1.0, 2.0, 90.0}}});
+  EXPECT_EQ(first.newest("refused")["why"], "client 2 (Ada) has control");
+  EXPECT_THAT(link.take_orders(), IsEmpty());
+}
+
+TEST(LiveView, control_is_asked_for_and_handed_over_while_the_robot_is_held) {
+  const Site site = lab();
+  LiveLink link;
+  LiveView view(site, &link);
+  Client driver(view);
+  Client other(view);
+  Client viewer(view, Role::view);
+  driver.send({{"type", "take"}});
+  viewer.send({{"type", "ask"}});
+  EXPECT_THAT(viewer.newest("refused")["why"], HasSubstr("token to drive"));
+  other.send({{"type", "ask"}});
+  EXPECT_EQ(driver.newest("asked")["client"], 2);
+  other.send({{"type", "hand_over"}, {"client", 2}});  // not theirs to give
+  EXPECT_THAT(other.newest("refused")["why"], HasSubstr("does not have control"));
+  driver.send({{"type", "keep"}, {"client", 2}});
+  EXPECT_EQ(other.newest("refused")["why"], "client 1 keeps control");
+  driver.send({{"type", "hand_over"}, {"client", 3}});
+  EXPECT_THAT(driver.newest("refused")["why"], HasSubstr("has left"));  // may not drive at all
+  driver.send({{"type", "hand_over"}, {"client", 2}});
+  EXPECT_FALSE(other.newest("control").is_null());
+  EXPECT_TRUE(link.is_held(monotonic_now()));
+  other.send({{"type", "pause"}});
+  driver.send({{"type", "pause"}});
+  EXPECT_EQ(link.take_orders().size(), 1U);
+}
+
+TEST(LiveView, says_what_the_scanner_sees_in_the_map_and_why_the_field_slows) {
+  const Site site = lab();
+  LiveLink link;
+  LiveView view(site, &link);
+  Client client(view);
+  RobotState state = standing(1.0, 2.0);
+  state.estimate->map_from_base.yaw_rad = radians(90.0);
+  view.pump(at(1.0), &state);
+  EXPECT_TRUE(client.newest("state")["field"].is_null());  // no scanner
+  SeenSurroundings seen;
+  seen.points = {{Vec2(2.0, 0.0), Presence::person}, {Vec2(0.0, 1.0), Presence::mapped}};
+  seen.base_from_odom = {Vec2(0.5, 0.0), 0.0};
+  seen.cell_m = 0.05;
+  seen.cells = {{Vec2(1.0, 0.0), true}};
+  state.seen = std::make_shared<const SeenSurroundings>(seen);
+  state.slowed_by = StopReason::person_near;
+  view.pump(at(2.0), &state);
+  const json message = client.newest("seen");
+  EXPECT_EQ(message["person"], json::parse("[1.0, 4.0]"));  // 2 m ahead, to the north
+  EXPECT_EQ(message["mapped"], json::parse("[0.0, 2.0]"));
+  EXPECT_EQ(message["cells_standing"], json::parse("[1.0, 3.5]"));
+  EXPECT_EQ(message["cell_yaw_deg"], 90.0);
+  view.pump(at(3.0), &state);
+  EXPECT_EQ(client.newest("state")["field"],
+            json::parse(R"({"state": "slowed", "why": "a person is too near"})"));
+  state.stop = StopReason::person_near;
+  view.pump(at(4.0), &state);
+  EXPECT_EQ(client.newest("state")["field"]["state"], "stopped");
 }
 
 TEST(LiveView, a_stop_finds_its_way_when_no_order_does) {

@@ -76,13 +76,14 @@ class Served {
  private:
   static HttpServerOptions with_long_requests(HttpServerOptions options) {
     options.takes_long = [](const HttpRequest& head) { return head.target.starts_with("/long"); };
+    options.uses_files = [](const HttpRequest& head) { return head.target.starts_with("/file"); };
     return options;
   }
 
   HttpResponse answer(const HttpRequest& request) {
     if (request.target.ends_with("/throws")) throw std::runtime_error("no such word");
     if (request.target.ends_with("/throws-a-number")) throw 7;
-    if (request.target == "/long") {
+    if (request.target == "/long" || request.target == "/file") {
       if (!has_begun_.exchange(true)) began.count_down();
       while (!may_end_.try_wait() && !request.cancelled.stop_requested()) std::this_thread::yield();
       if (!may_end_.try_wait()) cancelled.count_down();
@@ -108,6 +109,23 @@ TEST(LongRequest, a_message_over_a_socket_does_not_wait_for_it) {
   EXPECT_THAT(served.ask("/short"), StartsWith("HTTP/1.1 200"));
   served.let_go();
   EXPECT_THAT(long_answer.get(), HasSubstr("{\"done\": \"/long\"}"));
+}
+
+TEST(LongRequest, a_message_over_a_socket_does_not_wait_for_a_file_that_a_viewer_reads) {
+  const std::string view = "view-view-view-view";
+  Served served({.access = {.view_token = view}});
+  const std::string bearer = "Authorization: Bearer " + view + "\r\n";
+  SocketClient driver(served.port());
+  ASSERT_THAT(driver.upgrade("echo.v1", bearer), StartsWith("HTTP/1.1 101"));
+  std::vector<std::future<std::string>> files;
+  for (int i = 0; i < 8; ++i)
+    files.push_back(std::async(std::launch::async, [&] { return served.ask("/file", bearer); }));
+  served.began.wait();
+  driver.send("stop");
+  EXPECT_EQ(driver.receive(), "stop");
+  EXPECT_THAT(served.ask("/short", bearer), StartsWith("HTTP/1.1 200"));
+  served.let_go();
+  for (auto& file : files) EXPECT_THAT(file.get(), StartsWith("HTTP/1.1 200"));
 }
 
 TEST(LongRequest, is_refused_with_a_reason_when_too_many_wait) {
