@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/site/site_folder.hpp"
 
 namespace lodestar {
 namespace {
@@ -49,7 +50,7 @@ void print_json(const std::vector<Finding>& findings) {
 }
 
 ExitCode doctor_command(const DoctorArguments& arguments) {
-  const Site site = load_site(arguments.site);
+  const Site site = open_site(arguments.site);
   const std::vector<Finding> findings = examine(site, connection_of(site, arguments.interface));
   if (arguments.json) {
     print_json(findings);
@@ -68,7 +69,10 @@ std::vector<Command> doctor_commands(CLI::App& lodestar) {
   CLI::App* command = lodestar.add_subcommand("doctor",
                                               "Diagnose why a robot does not move: a line for each check, "
                                               "with a remedy; exit 1 when one fails. Sends nothing");
-  command->add_option("site", arguments->site, "Site folder")->required();
+  command
+      ->add_option("site", arguments->site,
+                   "Site folder, or the name of a site in /etc/lodestar or /srv/lodestar")
+      ->required();
   command->add_option("--can", arguments->interface, "CAN interface; default: the site's");
   command->add_flag("--json", arguments->json, "As JSON");
   return {{command, [arguments] { return doctor_command(*arguments); }}};

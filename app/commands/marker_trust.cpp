@@ -5,6 +5,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/navigation/navigation_setup.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/marker.hpp"
 
 // `lodestar markers trust`: a person has hung a marker back where it was surveyed.
@@ -17,7 +18,7 @@ struct TrustArguments {
 };
 
 ExitCode trust(const TrustArguments& arguments) {
-  const std::filesystem::path file = state_file(load_site(arguments.site));
+  const std::filesystem::path file = state_file(open_site(arguments.site));
   const std::vector<int> trusted = trust_again(file, arguments.ids);
   if (!trusted.empty()) fmt::print("trusted again: {}\n", fmt::join(trusted, ", "));
   for (const int id : arguments.ids)
