@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -15,10 +16,12 @@ namespace {
 struct TrustArguments {
   std::string site;
   std::vector<int> ids;
+  std::filesystem::path state;
 };
 
 ExitCode trust(const TrustArguments& arguments) {
-  const std::filesystem::path file = state_file(open_site(arguments.site));
+  const Site site = open_site(arguments.site);
+  const std::filesystem::path file = arguments.state.empty() ? state_file(site) : arguments.state;
   const std::vector<int> trusted = trust_again(file, arguments.ids);
   if (!trusted.empty()) fmt::print("trusted again: {}\n", fmt::join(trusted, ", "));
   for (const int id : arguments.ids)
@@ -38,6 +41,7 @@ Command marker_trust_command(CLI::App& markers) {
   command->add_option("ids", arguments->ids, "IDs of the markers")
       ->required()
       ->check(CLI::Range(0, marker_id_count - 1));
+  command->add_option("--state", arguments->state, "State file of the robot's drives; default: the site's");
   return {command, [arguments] { return trust(*arguments); }};
 }
 

@@ -24,6 +24,7 @@
 #include "app/site/site_folder.hpp"
 #include "drivers/base/guard.hpp"
 #include "drivers/scanner/scanner_driver.hpp"
+#include "drivers/system/service_manager.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -42,6 +43,7 @@ struct RunArguments {
   bool survey = false;
   bool explore = false;
   std::string runs;
+  std::string state;
   ConsoleServiceOptions console;
 };
 
@@ -189,13 +191,20 @@ ExitCode run_command(RunArguments arguments) {
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const BaseConnection connection = connection_of(site, arguments.interface);
   OperatorInput input;
-  RunOptions options{
-      .camera = site.default_camera,
-      .goals = {},
-      .pictures_hz = arguments.pictures_hz,
-      .hold_on_base_fault = true,
-      .operator_wish = [&input] { return wish_of(input); },
-      .tell = [](Severity severity, const std::string& words) { program_log().say(severity, words); }};
+  ServiceManager manager(service_environment());
+  RunOptions options{.camera = site.default_camera,
+                     .goals = {},
+                     .pictures_hz = arguments.pictures_hz,
+                     .hold_on_base_fault = true,
+                     .operator_wish = [&input] { return wish_of(input); },
+                     .tell =
+                         [&manager](Severity severity, const std::string& words) {
+                           program_log().say(severity, words);
+                           if (severity != Severity::debug) manager.tell_status(words);
+                         },
+                     .on_end = [&manager] { manager.stop(); },
+                     .on_step = [&manager](Stamp now) { manager.step(now); },
+                     .state = arguments.state};
   for (const std::string& text : arguments.goals) options.goals.push_back(parse_goal("--goal", text));
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
@@ -244,6 +253,9 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
                       "With --serve: folder for run folders, unless -o names one; default: runs");
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
+  command->add_option(
+      "--state", arguments->state,
+      "File of what drives learn of wheels, dots and displaced markers; default: state.yaml of the site");
   command->add_option("--can", arguments->interface, "CAN interface; default: the site's");
   command->add_option("--seed", arguments->seed, "Seed of a simulated camera")->capture_default_str();
   command
