@@ -40,14 +40,15 @@ set(CPACK_DEBIAN_LODESTAR_PACKAGE_NAME lodestar)
 set(CPACK_DEBIAN_LODESTAR_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_LODESTAR_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LODESTAR_PACKAGE_DEPENDS adduser)
+# CPack indents the lines.
 set(CPACK_DEBIAN_LODESTAR_DESCRIPTION "indoor navigation for mobile robots under ceiling markers
- A camera that looks up sees infrared-retroreflective dot markers on the ceiling;
- from them the robot knows where it is to millimetres. It plans its way over an
- occupancy map and drives a differential base over CAN.
- .
- This package has the program with its console for the browser, a service for a
- robot, and an example site, the lab, which it drives through in simulation:
- lodestar replay.")
+A camera that looks up sees infrared-retroreflective dot markers on the
+ceiling; from them the robot knows where it is to millimetres. It plans its
+way over an occupancy map and drives a differential base over CAN.
+.
+This package has the program with its console for the browser, a service for a
+robot, and an example site, the lab, which it drives through in simulation:
+lodestar replay.")
 set(CPACK_DEBIAN_LODESTAR_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/debian/postinst"
   "${PROJECT_SOURCE_DIR}/packaging/debian/prerm" "${PROJECT_SOURCE_DIR}/packaging/debian/postrm")
 
@@ -58,8 +59,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libopencv-core-dev,
 libopencv-imgcodecs-dev, libopencv-features2d-dev, libopencv-calib3d-dev, libfmt-dev, libyaml-cpp-dev, liboctomap-dev, \
 libompl-dev, libceres-dev, libgoogle-glog-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "indoor navigation for mobile robots (libraries)
- Headers and static libraries of Lodestar for C++20: maps and markers, the pose
- of a camera under ceiling markers, path planning over occupancy maps, and
- motion control; with files for CMake's find_package(Lodestar) and examples.")
+Headers and static libraries of Lodestar for C++20: maps and markers, the pose
+of a camera under ceiling markers, path planning over occupancy maps, and
+motion control; with files for CMake's find_package(Lodestar) and examples.")
 
 include(CPack)
