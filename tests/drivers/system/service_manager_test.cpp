@@ -1,14 +1,10 @@
 #include "drivers/system/service_manager.hpp"
 
-#include <array>
 #include <cstdlib>
-#include <cstring>
 #include <gmock/gmock.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
-#include "tests/maps/temporary_folder.hpp"
+#include "tests/drivers/system/manager_socket.hpp"
 
 namespace lodestar {
 namespace {
@@ -22,31 +18,13 @@ Stamp at(double time_s) {
   return Stamp(from_seconds(time_s));
 }
 
-/// The manager's end of the socket.
 class Service : public testing::Test {
  protected:
-  Service() : receiver_(::socket(AF_UNIX, SOCK_DGRAM, 0)) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strncpy(static_cast<char*>(address.sun_path), path().c_str(), sizeof(address.sun_path) - 1);
-    if (::bind(receiver_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
-      throw std::runtime_error("cannot bind the manager's socket");
-  }
-
-  [[nodiscard]] std::string path() const { return (folder_.path() / "notify").string(); }
-
-  /// All that was said and not yet heard.
-  [[nodiscard]] std::vector<std::string> hear() const {
-    std::vector<std::string> heard;
-    std::array<char, 256> text{};
-    for (ssize_t size = 0; (size = ::recv(receiver_.get(), text.data(), text.size(), MSG_DONTWAIT)) >= 0;)
-      heard.emplace_back(text.data(), static_cast<std::size_t>(size));
-    return heard;
-  }
+  [[nodiscard]] std::string path() const { return socket_.path(); }
+  [[nodiscard]] std::vector<std::string> hear() const { return socket_.hear(); }
 
  private:
-  TemporaryFolder folder_;
-  FileDescriptor receiver_;
+  ManagerSocket socket_;
 };
 
 TEST_F(Service, is_told_that_the_loop_runs_and_then_that_it_goes_on) {
