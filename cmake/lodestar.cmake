@@ -13,12 +13,15 @@ if(CCACHE_PROGRAM)
 endif()
 
 add_library(lodestar_properties INTERFACE)
-target_include_directories(lodestar_properties INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(lodestar_properties INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lodestar>)
+target_compile_features(lodestar_properties INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
 # A field left out of a designated initializer takes the default that its struct gives it: meant so.
-target_compile_options(lodestar_properties INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Werror
-  -Wno-missing-field-initializers)
+# For our own sources: who uses an installed library chooses his own.
+target_compile_options(lodestar_properties INTERFACE
+  "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wconversion;-Werror;-Wno-missing-field-initializers>")
 if(NOT LODESTAR_TOGETHER)
-  target_compile_options(lodestar_properties INTERFACE -Wshadow)
+  target_compile_options(lodestar_properties INTERFACE $<BUILD_INTERFACE:-Wshadow>)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # libstdc++ 12 calls its own deprecated temporary buffers in std::stable_sort.
@@ -37,7 +40,7 @@ if(LODESTAR_FUZZ)
   target_compile_options(lodestar_properties INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 if(CCACHE_PROGRAM AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(lodestar_properties INTERFACE -fpch-preprocess)
+  target_compile_options(lodestar_properties INTERFACE $<BUILD_INTERFACE:-fpch-preprocess>)
 endif()
 
 # Precompiled headers: what is slow to read and that many include, read once for each set of compiler flags. A source

@@ -2,7 +2,11 @@
 # bring headers and libraries only, so each module becomes an imported target here: opencv_core, opencv_imgproc, ...
 
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-foreach(module IN ITEMS core imgproc imgcodecs videoio features2d calib3d)
+# find_package(Lodestar) reads this file too: the libraries do without videoio.
+if(NOT DEFINED lodestar_opencv_modules)
+  set(lodestar_opencv_modules core imgproc imgcodecs features2d calib3d videoio)
+endif()
+foreach(module IN LISTS lodestar_opencv_modules)
   find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
   add_library(opencv_${module} SHARED IMPORTED GLOBAL)
   set_target_properties(opencv_${module} PROPERTIES
@@ -12,13 +16,16 @@ foreach(module IN ITEMS core imgproc imgcodecs videoio features2d calib3d)
 endforeach()
 target_link_libraries(opencv_imgproc INTERFACE opencv_core)
 target_link_libraries(opencv_imgcodecs INTERFACE opencv_imgproc)
-target_link_libraries(opencv_videoio INTERFACE opencv_imgcodecs)
+if(TARGET opencv_videoio)
+  target_link_libraries(opencv_videoio INTERFACE opencv_imgcodecs)
+endif()
 target_link_libraries(opencv_features2d INTERFACE opencv_imgproc)
 target_link_libraries(opencv_calib3d INTERFACE opencv_features2d)
 
 # ChArUco boards need aruco, which Debian ships with all of contrib: used where it is there.
+option(LODESTAR_ARUCO "Read ChArUco boards where OpenCV's aruco is installed" ON)
 find_library(OPENCV_aruco_LIBRARY opencv_aruco)
-if(OPENCV_aruco_LIBRARY)
+if(LODESTAR_ARUCO AND OPENCV_aruco_LIBRARY)
   add_library(opencv_aruco SHARED IMPORTED GLOBAL)
   set_target_properties(opencv_aruco PROPERTIES
     IMPORTED_LOCATION ${OPENCV_aruco_LIBRARY}

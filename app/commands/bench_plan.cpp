@@ -10,6 +10,7 @@
 #include "app/bench/plan_site.hpp"
 #include "app/commands/bench_plan_map.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/input_error.hpp"
 #include "maps/median.hpp"
 
@@ -89,7 +90,7 @@ ExitCode bench_planners(BenchPlanArguments arguments) {
   for (const std::string& name : arguments.planners)
     arguments.bench.kinds.push_back(planner_kind(name).value());
   if (arguments.planners.empty()) arguments.bench.kinds = all_planner_kinds();
-  const SiteBenchResult result = bench_site(load_site(arguments.site), arguments.bench);
+  const SiteBenchResult result = bench_site(open_site(arguments.site), arguments.bench);
   if (arguments.json) {
     fmt::print("{}\n", as_json(result, arguments.bench.seed).dump(2));
   } else {

@@ -9,6 +9,7 @@
 #include "app/placement/mount_set.hpp"
 #include "app/site/robot_mount.hpp"
 #include "app/site/site.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/camera_file.hpp"
 #include "maps/camera_model.hpp"
@@ -121,7 +122,7 @@ struct MountInput {
 /// The site's files, each overridden by its option.
 MountInput input_of(const MountArguments& arguments) {
   std::optional<Site> site;
-  if (arguments.inputs.size() == 2) site = load_site(arguments.inputs.front());
+  if (arguments.inputs.size() == 2) site = open_site(arguments.inputs.front());
   if (!site && (arguments.markers.empty() || arguments.camera.empty() || arguments.robot.empty())) {
     throw InputError("found one folder, wanted SITE LOG, or LOG with --markers, --camera and --robot");
   }

@@ -10,6 +10,7 @@
 #include "app/commands/recorded_run.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/progress.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 
@@ -59,8 +60,7 @@ ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, bool peopl
 }
 
 ExitCode campaign_command(const CampaignArguments& arguments) {
-  const Site site =
-      load_site(arguments.site.empty() ? fs::path(LODESTAR_SITES_DIR) / "lab" : fs::path(arguments.site));
+  const Site site = open_site(arguments.site);
   if (arguments.mission) return run_one(site, *arguments.mission, arguments.people, arguments.output);
   const Interruption interruption;
   std::vector<MissionOutcome> outcomes;

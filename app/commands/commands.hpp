@@ -28,5 +28,6 @@ std::vector<Command> run_commands(CLI::App& lodestar);
 std::vector<Command> scenario_commands(CLI::App& lodestar);
 std::vector<Command> survey_commands(CLI::App& lodestar);
 std::vector<Command> doctor_commands(CLI::App& lodestar);
+std::vector<Command> command_line_commands(CLI::App& lodestar);  ///< last: it describes those before it
 
 }  // namespace lodestar

@@ -17,7 +17,7 @@ namespace lodestar {
 struct ConsoleServiceOptions {
   AccessRules access;
   std::filesystem::path site;
-  std::filesystem::path runs = "runs";
+  std::filesystem::path runs;
   LiveViewOptions live;
 };
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/drive/service_findings.hpp"
+#include "app/site/site_folder.hpp"
 
 namespace lodestar {
 namespace {
@@ -14,6 +16,7 @@ struct DoctorArguments {
   std::string site;
   std::string interface;
   bool json = false;
+  bool fix = false;
 };
 
 const char* word_for(Verdict verdict) {
@@ -49,9 +52,11 @@ void print_json(const std::vector<Finding>& findings) {
 }
 
 ExitCode doctor_command(const DoctorArguments& arguments) {
-  const Site site = load_site(arguments.site);
+  const Site site = open_site(arguments.site);
   const std::vector<Finding> findings = examine(site, connection_of(site, arguments.interface));
-  if (arguments.json) {
+  if (arguments.fix) {
+    fmt::print("{}", fix_script(findings));
+  } else if (arguments.json) {
     print_json(findings);
   } else {
     for (const Finding& finding : findings) print(finding);
@@ -68,9 +73,17 @@ std::vector<Command> doctor_commands(CLI::App& lodestar) {
   CLI::App* command = lodestar.add_subcommand("doctor",
                                               "Diagnose why a robot does not move: a line for each check, "
                                               "with a remedy; exit 1 when one fails. Sends nothing");
-  command->add_option("site", arguments->site, "Site folder")->required();
+  command
+      ->add_option("site", arguments->site,
+                   "Site folder, or the name of a site in /etc/lodestar or /srv/lodestar")
+      ->required();
   command->add_option("--can", arguments->interface, "CAN interface; default: the site's");
-  command->add_flag("--json", arguments->json, "As JSON");
+  CLI::Option* json = command->add_flag("--json", arguments->json, "As JSON");
+  command
+      ->add_flag(
+          "--fix", arguments->fix,
+          "Print the commands that would set up CAN and the service, for you to read and run; runs none")
+      ->excludes(json);
   return {{command, [arguments] { return doctor_command(*arguments); }}};
 }
 

@@ -7,6 +7,7 @@
 #include "app/commands/commands.hpp"
 #include "app/placement/coverage.hpp"
 #include "app/placement/site_floor.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker.hpp"
@@ -116,7 +117,7 @@ ExitCode check(const MarkersArguments& arguments) {
   if (arguments.registry.empty() && arguments.site.empty())
     throw InputError("found neither a registry nor --site, wanted one of them at least");
   std::optional<Site> site;
-  if (!arguments.site.empty()) site = load_site(arguments.site);
+  if (!arguments.site.empty()) site = open_site(arguments.site);
   const std::string file = arguments.registry.empty() ? site->registry_file.string() : arguments.registry;
   const MarkerRegistry registry = load_registry_draft(file);
   std::optional<OccupancyMap> map;

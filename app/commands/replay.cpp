@@ -13,12 +13,12 @@
 #include "app/commands/explored_replay.hpp"
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
-#include "app/commands/lab_site.hpp"
 #include "app/commands/people_options.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/commands/recorded_run.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/log.hpp"
+#include "app/common/program_data.hpp"
 #include "app/common/progress.hpp"
 #include "app/live/operator_session.hpp"
 #include "app/navigation/navigation_setup.hpp"
@@ -28,6 +28,7 @@
 #include "app/simulate/simulated_drive.hpp"
 #include "app/simulate/simulated_drives.hpp"
 #include "app/site/arguments.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 
@@ -172,7 +173,7 @@ ExitCode replay_many(const Site& site, SimulatedDriveOptions options, const Repl
 
 fs::path output_folder(const Site& site, const ReplayArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
-  return fs::path("runs") / fmt::format("{}-{}", site.name, arguments.seed);
+  return runs_folder() / fmt::format("{}-{}", site.name, arguments.seed);
 }
 
 DiskState disk_state(const SimulatedDisk& disk) {
@@ -261,7 +262,7 @@ bool needs_scanner(const ReplayArguments& arguments) {
 }
 
 ExitCode replay_command(const ReplayArguments& arguments) {
-  Site site = load_site(arguments.site.empty() ? lab_site() : fs::path(arguments.site));
+  Site site = open_site(arguments.site);
   if (needs_scanner(arguments) && !site.robot.scanner) site.robot.scanner.emplace();
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const SimulatedDriveOptions options = replay_options(arguments, site);
@@ -276,7 +277,9 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
   const auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command =
       lodestar.add_subcommand("replay", "Simulate a drive through a site; exit 1 unless the robot arrives");
-  command->add_option("site", arguments->site, "Site folder; default: the lab");
+  command->add_option(
+      "site", arguments->site,
+      "Site folder, or the name of a site in /etc/lodestar or /srv/lodestar; default: the lab");
   command->add_option("--seed", arguments->seed, "Seed of all randomness; the same seed gives the same bytes")
       ->capture_default_str();
   command

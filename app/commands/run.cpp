@@ -14,14 +14,17 @@
 #include "app/commands/kept_runs.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/log.hpp"
+#include "app/common/program_data.hpp"
 #include "app/drive/camera_setup.hpp"
 #include "app/drive/operator_input.hpp"
 #include "app/live/operator_session.hpp"
 #include "app/placement/exploration.hpp"
 #include "app/site/arguments.hpp"
 #include "app/site/base_setup.hpp"
+#include "app/site/site_folder.hpp"
 #include "drivers/base/guard.hpp"
 #include "drivers/scanner/scanner_driver.hpp"
+#include "drivers/system/service_manager.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -39,7 +42,8 @@ struct RunArguments {
   bool serve = false;
   bool survey = false;
   bool explore = false;
-  std::string runs = "runs";
+  std::string runs;
+  std::string state;
   ConsoleServiceOptions console;
 };
 
@@ -105,7 +109,7 @@ class ServedRun {
 fs::path run_folder(const RunArguments& arguments, const Site& site) {
   if (!arguments.output.empty()) return arguments.output;
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  return fs::path("runs") / fmt::format("{}-{:%Y%m%dT%H%M%SZ}", site.name, now);
+  return runs_folder() / fmt::format("{}-{:%Y%m%dT%H%M%SZ}", site.name, now);
 }
 
 /// Everything a drive needs besides its options.
@@ -178,21 +182,29 @@ std::unique_ptr<Scanner> scanner_of(const Site& site) {
   return open_scanner(site.scanner);
 }
 
-ExitCode run_command(const RunArguments& arguments) {
+ExitCode run_command(RunArguments arguments) {
   if (arguments.goals.empty() && !arguments.serve && !arguments.survey)
     throw InputError("found neither --goal, --serve nor --survey");
-  Site site = load_site(arguments.site);
+  if (arguments.runs.empty()) arguments.runs = runs_folder();
+  Site site = open_site(arguments.site);
   if (arguments.explore) site.registry = {};
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const BaseConnection connection = connection_of(site, arguments.interface);
   OperatorInput input;
-  RunOptions options{
-      .camera = site.default_camera,
-      .goals = {},
-      .pictures_hz = arguments.pictures_hz,
-      .hold_on_base_fault = true,
-      .operator_wish = [&input] { return wish_of(input); },
-      .tell = [](Severity severity, const std::string& words) { program_log().say(severity, words); }};
+  ServiceManager manager(service_environment());
+  RunOptions options{.camera = site.default_camera,
+                     .goals = {},
+                     .pictures_hz = arguments.pictures_hz,
+                     .hold_on_base_fault = true,
+                     .operator_wish = [&input] { return wish_of(input); },
+                     .tell =
+                         [&manager](Severity severity, const std::string& words) {
+                           program_log().say(severity, words);
+                           if (severity != Severity::debug) manager.tell_status(words);
+                         },
+                     .on_end = [&manager] { manager.stop(); },
+                     .on_step = [&manager](Stamp now) { manager.step(now); },
+                     .state = arguments.state};
   for (const std::string& text : arguments.goals)
     options.goals.push_back(parse_goal("--goal", text, site.places));
   (void)input.poll();
@@ -218,7 +230,10 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
                                               "Drive a site's robot to its goals in turn; exit 1 unless it "
                                               "arrives and is recorded. After a fault it waits for the "
                                               "line 'resume' (or 'stop') on standard input, if that is open");
-  command->add_option("site", arguments->site, "Site folder")->required();
+  command
+      ->add_option("site", arguments->site,
+                   "Site folder, or the name of a site in /etc/lodestar or /srv/lodestar")
+      ->required();
   command
       ->add_option("--goal", arguments->goals,
                    "X,Y[,DEG] in metres and degrees, or the name of a place; repeat for more")
@@ -237,10 +252,13 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
           "floor of the map until it has surveyed every marker there")
       ->needs(command->get_option("--survey"))
       ->excludes(command->get_option("--goal"));
-  command->add_option("--runs", arguments->runs, "With --serve: folder for run folders, unless -o names one")
-      ->capture_default_str();
+  command->add_option("--runs", arguments->runs,
+                      "With --serve: folder for run folders, unless -o names one; default: runs");
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
+  command->add_option(
+      "--state", arguments->state,
+      "File of what drives learn of wheels, dots and displaced markers; default: state.yaml of the site");
   command->add_option("--can", arguments->interface, "CAN interface; default: the site's");
   command->add_option("--seed", arguments->seed, "Seed of a simulated camera")->capture_default_str();
   command

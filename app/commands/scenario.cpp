@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/lab_site.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/parallel.hpp"
 #include "app/common/picture_file.hpp"
 #include "app/report/run_folder.hpp"
 #include "app/simulate/scenario_figure.hpp"
+#include "app/site/site_folder.hpp"
 
 namespace lodestar {
 namespace {
@@ -86,7 +86,7 @@ class InOrder {
 };
 
 ExitCode scenario_command(const ScenarioArguments& arguments) {
-  const Scenario scenario = load_scenario(arguments.file, load_site(lab_site()));
+  const Scenario scenario = load_scenario(arguments.file, open_site(""));
   for (const std::string& warning : scenario.site.map.warnings)
     fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const fs::path output = arguments.output;

@@ -4,12 +4,16 @@
 #include "app/commands/console_options.hpp"
 #include "app/commands/console_service.hpp"
 #include "app/common/interruption.hpp"
+#include "app/common/program_data.hpp"
+#include "app/site/site_folder.hpp"
 
 namespace lodestar {
 namespace {
 
-ExitCode serve(const ConsoleServiceOptions& options) {
+ExitCode serve(ConsoleServiceOptions options) {
   check_tokens(options.access);
+  options.site = site_folder(options.site.string());
+  if (options.runs.empty()) options.runs = runs_folder();
   ConsoleService service(options, nullptr);
   const Interruption interruption;
   tell_address(options.access, service.port());
@@ -24,9 +28,13 @@ std::vector<Command> serve_commands(CLI::App& lodestar) {
   CLI::App* command = lodestar.add_subcommand("serve",
                                               "Serve the console in a browser: edit markers on the map, see "
                                               "their coverage, print them, play back runs");
-  command->add_option("site", options->site, "Site folder")->required();
-  command->add_option("--runs", options->runs, "Folder with run folders, as written by replay -o")
-      ->capture_default_str();
+  command
+      ->add_option("site", options->site,
+                   "Site folder, or the name of a site in /etc/lodestar or /srv/lodestar")
+      ->required();
+  command->add_option(
+      "--runs", options->runs,
+      "Folder with run folders; default: runs, or where replay writes if that may not be written");
   add_console_options(*command, options->access);
   return {{command, [options] { return serve(*options); }}};
 }

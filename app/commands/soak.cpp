@@ -14,6 +14,7 @@
 #include "app/net/http_server.hpp"
 #include "app/report/run_folder.hpp"
 #include "app/simulate/simulated_drive.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/atomic_file.hpp"
 
 namespace lodestar {
@@ -105,8 +106,7 @@ SimulatedDriveOptions mission(const Site& site, const SoakArguments& arguments, 
 }
 
 ExitCode soak(const SoakArguments& arguments) {
-  const fs::path folder =
-      arguments.site.empty() ? fs::path(LODESTAR_SITES_DIR) / "lab" : fs::path(arguments.site);
+  const fs::path folder = site_folder(arguments.site);
   const Site site = load_site(folder);
   make_run_folder(arguments.output);
   const BackgroundConsole console(folder, arguments.output, arguments.port);

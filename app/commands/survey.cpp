@@ -11,6 +11,7 @@
 #include "app/placement/survey_report.hpp"
 #include "app/report/survey_page.hpp"
 #include "app/site/site.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/anchors.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
@@ -110,7 +111,7 @@ void write_survey(const MarkerSurvey& survey, const std::vector<SurveyLog>& logs
 
 ExitCode survey_command(const SurveyArguments& arguments) {
   if (arguments.inputs.size() < 2) throw InputError("found no log, wanted SITE LOG...");
-  const Site site = load_site(arguments.inputs.front());
+  const Site site = open_site(arguments.inputs.front());
   const CameraModel& camera = camera_of(site, arguments.camera);
   const std::vector<SurveyLog> logs =
       load_logs(std::span(arguments.inputs).subspan(1), camera, arguments.without);
@@ -153,7 +154,7 @@ CheckSurvey survey_of_often_seen(std::vector<SurveyLog> logs, const CameraModel&
 }
 
 ExitCode check_command(const CheckArguments& arguments) {
-  const Site site = load_site(arguments.inputs.front());
+  const Site site = open_site(arguments.inputs.front());
   const CameraModel& camera = camera_of(site, arguments.camera);
   const std::vector<SurveyLog> logs =
       load_logs(std::span(arguments.inputs).subspan(1), camera, arguments.without);

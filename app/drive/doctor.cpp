@@ -1,11 +1,13 @@
 #include "app/drive/doctor.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 #include "app/drive/base_findings.hpp"
 #include "app/drive/camera_findings.hpp"
 #include "app/drive/camera_setup.hpp"
+#include "app/drive/service_findings.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "app/placement/places_check.hpp"
 #include "app/placement/registry_check.hpp"
@@ -17,6 +19,8 @@
 
 namespace lodestar {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr Duration listening = std::chrono::seconds(1);
 
@@ -134,6 +138,17 @@ Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& p
   return heard;
 }
 
+ServiceSite service_site(const Site& site, const BaseConnection& connection) {
+  const fs::path folder = fs::weakly_canonical(site.folder);
+  const bool is_virtual =
+      look_at_can_interface(connection.interface).is_virtual || connection.interface.starts_with("vcan");
+  return {.name = folder.filename(),
+          .folder = folder,
+          .interface = connection.interface,
+          .is_virtual_interface = is_virtual,
+          .bit_rate_bps = usual_can_bit_rate_bps};
+}
+
 }  // namespace
 
 std::vector<Finding> examine(const Site& site, const BaseConnection& connection) {
@@ -144,6 +159,7 @@ std::vector<Finding> examine(const Site& site, const BaseConnection& connection)
   };
   add(look_at_interface(connection.interface));
   const bool is_usable = findings.back().what != "interface" || findings.back().verdict == Verdict::good;
+  add(look_at_service(service_site(site, connection)));
   if (!is_usable) return findings;
   const std::unique_ptr<BaseProtocol> protocol = make_protocol(connection, site.robot);
   const Heard heard = listen(site, connection, *protocol);

@@ -12,6 +12,8 @@ struct Finding {
   Verdict verdict = Verdict::good;
   std::string found;   ///< in words
   std::string remedy;  ///< what to do about it; empty when there is nothing to do
+  std::string
+      commands;  ///< the remedy as lines for sh, where commands are all of it; `doctor --fix` prints them
 };
 
 }  // namespace lodestar

@@ -126,7 +126,8 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
   BaseDriver base(recorded, std::move(protocol), driver_options);
   BaseWatcher watcher(options);
   CameraWatcher camera_watcher(options);
-  StateKeeper keeper(state_file(site), state_owner(site, options.camera), options.tell);
+  StateKeeper keeper(options.state.empty() ? state_file(site) : options.state,
+                     state_owner(site, options.camera), options.tell);
   NavigationOptions navigation = navigation_options(site.robot);
   navigation.learned = keeper.load();
   navigation.plan_arrival.waits = false;
@@ -145,6 +146,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     if (options.on_input) options.on_input(input);
     const MissionStep step = mission.step(input);
     base.command(step.navigation.command);
+    if (options.on_step) options.on_step(input.now);
 
     watcher.see(input.base, base.warnings());
     camera_watcher.see(input, step.navigation.camera);
@@ -156,6 +158,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
       options.tell(step.event == MissionEvent::goal_failed ? Severity::warning : Severity::info, words);
   }
   base.command({});
+  if (options.on_end) options.on_end();
   keeper.end(mission.learned());
   return {recorder.end(mission)};
 }

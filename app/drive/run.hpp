@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -29,6 +30,9 @@ struct RunOptions {
   std::function<void(Severity, const std::string&)> tell;  ///< reports events, in words
   DriveWatcher watch;                                      ///< called during each drive
   std::function<void(const SensorInput&)> on_input;        ///< hears of all input, in drives and between
+  std::function<void()> on_end;        ///< called after the last step, before files are completed
+  std::function<void(Stamp)> on_step;  ///< called after each step of the control loop
+  std::filesystem::path state;         ///< file of what the robot learns; empty: the site's
   /// Decides after each step what the mission does next; false ends the run.
   std::function<bool(const MissionStep&, Mission&)> conduct;
   bool until_stopped = false;  ///< goes on after the goals until told to stop

@@ -8,6 +8,7 @@
 #include "app/common/log.hpp"
 #include "app/hosting/hosting.hpp"
 #include "app/site/site.hpp"
+#include "app/site/site_folder.hpp"
 #include "drivers/simulation/hosted_base.hpp"
 #include "maps/input_error.hpp"
 
@@ -68,7 +69,7 @@ HostedBaseOptions options_from(const BaseArguments& arguments) {
   }
   for (const std::string& text : arguments.faults) options.faults.push_back(parse_fault(text));
   if (arguments.site.empty()) return options;
-  const Site site = load_site(arguments.site);
+  const Site site = open_site(arguments.site);
   options.start = site.start;
   options.map = site.map.map;
   options.robot_radius_m = site.robot.radius_m;

@@ -7,6 +7,7 @@
 #include "app/common/log.hpp"
 #include "app/hosting/hosting.hpp"
 #include "app/site/site.hpp"
+#include "app/site/site_folder.hpp"
 #include "drivers/scanner/hosted_scanner.hpp"
 #include "drivers/scanner/ld19_stand_in.hpp"
 #include "drivers/scanner/nanoscan_stand_in.hpp"
@@ -36,7 +37,7 @@ std::optional<double> range_in_room_m(double angle_rad) {
 
 RangeOfAngle surroundings_of(const ScannerArguments& arguments) {
   if (arguments.site.empty()) return range_in_room_m;
-  const Site site = load_site(arguments.site);
+  const Site site = open_site(arguments.site);
   const Pose2 base_from_scanner = site.robot.scanner ? site.robot.scanner->mount.base_from_scanner : Pose2();
   const Pose2 map_from_scanner = site.start * base_from_scanner;
   return [map = site.map.map, map_from_scanner](double angle_rad) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/common/program_data.hpp"
 #include "drivers/simulation/fault_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/path_kind.hpp"
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 /// The fault library, found from any working directory.
 fs::path library() {
-  return is_folder("faults") ? fs::path("faults") : fs::path(LODESTAR_FAULTS_DIR);
+  return program_data("faults");
 }
 
 std::string names_in(const fs::path& folder) {

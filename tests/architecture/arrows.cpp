@@ -53,7 +53,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
 
       {"app/common", {"maps"}},
       {"app/net", {"app/common"}},
-      {"app/site", {"drivers/base", "planning"}},
+      {"app/site", {"app/common", "drivers/base", "planning"}},
       {"app/frames", {"app/common", "drivers/camera", "localization/survey"}},
       {"app/navigation", {"app/site", "control", "localization/integrity", "localization/scan"}},
       {"app/placement", {"app/navigation", "app/frames", "localization/calibration"}},
