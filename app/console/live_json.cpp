@@ -74,6 +74,7 @@ const char* list_of(Presence presence) {
       return "mapped";
     case Presence::standing:
       return "standing";
+    case Presence::legs:
     case Presence::person:
       return "person";
     case Presence::hidden:
