@@ -63,8 +63,9 @@ double noticed_after_s(const Fault& fault, const std::vector<StopReason>& expect
   for (const std::uint64_t seed : seeds) {
     const Watched watched = drive({fault}, seed);
     EXPECT_EQ(watched.contacts, 0) << seed;
-    if (watched.reason)
+    if (watched.reason) {
       EXPECT_NE(std::ranges::find(expected, *watched.reason), expected.end()) << to_string(*watched.reason);
+    }
     longest_s = std::max(longest_s, watched.noticed_after_s);
   }
   fmt::print("    noticed after {:.2f} s\n", longest_s);
