@@ -62,8 +62,27 @@ TEST(ProtectiveField, WhatIsMappedAheadStopsItAndLetsItLeave) {
     const std::vector<FieldHit> hits{hit(radius_m + 0.005, 0.0, presence)};  // nearer than the margin
     EXPECT_EQ(disc_field().limit(hits, {}, {0.1, 0.0}).share, 0.0);
     EXPECT_EQ(disc_field().limit(hits, {}, {-0.1, 0.0}).share, 1.0);
-    EXPECT_EQ(disc_field().limit(hits, {}, {0.0, 0.5}).share, 1.0);
+    EXPECT_EQ(disc_field().limit(hits, {}, {0.0, 0.45}).share, 1.0);  // its rim at 0.11 m/s
   }
+}
+
+/// Its rim rubs along whoever leans on it, and no base turns exactly on the spot.
+TEST(ProtectiveField, ADiscDoesNotTurnWhileSomeoneMayTouchIt) {
+  const std::vector<FieldHit> near{hit(0.0, radius_m + 0.6, Presence::person)};
+  EXPECT_EQ(disc_field().limit(near, {}, {0.0, 0.5}).share, 0.0);
+  const std::vector<FieldHit> far{hit(0.0, radius_m + 1.5, Presence::person)};
+  EXPECT_EQ(disc_field().limit(far, {}, {0.0, 0.5}).share, 1.0);
+}
+
+/// The body around them: they are passed 25 cm off, beside a wall too, and left from wherever they are.
+TEST(ProtectiveField, StandingLegsKeepRoomForTheirBody) {
+  std::vector<FieldHit> hits{hit(0.3, 0.32, Presence::legs)};  // 19 cm off
+  EXPECT_LT(disc_field().limit(hits, {}, {0.1, 0.0}).share, 1.0);
+  EXPECT_EQ(disc_field().limit(hits, {}, {-0.1, 0.0}).share, 1.0);
+  hits.push_back(hit(0.0, -radius_m - 0.005, Presence::mapped));
+  EXPECT_LT(disc_field().limit(hits, {}, {0.1, 0.0}).share, 1.0);
+  const std::vector<FieldHit> aside{hit(0.3, radius_m + 0.27, Presence::legs)};
+  EXPECT_EQ(disc_field().limit(aside, {}, {0.1, 0.0}).share, 1.0);
 }
 
 /// The corner of a long robot swings 0.5 m out.
