@@ -185,7 +185,7 @@ describe('stopping', () => {
     const page = await watch(undefined, undefined, mortal.url);
     await page.context().setOffline(true);
     await page.evaluate(() => window.lodestar.console.live.socket.socket.close());
-    await page.locator('#stale', { hasText: 'No data from the robot' }).waitFor();
+    await page.locator('#stale', { hasText: /No connection to the robot, and no data for \d+ s/ }).waitFor();
     await page.context().setOffline(false);
     await page.locator('#stale').waitFor({ state: 'hidden' });
     await page.context().close();  // its complaints are of the connection that was cut
