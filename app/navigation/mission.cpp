@@ -172,7 +172,11 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
     state_ = Driving{.ends = state.ends + (input.now - last_step_), .stopped_since = std::nullopt};
     return MissionEvent::none;
   }
-  if (step.is_slowed) state.ends += input.now - last_step_;  // by others, who are not its fault
+  if (step.is_slowed) {  // by others, who are not its fault
+    state.ends += input.now - last_step_;
+    hindered_ += input.now - last_step_;
+  }
+  if (hindered_ > options_.max_hindered) return fail(input.now, "people or things in the way for too long");
   if (step.zone_mps)
     state.ends += time_lost(input.now - last_step_, *step.zone_mps / drive_options_.max_forward_mps);
   if (input.now > state.ends) return fail(input.now, "no progress: the robot is stuck");
@@ -238,6 +242,7 @@ MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   ++current_;
   paused_ = false;
   attempt_ = 0;
+  hindered_ = Duration::zero();
   state_ = Starting{.since = now};
   return event;
 }

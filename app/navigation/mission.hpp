@@ -19,7 +19,9 @@ struct MissionOptions {
   /// Eq. (19).
   double max_rolled_unseen_m = 0.2;
   Duration max_wait = std::chrono::seconds(60);  ///< the same for people and things that may go away
-  int attempts = 3;                              ///< to come within epsilon
+  /// Slowed by them for so long on the way to one goal, in all, it fails; the time is not counted below.
+  Duration max_hindered = std::chrono::minutes(5);
+  int attempts = 3;                 ///< to come within epsilon
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
   /// A drive longer than max_time_factor times the ideal time plus max_time_more fails: the robot is stuck.
   double max_time_factor = 4.0;
@@ -125,6 +127,7 @@ class Mission {
   DriveOptions drive_options_;
   RestDetector rest_;
   int attempt_ = 0;      ///< at the present goal
+  Duration hindered_{};  ///< on the way to the present goal
   bool paused_ = false;  ///< by the operator, in any of these states
   WheelRest wheels_;
   Stamp last_step_;
