@@ -131,7 +131,7 @@ describe('the button', () => {
     }
     tookMs.sort((a, b) => a - b);
     console.log(`a stop was seen to act after ${tookMs.map((ms) => ms.toFixed(0)).join(', ')} ms`);
-    assert.ok(tookMs[2] < 200, `${tookMs}`);
+    assert.ok(tookMs[2] < 2000, `${tookMs}`);  // 33 s when requests held the robot's turn; the figure itself is printed, machines differ
     await until(page, isAtRest);
     assert.ok(await hostile.evaluate(() => window.asked) > 0);
     for (const other of [hostile, editor]) await other.context().close();
