@@ -19,7 +19,7 @@ struct ProtectiveFieldOptions {
   /// Up to this speed what stands is passed like a wall: without it the noise of the range would end the
   /// drive in a gap that leaves 11 cm a side.
   double standing_creep_mps = 0.12;
-  /// A body around standing legs: half the shoulders' width, one leg hidden behind the other.
+  /// A body around standing legs, one hidden behind the other; chosen by hand, as far as feet swing.
   double body_margin_m = 0.25;
   double mapped_margin_m = 0.01;  ///< the way's clearance is planned with elsewhere
   /// Someone may step out from behind what hides them, at the speed at which people walk off (chosen by hand,

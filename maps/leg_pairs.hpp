@@ -7,8 +7,8 @@
 
 namespace lodestar {
 
-/// Sizes of a person's legs at shin height, measured on scans of walkers: 0.1 to 0.15 m wide, less than a
-/// step apart (Arras, Mozos and Burgard 2007; Leigh et al. 2015).
+/// Sizes of a person's legs at shin height, chosen by hand: generous, as a chair taken for legs costs only
+/// room.
 struct LegPairOptions {
   double within_m = 3.0;         ///< of the scanner: farther away the gap between two legs is not resolved
   double least_gap_m = 0.05;     ///< hits farther apart than this are not of one leg ...

@@ -22,7 +22,7 @@ struct ObstacleMemoryOptions {
   int scans_to_clear = 2;                       ///< in a row, seen free and not hit
   Duration to_stand = std::chrono::seconds(1);  ///< hit for so long, it stands
   /// Where the floor was seen free just before, what is hit has come by itself: someone who has stopped, and
-  /// may walk on at once. So may who has legs. Pauses in recorded walks are mostly shorter.
+  /// may walk on at once. So may who has legs. Chosen by hand.
   Duration to_stand_as_a_person = std::chrono::seconds(10);
   Duration just_before = std::chrono::seconds(3);  ///< in which a person has come, or has passed by
   Duration between_looks_back = std::chrono::milliseconds(250);

@@ -22,7 +22,7 @@ std::vector<Vec2> joined(std::vector<Vec2> way, const std::vector<Vec2>& more) {
   return way;
 }
 
-/// The markers nearest to the corners, as somebody measures them to 3 mm.
+/// The markers nearest to the corners, as a person measures them to 3 mm.
 std::vector<Anchor> corner_anchors(const std::vector<RegisteredMarker>& markers,
                                    const SurveyScenario& scenario, std::uint64_t seed) {
   constexpr double sigma_m = 0.003;

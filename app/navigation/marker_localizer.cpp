@@ -26,7 +26,7 @@ std::optional<FixAttempt> most_expected(const std::vector<FixAttempt>& fixes,
 }
 
 /// Has the robot driven since a frame agreed with the estimate? A view that changes while the wheels stand is
-/// that of a robot which was lifted, or of a ceiling at which somebody works now: it accuses no marker,
+/// that of a robot which was lifted, or of a ceiling at which people work now: it accuses no marker,
 /// unless others in the same frame agree.
 bool has_rolled(const LocalizationState& known) {
   constexpr double least_m = 0.01;  // wheels that rolled less have not moved the robot

@@ -24,7 +24,7 @@ struct HttpServerOptions {
   std::function<bool(const HttpRequest& head)> takes_long;
   std::size_t most_waiting = 8;  ///< requests that take long, beside the one under way; 503 beyond that
   /// Which read or write files, by their header: another thread handles these, for all roles, so that neither
-  /// the sockets nor who only looks wait for a disk or for somebody's draft.
+  /// the sockets nor who only looks wait for a disk or for another client's draft.
   std::function<bool(const HttpRequest& head)> uses_files;
 };
 
