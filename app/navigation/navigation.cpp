@@ -72,7 +72,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
   // Judge.
   const bool map_changed = planner_.begin_step(behaviour_.places.blind_places_m());
   Facts facts = judge(input, step, known, map_changed);
-  look_around(input, facts);
+  look_around(input, known.filter, facts);
 
   // Decide.
   const Behaviour about =
@@ -126,8 +126,9 @@ MappedPose Navigation::mapped_pose(const Facts& facts) const {
 }
 
 /// A scanner that cannot be believed is a reason to stop, behind those of the pose.
-void Navigation::look_around(const SensorInput& input, Facts& facts) {
+void Navigation::look_around(const SensorInput& input, const PoseFilter& filter, Facts& facts) {
   if (!surroundings_) return;
+  surroundings_->use_scales({filter.wheel_scales().x(), filter.wheel_scales().y(), filter.turn_scale()});
   surroundings_->add_packets(input.packets, input.now);
   surroundings_->add(input.base.travel, input.scans, input.now, mapped_pose(facts));
   plan_around_obstacles(facts);

@@ -133,7 +133,7 @@ class Navigation {
                             const LocalizationState& known, bool map_changed) const;
   void judge_room(Facts& facts, bool is_contradicted) const;
   [[nodiscard]] MappedPose mapped_pose(const Facts& facts) const;
-  void look_around(const SensorInput& input, Facts& facts);
+  void look_around(const SensorInput& input, const PoseFilter& filter, Facts& facts);
   void plan_around_obstacles(const Facts& facts);
   void protect(const SensorInput& input, Duration elapsed, Moved& after, NavigationStep& step);
   Behaviour planned(Behaviour behaviour, const std::optional<PoseEstimate>& estimate,

@@ -52,6 +52,9 @@ class Surroundings {
   void add(std::span<const WheelTravel> travel, std::span<const Scan> scans, Stamp now,
            const MappedPose& mapped);
 
+  /// The wheels' scales as learned so far.
+  void use_scales(const TravelScales& scales) { track_.use_scales(scales); }
+
   /// What the scanner's driver has read and refused, since the beginning.
   void add_packets(const ScanPackets& total, Stamp now) { watch_.add_packets(total, now); }
 
