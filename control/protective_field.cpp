@@ -90,6 +90,12 @@ FieldLimit ProtectiveField::limit(const std::optional<FieldScan>& scan, Stamp no
   return limit(seen_from(odom_from_base, now, *scan, within_m(measured, wanted)), measured, wanted);
 }
 
+/// Before a corner the robot slows to the contact speed and no further: who may be there has not been seen.
+double ProtectiveField::least_share(const FieldHit& hit, const BodyVelocity& wanted) const {
+  if (hit.presence != Presence::hidden) return 0.0;
+  return std::min(options_.hidden_contact_mps / outline_speed_mps(wanted, shape_), 1.0);
+}
+
 /// Each hit lowers the share as far as it must. A slower robot is later at the same place, so the hits before
 /// are asked again until all agree.
 FieldLimit ProtectiveField::limit(std::span<const FieldHit> hits, const BodyVelocity& measured,
@@ -110,8 +116,8 @@ FieldLimit ProtectiveField::limit(std::span<const FieldHit> hits, const BodyVelo
   for (bool has_changed = true; has_changed && result.share > 0.0;) {
     has_changed = false;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-      if (is_safe(path, hits[i], distances_m[i], least_room_m)) continue;
-      double safe = 0.0;
+      double safe = least_share(hits[i], wanted);
+      if (result.share <= safe || is_safe(path, hits[i], distances_m[i], least_room_m)) continue;
       double unsafe = result.share;
       for (int halving = 0; halving < halvings; ++halving) {
         const double middle = 0.5 * (safe + unsafe);

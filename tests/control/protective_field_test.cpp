@@ -115,6 +115,19 @@ TEST(ProtectiveField, AtAHiddenCornerItIsSlowButNotStuck) {
   EXPECT_EQ(limit.reason, FieldReason::hidden_corner);
 }
 
+/// A corner that comes into sight when it is too late for the speed: braking to rest would help nobody more.
+TEST(ProtectiveField, AHiddenCornerNeverAsksForRest) {
+  const double contact_mps = ProtectiveFieldOptions{}.hidden_contact_mps;
+  std::vector<FieldHit> hits{hit(0.3, 0.1, Presence::hidden)};
+  const FieldLimit limit = disc_field().limit(hits, full, full);
+  EXPECT_NEAR(limit.share * full.forward_mps, contact_mps, 0.01);
+  EXPECT_EQ(limit.reason, FieldReason::hidden_corner);
+  const BodyVelocity slow{contact_mps, 0.0};
+  EXPECT_EQ(disc_field().limit(hits, full, slow).share, 1.0);
+  hits.push_back(hit(0.5, 0.1, Presence::person));
+  EXPECT_EQ(disc_field().limit(hits, full, full).share, 0.0);
+}
+
 TEST(FieldRelease, FallsAtOnceAndRisesGentlyAfterAWhile) {
   FieldRelease release;
   const auto at = [](double s) { return Stamp(from_seconds(s)); };
