@@ -141,8 +141,27 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   // Up to the creeping speed, what stands is passed like what is mapped.
   const bool is_passed = hit.presence == Presence::mapped || path.speed_mps() <= options_.standing_creep_mps;
   if (!is_passed) return rests_in_time(path, hit);
-  // Beside a wall the room is small, but a body has its own.
-  return stays_clear(path, hit, std::min(margin, hit.presence == Presence::legs ? distance_m : least_room_m));
+  const double beside_m = std::min(margin, least_room_m);  // along a wall the room may be small already
+  switch (hit.presence) {
+    case Presence::legs:
+      return distance_m < margin ? moves_off(path, hit, distance_m) : stays_clear(path, hit, margin);
+    case Presence::standing:
+      return stays_clear(path, hit, std::min(distance_m, std::max(options_.least_standing_m, beside_m)));
+    default:
+      return stays_clear(path, hit, beside_m);
+  }
+}
+
+/// A disc that turns keeps its distance, but rubs along whoever leans on it.
+bool ProtectiveField::moves_off(const BrakingPath& path, const FieldHit& hit, double distance_m) const {
+  constexpr double least_share = 0.3;  // of its way: straight away, or past what is beside it and behind
+  double before_m = distance_m;
+  for (const BrakingPath::Step& step : path.steps()) {
+    const double after_m = shape_.distance_m(inverse(step.end) * hit.point_in_base);
+    if (after_m < before_m) return false;
+    before_m = after_m;
+  }
+  return before_m - distance_m >= least_share * path.travel_m();
 }
 
 bool ProtectiveField::stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const {
