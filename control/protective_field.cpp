@@ -15,10 +15,6 @@ BodyVelocity operator*(double share, const BodyVelocity& velocity) {
   return {share * velocity.forward_mps, share * velocity.turn_radps};
 }
 
-bool is_still(Presence presence) {
-  return presence == Presence::mapped || presence == Presence::standing || presence == Presence::legs;
-}
-
 FieldReason reason_for(Presence presence) {
   if (presence == Presence::person || presence == Presence::legs) return FieldReason::person_near;
   return presence == Presence::hidden ? FieldReason::hidden_corner : FieldReason::obstacle_ahead;
@@ -141,14 +137,17 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   // Up to the creeping speed, what stands is passed like what is mapped.
   const bool is_passed = hit.presence == Presence::mapped || path.speed_mps() <= options_.standing_creep_mps;
   if (!is_passed) return rests_in_time(path, hit);
-  const double beside_m = std::min(margin, least_room_m);  // along a wall the room may be small already
+  // Along a wall the room may be small already.
   switch (hit.presence) {
     case Presence::legs:
       return distance_m < margin ? moves_off(path, hit, distance_m) : stays_clear(path, hit, margin);
     case Presence::standing:
-      return stays_clear(path, hit, std::min(distance_m, std::max(options_.least_standing_m, beside_m)));
+      return stays_clear(
+          path, hit,
+          std::min(distance_m, std::max(options_.least_standing_m, std::min(margin, least_room_m))));
     default:
-      return stays_clear(path, hit, beside_m);
+      return stays_clear(path, hit,
+                         std::min(margin, least_room_m - options_.mapped_slack_share * path.travel_m()));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "app/campaign/random_things.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <variant>
@@ -16,6 +17,8 @@ constexpr std::uint64_t most_things = 3;
 constexpr int tries = 20;
 constexpr double from_start_and_goal_m = 1.0;  ///< beside the thing's own and the robot's radius
 constexpr double pushed_mps = 0.8;
+constexpr double pushed_mps2 = 0.8;  ///< from rest: within what the robot expects of what stands
+constexpr double push_step_s = 0.1;
 constexpr double pushed_m = 1.2;  ///< at most, and only over free floor
 
 struct Thing {
@@ -68,18 +71,27 @@ bool has_way(const Site& site, const OccupancyMap& map) {
   return std::holds_alternative<Plan>(planner.plan(site.start.position_m, site.goals.front().position_m));
 }
 
-/// Pushed there in a straight line over free floor.
-DiscTrajectory pushed(const OccupancyMap& map, const Thing& thing, Random& random) {
+/// Pushed there in a straight line over free floor, while the robot is still a metre away: what begins to
+/// move beside a robot that creeps past it touches it (docs/safety.md).
+DiscTrajectory pushed(const OccupancyMap& map, const Vec2& robot_m, const Thing& thing, Random& random) {
   const double direction_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
   const Vec2 along(std::cos(direction_rad), std::sin(direction_rad));
   double way_m = 0.0;
   while (way_m < pushed_m &&
-         is_free_round(map, thing.position_m + (way_m + map.resolution_m) * along, thing.radius_m))
+         is_free_round(map, thing.position_m + (way_m + map.resolution_m) * along, thing.radius_m) &&
+         (thing.position_m + (way_m + map.resolution_m) * along - robot_m).norm() >= from_start_and_goal_m)
     way_m += map.resolution_m;
   if (way_m == 0.0) return {.keys = {{Duration::zero(), thing.position_m}}};
-  const Duration begins = from_seconds(random.uniform(2.0, 15.0));
-  return {.keys = {{begins, thing.position_m + way_m * along},
-                   {begins + from_seconds(way_m / pushed_mps), thing.position_m}}};
+  const double begins_s = random.uniform(0.5, 3.0);
+  DiscTrajectory trajectory;
+  for (double after_s = 0.0, moved_m = 0.0, speed_mps = 0.0; moved_m < way_m; after_s += push_step_s) {
+    trajectory.keys.push_back(
+        {from_seconds(begins_s + after_s), thing.position_m + (way_m - moved_m) * along});
+    speed_mps = std::min(speed_mps + pushed_mps2 * push_step_s, pushed_mps);
+    moved_m += speed_mps * push_step_s;
+  }
+  trajectory.keys.push_back({trajectory.keys.back().time + from_seconds(push_step_s), thing.position_m});
+  return trajectory;
 }
 
 }  // namespace
@@ -101,7 +113,7 @@ std::vector<MovingDisc> random_things(const Site& site, std::uint64_t seed) {
     things.push_back({.radius_m = thing.radius_m,
                       .has_legs = thing.is_chair,
                       .trajectory = is_pushed
-                                        ? pushed(map, thing, random)
+                                        ? pushed(map, site.start.position_m, thing, random)
                                         : DiscTrajectory{.keys = {{Duration::zero(), thing.position_m}}}});
     map = std::move(with);
   }

@@ -8,8 +8,8 @@
 
 namespace lodestar {
 
-/// Up to three boxes and chairs that the map of the site lacks; half of them are pushed there while the robot
-/// is on its way. Round them all a way from start to goal remains. The same seed gives the same things.
+/// Up to three boxes and chairs that the map of the site lacks; half of them are pushed there as the robot
+/// sets off. Around them all a way from start to goal remains. The same seed gives the same things.
 std::vector<MovingDisc> random_things(const Site& site, std::uint64_t seed);
 
 }  // namespace lodestar

@@ -157,9 +157,8 @@ FieldScan Surroundings::presences(const DeskewedScan& scan, const std::optional<
     const Ray& ray = scan.rays[i];
     if (!ends_at_something(ray)) continue;
     const Presence presence = presence_of(i);
-    // What stands is passed closely. Of people and walls the nearest that the noise leaves is taken.
-    result.points.push_back(
-        {ray.stamp, presence == Presence::standing ? smoothed_m[i] : ray.end_m, presence});
+    // What does not move is passed closely.
+    result.points.push_back({ray.stamp, is_still(presence) ? smoothed_m[i] : ray.end_m, presence});
   }
   const OccupancyMap& map = mapped.map.map();
   const auto can_stand = [&](const Vec2& point_in_odom) {

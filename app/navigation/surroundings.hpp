@@ -32,8 +32,9 @@ struct SurroundingsOptions {
   /// A path is looked at no more often than this for what stands in its way.
   Duration between_detours = std::chrono::seconds(1);
   /// Paths are planned around a body of this radius where legs stand, and with so much more room around what
-  /// else stands: what is behind the side that was seen is not known, and cells of 5 cm round it off.
-  double around_legs_m = 0.25;
+  /// else stands, than the field needs: what is behind the side that was seen is not known, and cells of 5 cm
+  /// round it off.
+  double around_legs_m = 0.28;
   double around_things_m = 0.04;
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
   double begins_beside_m = 0.06;
