@@ -17,7 +17,8 @@ add_custom_target(lodestar_command_line ALL DEPENDS ${command_line_files}/writte
 install(TARGETS lodestar RUNTIME COMPONENT lodestar)
 install(DIRECTORY sites/lab DESTINATION ${CMAKE_INSTALL_DATADIR}/lodestar/sites COMPONENT lodestar
   PATTERN state.yaml EXCLUDE PATTERN .history EXCLUDE)
-install(DIRECTORY faults DESTINATION ${CMAKE_INSTALL_DATADIR}/lodestar COMPONENT lodestar)
+install(DIRECTORY faults scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/lodestar COMPONENT lodestar)
+install(FILES ${CMAKE_BINARY_DIR}/share/lodestar/commit DESTINATION ${CMAKE_INSTALL_DATADIR}/lodestar COMPONENT lodestar)
 install(DIRECTORY ${command_line_files}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT lodestar)
 install(DIRECTORY ${command_line_files}/bash-completion ${command_line_files}/zsh
   DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT lodestar)

@@ -176,7 +176,8 @@ std::vector<Command> bench_commands(CLI::App& lodestar) {
   return {{paper_command, [arguments] { return paper(*arguments); }},
           bench_localize_command(*bench),
           bench_survey_command(*bench),
-          bench_plan_command(*bench)};
+          bench_plan_command(*bench),
+          bench_all_command(*bench)};
 }
 
 }  // namespace lodestar
