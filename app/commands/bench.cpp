@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench/paper.hpp"
+#include "app/commands/bench_all.hpp"
 #include "app/commands/bench_plan.hpp"
 #include "app/commands/commands.hpp"
 

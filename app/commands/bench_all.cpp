@@ -1,3 +1,5 @@
+#include "app/commands/bench_all.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -7,7 +9,6 @@
 
 #include "app/bench/evidence_page.hpp"
 #include "app/bench/evidence_parts.hpp"
-#include "app/commands/commands.hpp"
 #include "app/common/interruption.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"

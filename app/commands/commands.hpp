@@ -22,7 +22,6 @@ std::vector<Command> serve_commands(CLI::App& lodestar);
 std::vector<Command> soak_commands(CLI::App& lodestar);
 std::vector<Command> calibrate_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
-Command bench_all_command(CLI::App& bench);
 Command bench_localize_command(CLI::App& bench);
 Command bench_survey_command(CLI::App& bench);
 std::vector<Command> run_commands(CLI::App& lodestar);
