@@ -23,6 +23,7 @@ install(DIRECTORY ${command_line_files}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}
 install(DIRECTORY ${command_line_files}/bash-completion ${command_line_files}/zsh
   DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT lodestar)
 install(FILES packaging/lodestar@.service DESTINATION lib/systemd/system COMPONENT lodestar)
+install(FILES packaging/lodestar.tmpfiles DESTINATION lib/tmpfiles.d COMPONENT lodestar RENAME lodestar.conf)
 install(FILES packaging/70-lodestar.rules DESTINATION lib/udev/rules.d COMPONENT lodestar)
 
 # The rooms of which the development package has headers and libraries; localization is those below it, and maps is
