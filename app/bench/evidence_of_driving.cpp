@@ -125,16 +125,18 @@ std::vector<EvidenceRow> scenario_rows(const std::string& output) {
 }
 
 std::vector<EvidenceRow> scan_rows(const std::string& output) {
+  const Json json = Json::parse(output);
   std::vector<EvidenceRow> rows;
-  for (const Json& each : Json::parse(output).at("benchmarks"))
+  for (const Json& each : json.at("benchmarks"))
     rows.push_back(
         at_most(each.at("name").get<std::string>() + ", CPU time", cpu_us(each), most_scan_us, "us"));
   return rows;
 }
 
 std::vector<EvidenceRow> timing_rows(const std::string& output) {
+  const Json json = Json::parse(output);
   std::vector<EvidenceRow> rows;
-  for (const Json& each : Json::parse(output).at("benchmarks"))
+  for (const Json& each : json.at("benchmarks"))
     rows.push_back({.what = each.at("name").get<std::string>() + ", CPU time",
                     .today = fmt::format("{:.4g} us", cpu_us(each))});
   return rows;
