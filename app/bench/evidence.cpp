@@ -32,6 +32,13 @@ std::vector<EvidenceRow> rows_without_figures(const EvidencePart& part, Standing
   return rows;
 }
 
+/// A rate or a ratio of few trials is chance; a single contact is none.
+Standing by_few_trials(const EvidenceRow& row) {
+  const bool is_figure = row.standing == Standing::kept || row.standing == Standing::missed;
+  const bool is_broken = row.standing == Standing::missed && row.one_case_breaks_it;
+  return is_figure && !is_broken ? Standing::not_judged : row.standing;
+}
+
 bool is_bad(const EvidenceRow& row) {
   return row.standing == Standing::failed || row.standing == Standing::missed;
 }
@@ -90,7 +97,8 @@ EvidenceRow at_most(const std::string& what, double value, double limit, const s
   return {.what = what,
           .today = number_with_unit(value, unit),
           .limit = "at most " + number_with_unit(limit, unit),
-          .standing = value <= limit ? Standing::kept : Standing::missed};
+          .standing = value <= limit ? Standing::kept : Standing::missed,
+          .one_case_breaks_it = limit == 0.0};
 }
 
 EvidenceRow at_least(const std::string& what, double value, double limit, const std::string& unit) {
@@ -118,8 +126,7 @@ EvidenceSection gather(const EvidencePart& part, bool quick, const RunPart& run)
   section.wall_s = end.wall_s;
   section.rows = rows_of(part, end);
   if (quick)
-    for (EvidenceRow& row : section.rows)
-      if (row.standing == Standing::kept) row.standing = Standing::not_judged;
+    for (EvidenceRow& row : section.rows) row.standing = by_few_trials(row);
   return section;
 }
 

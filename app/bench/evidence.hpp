@@ -15,7 +15,7 @@ enum class Standing {
   kept,
   missed,
   measured,      ///< a figure without a limit
-  not_judged,    ///< within its limit, but by too few trials to say so (--quick)
+  not_judged,    ///< by too few trials to say so (--quick)
   failed,        ///< the command failed, or its output could not be read
   not_possible,  ///< here: something that it needs is not there
   left_out,      ///< not asked for, or interrupted before
@@ -28,7 +28,8 @@ struct EvidenceRow {
   std::string limit;  ///< empty: none is promised
   std::string peer;   ///< measured in the same run; empty: there is none
   Standing standing = Standing::measured;
-  std::string why;  ///< where there is no figure
+  std::string why;                  ///< where there is no figure
+  bool one_case_breaks_it = false;  ///< of wrong or harmful cases none is allowed, in however few trials
 };
 
 /// A figure against its limit.

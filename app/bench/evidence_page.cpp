@@ -16,7 +16,7 @@ constexpr std::array all_standings{Standing::kept,     Standing::missed, Standin
 
 constexpr const char* style_of_standings = R"(<style>
 td.text { text-align: left; } td.why { color: var(--soft); }
-td:nth-child(1) { width: 38%; } code { font-size: .9em; } p.command { margin: .2rem 0; overflow-wrap: anywhere; }
+td:nth-child(1) { width: 34%; } td.short { white-space: nowrap; } code { font-size: .9em; } p.command { margin: .2rem 0; overflow-wrap: anywhere; }
 tr.missed td.standing, tr.failed td.standing { color: var(--b); font-weight: 600; }
 tr.kept td.standing { color: var(--c); } ul { margin: .4rem 0; padding-left: 1.2rem; }
 </style>
@@ -45,10 +45,10 @@ std::string body_row(const EvidenceRow& row) {
   std::string css_class = standing;
   std::ranges::replace(css_class, ' ', '-');
   const std::string today =
-      row.why.empty() ? fmt::format("<td>{}</td><td>{}</td><td>{}</td>", escaped(row.today),
+      row.why.empty() ? fmt::format("<td class=\"short\">{}</td><td>{}</td><td>{}</td>", escaped(row.today),
                                     escaped(row.limit), escaped(row.peer))
                       : fmt::format("<td class=\"text why\" colspan=\"3\">{}</td>", escaped(row.why));
-  return fmt::format("<tr class=\"{}\"><td>{}</td>{}<td class=\"standing\">{}</td></tr>\n", css_class,
+  return fmt::format("<tr class=\"{}\"><td>{}</td>{}<td class=\"standing short\">{}</td></tr>\n", css_class,
                      escaped(row.what), today, standing);
 }
 
@@ -125,9 +125,8 @@ std::string evidence_html(const Evidence& evidence) {
                       escaped(counts_of(evidence)));
   if (evidence.quick)
     body +=
-        "<p><b>Quick run.</b> Few trials: it can show that a promise is broken or a command fails, not that "
-        "a "
-        "promise is kept.</p>\n";
+        "<p><b>Quick run.</b> Few trials: it shows that the commands work. Judged is only what a single case "
+        "breaks, such as a contact.</p>\n";
   body += machine_html(evidence);
   body += how_to_read;
   for (const EvidenceSection& section : evidence.sections) body += section_html(section);

@@ -104,7 +104,7 @@ Command bench_all_command(CLI::App& bench) {
       ->check(CLI::IsMember(names));
   command->add_flag(
       "--quick", arguments->quick,
-      "Few trials, minutes instead of an hour: shows that it works, and judges nothing as kept");
+      "Few trials, minutes instead of an hour: shows that it works, judges only what one case breaks");
   command->add_flag("--quiet", arguments->quiet, "Do not say which part is running");
   return {command, [arguments] { return run_all_benches(*arguments); }};
 }
