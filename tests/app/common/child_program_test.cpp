@@ -1,45 +1,37 @@
 #include "app/common/child_program.hpp"
 
-#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "app/common/machine.hpp"
+
+#include "tests/maps/temporary_folder.hpp"
 
 namespace lodestar {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class ChildProgram : public ::testing::Test {
- protected:
-  ChildProgram() { fs::create_directories(folder_); }
-  ~ChildProgram() override { fs::remove_all(folder_); }
+/// Its output goes into a folder that is removed at the end.
+ProgramEnd run(const std::string& program, const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  return run_program_to_end(program, arguments, folder / "out", folder / "err");
+}
 
-  [[nodiscard]] ProgramEnd run(const fs::path& program, const std::vector<std::string>& arguments) const {
-    return run_program_to_end(program, arguments, folder_ / "out", folder_ / "err");
-  }
-
- private:
-  fs::path folder_ = fs::temp_directory_path() / ("lodestar-child-" + std::to_string(::getpid()));
-};
-
-TEST_F(ChildProgram, gives_exit_code_output_and_last_words) {
+TEST(ChildProgram, gives_exit_code_output_and_last_words) {
   const ProgramEnd end = run("/bin/sh", {"-c", "echo 'a b'; echo one >&2; echo two >&2; exit 3"});
   EXPECT_EQ(end.exit_code, 3);
   EXPECT_EQ(end.output, "a b\n");
   EXPECT_EQ(end.last_words, "two");
 }
 
-TEST_F(ChildProgram, says_which_signal_ended_it) {
+TEST(ChildProgram, says_which_signal_ended_it) {
   const ProgramEnd end = run("/bin/sh", {"-c", "kill -9 $$"});
   EXPECT_FALSE(end.exit_code);
   EXPECT_EQ(end.why, "signal 9 ended it");
 }
 
-TEST_F(ChildProgram, says_that_it_did_not_begin) {
+TEST(ChildProgram, says_that_it_did_not_begin) {
   const ProgramEnd end = run("/no/such/program", {});
   EXPECT_FALSE(end.exit_code);
   EXPECT_THAT(end.why, HasSubstr("did not begin"));
