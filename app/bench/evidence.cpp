@@ -96,7 +96,7 @@ std::string to_string(Standing standing) {
 EvidenceRow at_most(const std::string& what, double value, double limit, const std::string& unit) {
   return {.what = what,
           .today = number_with_unit(value, unit),
-          .limit = "at most " + number_with_unit(limit, unit),
+          .limit = fmt::format("at most {}", number_with_unit(limit, unit)),
           .standing = value <= limit ? Standing::kept : Standing::missed,
           .one_case_breaks_it = limit == 0.0};
 }
@@ -104,7 +104,7 @@ EvidenceRow at_most(const std::string& what, double value, double limit, const s
 EvidenceRow at_least(const std::string& what, double value, double limit, const std::string& unit) {
   return {.what = what,
           .today = number_with_unit(value, unit),
-          .limit = "at least " + number_with_unit(limit, unit),
+          .limit = fmt::format("at least {}", number_with_unit(limit, unit)),
           .standing = value >= limit ? Standing::kept : Standing::missed};
 }
 
@@ -134,7 +134,7 @@ EvidenceSection without_figures(const EvidencePart& part, bool quick, Standing s
                                 const std::string& why) {
   std::string command = part.program;
   for (const std::string& word : arguments_of(part, quick))
-    command += " " + replaced(replaced(word, "{needs}", part.needs), "{folder}", "evidence");
+    command += fmt::format(" {}", replaced(replaced(word, "{needs}", part.needs), "{folder}", "evidence"));
   return {.part = part, .command = command, .rows = rows_without_figures(part, standing, why)};
 }
 

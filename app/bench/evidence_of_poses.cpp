@@ -46,8 +46,8 @@ std::string share_read(const Json& method) {
 EvidenceRow consistency_row(const Json& one) {
   const double nees = one.at("mean_nees_per_degree");
   const double half_band = one.at("half_band_per_degree");
-  return {.what = "errors match the covariance (NEES per degree of freedom), " +
-                  one.at("conditions").get<std::string>(),
+  return {.what = fmt::format("errors match the covariance (NEES per degree of freedom), {}",
+                              one.at("conditions").get<std::string>()),
           .today = fmt::format("{:.3f}", nees),
           .limit = fmt::format("1 within {:.3f}, 95 of 100 times", half_band)};
 }
@@ -64,7 +64,7 @@ std::vector<EvidenceRow> localize_rows(const std::string& output) {
   rows.push_back(beside_peers("1 marker, tilt known: lateral RMS", json.at("centred"), lateral));
   rows.push_back(beside_peers("hard frames: markers read right", json.at("hard_frames"), share_read));
   for (const Json& peer : json.at("left_out"))
-    rows.push_back({.what = "beside " + peer.get<std::string>(),
+    rows.push_back({.what = fmt::format("beside {}", peer.get<std::string>()),
                     .standing = Standing::not_possible,
                     .why = "this program was built without it"});
   for (const Json& one : json.at("consistency")) rows.push_back(consistency_row(one));
@@ -112,8 +112,9 @@ std::vector<EvidenceRow> survey_rows(const std::string& output) {
 std::vector<EvidenceRow> spoiled_rows(const std::string& output) {
   std::vector<EvidenceRow> rows;
   for (const Json& kind : Json::parse(output)) {
-    EvidenceRow row = at_most("registries silently wrong, " + kind.at("spoiled").get<std::string>(),
-                              kind.at("silently_wrong"), 0.0, "");
+    EvidenceRow row =
+        at_most(fmt::format("registries silently wrong, {}", kind.at("spoiled").get<std::string>()),
+                kind.at("silently_wrong"), 0.0, "");
     row.today +=
         fmt::format(" of {} ({} refused)", kind.at("logs").get<int>(), kind.at("refused").get<int>());
     rows.push_back(row);
