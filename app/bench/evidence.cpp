@@ -24,7 +24,7 @@ std::string number_with_unit(double value, const std::string& unit) {
   return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
-std::vector<EvidenceRow> rows_without_figures(const EvidencePart& part, Standing standing,
+std::vector<EvidenceRow> rows_without_figures(const EvidencePart& part, EvidenceStanding standing,
                                               const std::string& why) {
   std::vector<EvidenceRow> rows;
   for (const std::string& promise : part.promises)
@@ -33,14 +33,14 @@ std::vector<EvidenceRow> rows_without_figures(const EvidencePart& part, Standing
 }
 
 /// A rate or a ratio of few trials is chance; a single contact is none.
-Standing by_few_trials(const EvidenceRow& row) {
-  const bool is_figure = row.standing == Standing::kept || row.standing == Standing::missed;
-  const bool is_broken = row.standing == Standing::missed && row.one_case_breaks_it;
-  return is_figure && !is_broken ? Standing::not_judged : row.standing;
+EvidenceStanding by_few_trials(const EvidenceRow& row) {
+  const bool is_figure = row.standing == EvidenceStanding::kept || row.standing == EvidenceStanding::missed;
+  const bool is_broken = row.standing == EvidenceStanding::missed && row.one_case_breaks_it;
+  return is_figure && !is_broken ? EvidenceStanding::not_judged : row.standing;
 }
 
 bool is_bad(const EvidenceRow& row) {
-  return row.standing == Standing::failed || row.standing == Standing::missed;
+  return row.standing == EvidenceStanding::failed || row.standing == EvidenceStanding::missed;
 }
 
 std::string with_last_words(const std::string& why, const ProgramEnd& end) {
@@ -50,10 +50,11 @@ std::string with_last_words(const std::string& why, const ProgramEnd& end) {
 /// Exit 1 of a bench means that a limit is missed: its figures are there all the same.
 std::vector<EvidenceRow> rows_of(const EvidencePart& part, const ProgramEnd& end) {
   constexpr int limit_missed = 1;
-  if (!end.exit_code) return rows_without_figures(part, Standing::failed, with_last_words(end.why, end));
+  if (!end.exit_code)
+    return rows_without_figures(part, EvidenceStanding::failed, with_last_words(end.why, end));
   const std::string exit = fmt::format("exit code {}", *end.exit_code);
   if (*end.exit_code > limit_missed)
-    return rows_without_figures(part, Standing::failed, with_last_words(exit, end));
+    return rows_without_figures(part, EvidenceStanding::failed, with_last_words(exit, end));
   std::vector<EvidenceRow> rows;
   try {
     rows = part.read(end.output);
@@ -61,33 +62,33 @@ std::vector<EvidenceRow> rows_of(const EvidencePart& part, const ProgramEnd& end
     const std::string why = *end.exit_code == 0
                                 ? fmt::format("its output could not be read ({})", error.what())
                                 : with_last_words(exit, end);
-    return rows_without_figures(part, Standing::failed, why);
+    return rows_without_figures(part, EvidenceStanding::failed, why);
   }
-  if (rows.empty()) return rows_without_figures(part, Standing::failed, "its output has no figures");
+  if (rows.empty()) return rows_without_figures(part, EvidenceStanding::failed, "its output has no figures");
   if (*end.exit_code != 0 && std::ranges::none_of(rows, is_bad))
     rows.push_back({.what = "the command's own verdict",
-                    .standing = Standing::missed,
+                    .standing = EvidenceStanding::missed,
                     .why = with_last_words(exit, end)});
   return rows;
 }
 
 }  // namespace
 
-std::string to_string(Standing standing) {
+std::string to_string(EvidenceStanding standing) {
   switch (standing) {
-    case Standing::kept:
+    case EvidenceStanding::kept:
       return "kept";
-    case Standing::missed:
+    case EvidenceStanding::missed:
       return "missed";
-    case Standing::measured:
+    case EvidenceStanding::measured:
       return "measured";
-    case Standing::not_judged:
+    case EvidenceStanding::not_judged:
       return "not judged";
-    case Standing::failed:
+    case EvidenceStanding::failed:
       return "failed";
-    case Standing::not_possible:
+    case EvidenceStanding::not_possible:
       return "not possible";
-    case Standing::left_out:
+    case EvidenceStanding::left_out:
       return "left out";
   }
   return "";
@@ -97,7 +98,7 @@ EvidenceRow at_most(const std::string& what, double value, double limit, const s
   return {.what = what,
           .today = number_with_unit(value, unit),
           .limit = fmt::format("at most {}", number_with_unit(limit, unit)),
-          .standing = value <= limit ? Standing::kept : Standing::missed,
+          .standing = value <= limit ? EvidenceStanding::kept : EvidenceStanding::missed,
           .one_case_breaks_it = limit == 0.0};
 }
 
@@ -105,7 +106,7 @@ EvidenceRow at_least(const std::string& what, double value, double limit, const 
   return {.what = what,
           .today = number_with_unit(value, unit),
           .limit = fmt::format("at least {}", number_with_unit(limit, unit)),
-          .standing = value >= limit ? Standing::kept : Standing::missed};
+          .standing = value >= limit ? EvidenceStanding::kept : EvidenceStanding::missed};
 }
 
 bool Evidence::holds() const {
@@ -117,12 +118,13 @@ EvidenceSection gather(const EvidencePart& part, bool quick, const RunPart& run)
   const fs::path needed = part.needs.empty() ? fs::path() : program_data(part.needs);
   std::error_code cannot;
   if (!part.needs.empty() && !fs::exists(needed, cannot))
-    return without_figures(part, quick, Standing::not_possible, fmt::format("{} is not there", part.needs));
+    return without_figures(part, quick, EvidenceStanding::not_possible,
+                           fmt::format("{} is not there", part.needs));
   std::vector<std::string> arguments = arguments_of(part, quick);
   for (std::string& word : arguments) word = replaced(word, "{needs}", needed.string());
 
   const ProgramEnd end = run(part, arguments);
-  EvidenceSection section = without_figures(part, quick, Standing::failed, "");
+  EvidenceSection section = without_figures(part, quick, EvidenceStanding::failed, "");
   section.wall_s = end.wall_s;
   section.rows = rows_of(part, end);
   if (quick)
@@ -130,7 +132,7 @@ EvidenceSection gather(const EvidencePart& part, bool quick, const RunPart& run)
   return section;
 }
 
-EvidenceSection without_figures(const EvidencePart& part, bool quick, Standing standing,
+EvidenceSection without_figures(const EvidencePart& part, bool quick, EvidenceStanding standing,
                                 const std::string& why) {
   std::string command = part.program;
   for (const std::string& word : arguments_of(part, quick))

@@ -11,7 +11,7 @@
 namespace lodestar {
 
 /// How a promise stands today.
-enum class Standing {
+enum class EvidenceStanding {
   kept,
   missed,
   measured,      ///< a figure without a limit
@@ -20,14 +20,14 @@ enum class Standing {
   not_possible,  ///< here: something that it needs is not there
   left_out,      ///< not asked for, or interrupted before
 };
-std::string to_string(Standing standing);
+std::string to_string(EvidenceStanding standing);
 
 struct EvidenceRow {
   std::string what;
   std::string today;  ///< with its unit
   std::string limit;  ///< empty: none is promised
   std::string peer;   ///< measured in the same run; empty: there is none
-  Standing standing = Standing::measured;
+  EvidenceStanding standing = EvidenceStanding::measured;
   std::string why;                  ///< where there is no figure
   bool one_case_breaks_it = false;  ///< of wrong or harmful cases none is allowed, in however few trials
 };
@@ -78,7 +78,7 @@ using RunPart = std::function<ProgramEnd(const EvidencePart&, const std::vector<
 EvidenceSection gather(const EvidencePart& part, bool quick, const RunPart& run);
 
 /// A part that is not run: its promises, each with the reason.
-EvidenceSection without_figures(const EvidencePart& part, bool quick, Standing standing,
+EvidenceSection without_figures(const EvidencePart& part, bool quick, EvidenceStanding standing,
                                 const std::string& why);
 
 }  // namespace lodestar

@@ -65,7 +65,7 @@ std::vector<EvidenceRow> localize_rows(const std::string& output) {
   rows.push_back(beside_peers("hard frames: markers read right", json.at("hard_frames"), share_read));
   for (const Json& peer : json.at("left_out"))
     rows.push_back({.what = fmt::format("beside {}", peer.get<std::string>()),
-                    .standing = Standing::not_possible,
+                    .standing = EvidenceStanding::not_possible,
                     .why = "this program was built without it"});
   for (const Json& one : json.at("consistency")) rows.push_back(consistency_row(one));
   return rows;
@@ -102,7 +102,7 @@ std::vector<EvidenceRow> survey_rows(const std::string& output) {
                              1e3 * tour.at("worst_m").get<double>()),
         .limit = "none broken of those in `bench survey`",
         .peer = fmt::format("Fisher bound {:.2f} mm", 1e3 * tour.at("bound_m").get<double>()),
-        .standing = tour.at("broken_limits").empty() ? Standing::kept : Standing::missed};
+        .standing = tour.at("broken_limits").empty() ? EvidenceStanding::kept : EvidenceStanding::missed};
     for (const Json& broken : tour.at("broken_limits")) row.today += "; " + broken.get<std::string>();
     rows.push_back(row);
   }

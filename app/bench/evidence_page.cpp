@@ -10,9 +10,10 @@
 namespace lodestar {
 namespace {
 
-constexpr std::array all_standings{Standing::kept,     Standing::missed, Standing::not_judged,
-                                   Standing::measured, Standing::failed, Standing::not_possible,
-                                   Standing::left_out};
+constexpr std::array all_standings{EvidenceStanding::kept,       EvidenceStanding::missed,
+                                   EvidenceStanding::not_judged, EvidenceStanding::measured,
+                                   EvidenceStanding::failed,     EvidenceStanding::not_possible,
+                                   EvidenceStanding::left_out};
 
 constexpr const char* style_of_standings = R"(<style>
 td.text { text-align: left; } td.why { color: var(--soft); }
@@ -64,7 +65,7 @@ std::string section_html(const EvidenceSection& section) {
                             escaped(section.part.conclude), escaped(section.part.not_conclude));
 }
 
-long count_of(const Evidence& evidence, Standing standing) {
+long count_of(const Evidence& evidence, EvidenceStanding standing) {
   long count = 0;
   for (const EvidenceSection& section : evidence.sections)
     count += std::ranges::count(section.rows, standing, &EvidenceRow::standing);
@@ -73,7 +74,7 @@ long count_of(const Evidence& evidence, Standing standing) {
 
 std::string counts_of(const Evidence& evidence) {
   std::string counts;
-  for (const Standing standing : all_standings)
+  for (const EvidenceStanding standing : all_standings)
     if (const long count = count_of(evidence, standing); count > 0)
       counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, to_string(standing));
   return counts;
@@ -138,8 +139,8 @@ std::string evidence_text(const Evidence& evidence) {
   std::string text;
   for (const EvidenceSection& section : evidence.sections) {
     for (const EvidenceRow& row : section.rows) {
-      if (row.standing == Standing::kept || row.standing == Standing::measured ||
-          row.standing == Standing::not_judged || row.standing == Standing::left_out)
+      if (row.standing == EvidenceStanding::kept || row.standing == EvidenceStanding::measured ||
+          row.standing == EvidenceStanding::not_judged || row.standing == EvidenceStanding::left_out)
         continue;
       text += fmt::format("{}: {}: {}\n", to_string(row.standing), row.what,
                           row.why.empty() ? fmt::format("{}, {}", row.today, row.limit) : row.why);

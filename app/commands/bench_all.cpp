@@ -57,14 +57,14 @@ bool is_built(const EvidencePart& part) {
 }
 
 EvidenceSection section_of(const EvidencePart& part, const BenchAllArguments& arguments) {
-  const auto without = [&](Standing standing, const std::string& why) {
+  const auto without = [&](EvidenceStanding standing, const std::string& why) {
     return without_figures(part, arguments.quick, standing, why);
   };
   if (!arguments.only.empty() && std::ranges::find(arguments.only, part.name) == arguments.only.end())
-    return without(Standing::left_out, "not asked for (--only)");
-  if (Interruption::asked()) return without(Standing::left_out, "interrupted before");
+    return without(EvidenceStanding::left_out, "not asked for (--only)");
+  if (Interruption::asked()) return without(EvidenceStanding::left_out, "interrupted before");
   if (!is_built(part))
-    return without(Standing::not_possible,
+    return without(EvidenceStanding::not_possible,
                    part.program + " is not beside this program: built without LODESTAR_BENCH, or installed");
   if (!arguments.quiet) fmt::print(stderr, "bench all: {}\n", part.name);
   return gather(part, arguments.quick, [&](const EvidencePart& each, const std::vector<std::string>& words) {

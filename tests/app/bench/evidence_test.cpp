@@ -35,9 +35,9 @@ const auto standing = [](const auto& matcher) { return Field(&EvidenceRow::stand
 const auto why = [](const auto& matcher) { return Field(&EvidenceRow::why, matcher); };
 
 TEST(Evidence, judges_a_figure_by_its_limit) {
-  EXPECT_EQ(at_most("x", 1.0, 1.0, "ms").standing, Standing::kept);
-  EXPECT_EQ(at_most("x", 1.1, 1.0, "ms").standing, Standing::missed);
-  EXPECT_EQ(at_least("x", 0.9, 1.0, "%").standing, Standing::missed);
+  EXPECT_EQ(at_most("x", 1.0, 1.0, "ms").standing, EvidenceStanding::kept);
+  EXPECT_EQ(at_most("x", 1.1, 1.0, "ms").standing, EvidenceStanding::missed);
+  EXPECT_EQ(at_least("x", 0.9, 1.0, "%").standing, EvidenceStanding::missed);
   EXPECT_EQ(at_least("x", 0.9, 1.0, "%").limit, "at least 1 %");
   EXPECT_EQ(at_most("x", 1.25, 2.0, "ms").today, "1.25 ms");
 }
@@ -45,7 +45,7 @@ TEST(Evidence, judges_a_figure_by_its_limit) {
 TEST(Evidence, has_the_rows_that_the_output_gives) {
   const auto section =
       gather(part_that_reads({at_most("drops lost", 0, 0, "")}), false, ending_with({.exit_code = 0}));
-  EXPECT_THAT(section.rows, ElementsAre(standing(Standing::kept)));
+  EXPECT_THAT(section.rows, ElementsAre(standing(EvidenceStanding::kept)));
   EXPECT_EQ(section.command, "lodestar bench drops");
 }
 
@@ -53,8 +53,9 @@ TEST(Evidence, judges_by_a_quick_run_only_what_one_case_breaks) {
   const auto part = part_that_reads(
       {at_most("drops lost", 0, 0, ""), at_most("wind", 3, 2, "m/s"), at_most("splashes", 3, 0, "")});
   const auto section = gather(part, true, ending_with({.exit_code = 0}));
-  EXPECT_THAT(section.rows, ElementsAre(standing(Standing::not_judged), standing(Standing::not_judged),
-                                        standing(Standing::missed)));
+  EXPECT_THAT(section.rows,
+              ElementsAre(standing(EvidenceStanding::not_judged), standing(EvidenceStanding::not_judged),
+                          standing(EvidenceStanding::missed)));
   EXPECT_EQ(section.command, "lodestar bench drops --quick");
 }
 
@@ -62,7 +63,7 @@ TEST(Evidence, shows_each_promise_of_a_command_that_failed_with_its_last_words) 
   const auto section = gather(part_that_reads({at_most("drops lost", 0, 0, "")}), false,
                               ending_with({.exit_code = 2, .last_words = "lodestar: no bucket"}));
   ASSERT_EQ(section.rows.size(), 2U);
-  EXPECT_THAT(section.rows, Each(standing(Standing::failed)));
+  EXPECT_THAT(section.rows, Each(standing(EvidenceStanding::failed)));
   EXPECT_THAT(section.rows, Each(why("exit code 2: lodestar: no bucket")));
 }
 
@@ -70,7 +71,7 @@ TEST(Evidence, shows_a_command_that_a_signal_ended) {
   const auto section = gather(part_that_reads({at_most("drops lost", 0, 0, "")}), false,
                               ending_with({.why = "signal 11 ended it"}));
   EXPECT_THAT(section.rows, Each(why("signal 11 ended it")));
-  EXPECT_THAT(section.rows, Each(standing(Standing::failed)));
+  EXPECT_THAT(section.rows, Each(standing(EvidenceStanding::failed)));
 }
 
 TEST(Evidence, shows_an_output_that_cannot_be_read) {
@@ -80,13 +81,14 @@ TEST(Evidence, shows_an_output_that_cannot_be_read) {
   part.read = localize_rows;
   const auto section = gather(part, false, ending_with({.exit_code = 0, .output = "Killed"}));
   EXPECT_THAT(section.rows, Each(why(HasSubstr("its output could not be read"))));
-  EXPECT_THAT(section.rows, Each(standing(Standing::failed)));
+  EXPECT_THAT(section.rows, Each(standing(EvidenceStanding::failed)));
 }
 
 TEST(Evidence, takes_the_commands_own_verdict_when_no_row_shows_why) {
   const auto kept = part_that_reads({at_most("drops lost", 0, 0, "")});
   const auto section = gather(kept, false, ending_with({.exit_code = 1, .last_words = "too wet"}));
-  EXPECT_THAT(section.rows, ElementsAre(standing(Standing::kept), standing(Standing::missed)));
+  EXPECT_THAT(section.rows,
+              ElementsAre(standing(EvidenceStanding::kept), standing(EvidenceStanding::missed)));
   const auto missed = part_that_reads({at_most("drops lost", 1, 0, "")});
   EXPECT_EQ(gather(missed, false, ending_with({.exit_code = 1})).rows.size(), 1U);
 }
@@ -96,7 +98,7 @@ TEST(Evidence, runs_nothing_where_what_it_needs_is_not_there) {
   part.needs = "no/such/map.yaml";
   const auto section = gather(
       part, false, [](const auto&, const auto&) -> ProgramEnd { throw std::logic_error("it was run"); });
-  EXPECT_THAT(section.rows, Each(standing(Standing::not_possible)));
+  EXPECT_THAT(section.rows, Each(standing(EvidenceStanding::not_possible)));
   EXPECT_THAT(section.rows, Each(why("no/such/map.yaml is not there")));
 }
 
@@ -112,7 +114,7 @@ Evidence evidence_of(std::vector<EvidenceSection> sections) {
 TEST(EvidencePage, holds_each_row_of_each_part_and_what_may_be_concluded) {
   std::vector<EvidenceSection> sections;
   for (const EvidencePart& part : evidence_parts())
-    sections.push_back(without_figures(part, false, Standing::left_out, "a reason"));
+    sections.push_back(without_figures(part, false, EvidenceStanding::left_out, "a reason"));
   ASSERT_GE(sections.size(), 10U);
   const std::string page = evidence_html(evidence_of(sections));
   for (const EvidenceSection& section : sections) {
