@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fmt/core.h>
 #include <memory>
 
@@ -88,7 +89,7 @@ void say_next(const SiteNewArguments& arguments, const OccupancyMap& map) {
   fmt::print(
       "next:\n"
       "  lodestar markers fill {0} --ceiling {1}      places for markers\n"
-      "  lodestar markers plan {0} -o plan.pdf        where to hang them, with wall distances\n"
+      "  lodestar markers plan {0} -o plan.csv        where to hang them, with wall distances\n"
       "  lodestar markers check --site {0}            what is still missing\n"
       "  lodestar replay {0}                          the first drive, in simulation\n"
       "on the robot: `camera:` and `base:` in {0}/site.yaml, `camera_mount` in robot.yaml, then\n"
