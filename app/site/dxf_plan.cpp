@@ -1,15 +1,19 @@
 #include <algorithm>
 #include <cmath>
 #include <dime/Input.h>
-#include <dime/Layer.h>
 #include <dime/Model.h>
 #include <dime/State.h>
 #include <dime/entities/Entity.h>
 #include <dime/sections/HeaderSection.h>
+#include <dime/sections/TablesSection.h>
+#include <dime/tables/LayerTable.h>
+#include <dime/tables/Table.h>
 #include <dime/util/Array.h>
 #include <fmt/format.h>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "app/site/floor_plan.hpp"
@@ -66,13 +70,34 @@ void append(const std::vector<Vec2>& chain, bool is_closed, std::vector<Segment>
   if (is_closed && chain.size() > 2) segments.emplace_back(chain.back(), chain.front());
 }
 
-bool take(const dimeState* state, dimeEntity* entity, void* to) {
-  auto& segments = *static_cast<std::vector<Segment>*>(to);
+/// Names of layers that are frozen or switched off, which the table of layers tells by a negative colour.
+std::set<std::string> hidden_layers(dimeModel& model) {
+  constexpr int group_of_flags = 70;
   constexpr int frozen = 1;
-  const dimeLayer* const layer = entity->getLayer();
-  const bool is_hidden =
-      layer != nullptr && ((layer->getFlags() & frozen) != 0 || layer->getColorNumber() < 0);
-  if (entity->isDeleted() || is_hidden) return true;
+  std::set<std::string> hidden;
+  auto* const tables = dynamic_cast<dimeTablesSection*>(model.findSection("TABLES"));
+  for (int i = 0; tables != nullptr && i < tables->getNumTables(); ++i) {
+    dimeTable* const table = tables->getTable(i);
+    for (int k = 0; k < table->getNumTableEntries(); ++k) {
+      const auto* const layer = dynamic_cast<const dimeLayerTable*>(table->getTableEntry(k));
+      if (layer == nullptr || layer->getLayerName() == nullptr) continue;
+      dimeParam flags{};
+      const bool is_frozen = layer->getRecord(group_of_flags, flags) && (flags.int16_data & frozen) != 0;
+      if (is_frozen || layer->getColorNumber() < 0) hidden.insert(layer->getLayerName());
+    }
+  }
+  return hidden;
+}
+
+struct Drawing {
+  std::set<std::string> hidden_layers;
+  std::vector<Segment> segments;
+};
+
+bool take(const dimeState* state, dimeEntity* entity, void* to) {
+  auto& [hidden, segments] = *static_cast<Drawing*>(to);
+  const char* const layer = entity->getLayerName();
+  if (entity->isDeleted() || (layer != nullptr && hidden.contains(layer))) return true;
   dimeArray<dimeVec3f> vertices;
   dimeArray<int> indices;
   dimeVec3f extrusion(0, 0, 1);
@@ -140,8 +165,9 @@ PlanPicture read_dxf_plan(const fs::path& file, const PlanOptions& options) {
   if (!unit_m)
     throw InputError(file, 0, "a drawing that does not say its units ($INSUNITS)",
                      "--resolution metres for a unit (0.001 for millimetres), or --points with --distance");
-  std::vector<Segment> segments;
-  model.traverseEntities(take, &segments);
+  Drawing drawing{hidden_layers(model), {}};
+  model.traverseEntities(take, &drawing);
+  std::vector<Segment>& segments = drawing.segments;
   std::erase_if(segments, [](const Segment& s) { return !s.first.allFinite() || !s.second.allFinite(); });
   if (segments.empty()) throw InputError(file, 0, "no lines on visible layers", "the walls of a building");
   return drawn(segments, *unit_m, options.cell_m, file);
