@@ -13,19 +13,19 @@
 namespace lodestar {
 namespace {
 
-struct FillArguments {
+struct SiteFillArguments {
   std::string site;
   FillOptions options;
 };
 
-struct PlanArguments {
+struct InstallationArguments {
   std::string site;
   std::string output;
   std::string date;
 };
 
 /// Keeps what is registered, and writes the registry anew only when markers are added.
-ExitCode fill(const FillArguments& arguments) {
+ExitCode fill_site(const SiteFillArguments& arguments) {
   const Site site = open_site(arguments.site);
   const Filling filling = fill_gaps(site.registry, covered_floor(site), arguments.options);
   MarkerRegistry registry = site.registry;
@@ -39,7 +39,7 @@ ExitCode fill(const FillArguments& arguments) {
   return done;
 }
 
-ExitCode plan(const PlanArguments& arguments) {
+ExitCode write_installation(const InstallationArguments& arguments) {
   const Site site = open_site(arguments.site);
   const std::string text = installation_csv(site.registry, site.map.map, site.name, arguments.date);
   if (arguments.output.empty()) {
@@ -54,7 +54,7 @@ ExitCode plan(const PlanArguments& arguments) {
 }  // namespace
 
 std::vector<Command> marker_site_commands(CLI::App& markers) {
-  const auto filled = std::make_shared<FillArguments>();
+  const auto filled = std::make_shared<SiteFillArguments>();
   CLI::App* fill_command = markers.add_subcommand(
       "fill", "Add markers to a site until the robot sees enough of them wherever it can be");
   fill_command->add_option("site", filled->site, "Site folder")->required();
@@ -65,14 +65,14 @@ std::vector<Command> marker_site_commands(CLI::App& markers) {
       ->check(CLI::Range(1, 6))
       ->capture_default_str();
 
-  const auto planned = std::make_shared<PlanArguments>();
+  const auto planned = std::make_shared<InstallationArguments>();
   CLI::App* plan_command = markers.add_subcommand(
       "plan", "Installation table: place, height, yaw and the nearest walls of each marker, as CSV");
   plan_command->add_option("site", planned->site, "Site folder")->required();
   plan_command->add_option("-o,--output", planned->output, "CSV file; default: standard output");
   plan_command->add_option("--date", planned->date, "Date to write into the table");
-  return {{fill_command, [filled] { return fill(*filled); }},
-          {plan_command, [planned] { return plan(*planned); }}};
+  return {{fill_command, [filled] { return fill_site(*filled); }},
+          {plan_command, [planned] { return write_installation(*planned); }}};
 }
 
 }  // namespace lodestar

@@ -61,7 +61,7 @@ MapFromPlan chosen_map(const SiteNewArguments& arguments) {
 }
 
 /// A camera of the lab by its name, or a file.
-NewSite new_site(const SiteNewArguments& arguments) {
+NewSite chosen_site(const SiteNewArguments& arguments) {
   NewSite site;
   const fs::path lab = program_data("sites/lab");
   site.robot_file = arguments.robot_file.empty() ? lab / "robot.yaml" : fs::path(arguments.robot_file);
@@ -73,7 +73,7 @@ NewSite new_site(const SiteNewArguments& arguments) {
   return site;
 }
 
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   const bool is_plain = word.find_first_not_of(
@@ -83,7 +83,7 @@ std::string quoted(const std::string& word) {
 }
 
 void say_next(const SiteNewArguments& arguments, const OccupancyMap& map) {
-  const std::string site = quoted(arguments.output);
+  const std::string site = shell_word(arguments.output);
   fmt::print("{}: {:.2f} x {:.2f} m, cells of {} m, no markers yet\n", arguments.output,
              map.columns * map.resolution_m, map.rows * map.resolution_m, map.resolution_m);
   fmt::print(
@@ -97,10 +97,10 @@ void say_next(const SiteNewArguments& arguments, const OccupancyMap& map) {
       site, arguments.ceiling_m);
 }
 
-ExitCode make(const SiteNewArguments& arguments) {
+ExitCode make_new_site(const SiteNewArguments& arguments) {
   if (arguments.points.empty() != (arguments.distance_m <= 0.0))
     throw InputError("--points and --distance: found one of them, wanted both");
-  NewSite site = new_site(arguments);
+  NewSite site = chosen_site(arguments);
   MapFromPlan planned = chosen_map(arguments);
   for (const std::string& warning : planned.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   site.map = std::move(planned.map);
@@ -164,7 +164,7 @@ std::vector<Command> site_commands(CLI::App& lodestar) {
   command
       ->add_option("--camera", arguments->camera, "Camera to begin with: wide, paper (the lab's), or a file")
       ->capture_default_str();
-  return {{command, [arguments] { return make(*arguments); }}};
+  return {{command, [arguments] { return make_new_site(*arguments); }}};
 }
 
 }  // namespace lodestar

@@ -52,7 +52,6 @@ Cell farthest_from(Cell start, const DistanceField& room, double room_m) {
 }
 
 std::string site_text(const NewSite& site, const std::string& name, const StartAndGoal& drive) {
-  const std::string quoted_by = "'";
   return fmt::format(
       "format: lodestar-site\nversion: 1\nname: {0}{1}{0}\nmap: map.yaml\nmarkers: markers.yaml\n"
       "cameras: {{{2}: camera.yaml}}\ndefault_camera: {2}\nrobot: robot.yaml\n"
@@ -60,7 +59,7 @@ std::string site_text(const NewSite& site, const std::string& name, const StartA
       "  - {{name: far, x_m: {5:.3f}, y_m: {6:.3f}}}\n"
       "  - {{name: start, x_m: {3:.3f}, y_m: {4:.3f}}}\n"
       "camera: simulated\nbase: {{bus: socketcan:can0, protocol: {7}{8}}}\n",
-      quoted_by, name, site.camera_profile, drive.start_m.x(), drive.start_m.y(), drive.goal_m.x(),
+      '\'', name, site.camera_profile, drive.start_m.x(), drive.start_m.y(), drive.goal_m.x(),
       drive.goal_m.y(), site.base_protocol,
       site.base_protocol == "odrive"
           ? ", wheel_diameter_m: 0.17, left_node: 0, right_node: 1, right_is_mirrored: true"
