@@ -4,10 +4,10 @@ import { inkNow } from './robot_paint.js';
 import type { Ink } from './robot_paint.js';
 
 export type FloorColour = 'coverage' | 'deviation' | 'plain';
-export type LayerName = 'map' | 'markers' | 'ids' | 'reach' | 'route';
+export type LayerName = 'map' | 'markers' | 'ids' | 'reach' | 'route' | 'zones';
 
 const names: [LayerName, string][] = [
-  ['map', 'Map'], ['markers', 'Markers'], ['ids', 'IDs'], ['reach', 'Reach of the selection'], ['route', 'Usual route']];
+  ['map', 'Map'], ['markers', 'Markers'], ['ids', 'IDs'], ['reach', 'Reach of the selection'], ['route', 'Usual route'], ['zones', 'Zones and places']];
 const colours: [FloorColour, string][] = [
   ['coverage', 'coverage'], ['deviation', 'deviation'], ['plain', 'nothing']];
 
@@ -23,7 +23,7 @@ const lineKeys: Record<string, [keyof Ink, string][]> = {
 };
 
 export class Layers {
-  shown: Record<LayerName, boolean> = { map: true, markers: true, ids: true, reach: true, route: true };
+  shown: Record<LayerName, boolean> = { map: true, markers: true, ids: true, reach: true, route: true, zones: true };
   floor: FloorColour = 'coverage';
   onChange: () => void = () => {};
   private readonly choice = el('select', { id: 'floor-colour' }, ...colours.map(([value, words]) => el('option', { value }, words)));

@@ -34,6 +34,8 @@ export class Live implements Guest, Listener {
   readonly control: Control;
   readonly trace = new LiveTrace();
   onRobot: () => void = () => {};
+  /** Somebody saved, perhaps this page. */
+  onSaving: (what: 'markers' | 'places') => void = () => {};
   private readonly socket: LiveSocket;
   private readonly panel: DrivePanel;
   private readonly places: Places;
@@ -135,6 +137,14 @@ export class Live implements Guest, Listener {
 
   onAsked(client: number, name: string): void { this.control.showRequest(client, name); }
   onControl(): void { this.control.receive(); }
+
+  onSaved(what: 'markers' | 'places'): void {
+    if (what === 'places') {
+      this.places.refresh();
+      this.goalsChanged();
+    }
+    this.onSaving(what);
+  }
 
   onPath(points: [number, number][]): void {
     this.path = points.map(([x, y]) => ({ x, y }));

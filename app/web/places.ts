@@ -12,7 +12,11 @@ export class Places {
   constructor(private readonly goals: Goals, private readonly say: (words: string, bad?: boolean) => void) {}
 
   open(): void {
-    if (this.asked) return;
+    if (!this.asked) this.refresh();
+  }
+
+  /** Reads them again: somebody has saved. */
+  refresh(): void {
     this.asked = true;
     this.attempt(async () => {
       ({ routes: this.routes, etag: this.etag } = await getRoutes());
