@@ -140,6 +140,12 @@ export class Console implements Page {
     this.stage.redraw();
   }
 
+  /** About the middle of the map. */
+  zoom(factor: number): void {
+    this.view.zoomAt({ x: this.view.width / 2, y: this.view.height / 2 }, factor);
+    this.stage.redraw();
+  }
+
   turnView(deg: number): void {
     this.view.turnBy(deg);
     this.stage.redraw();

@@ -2,6 +2,7 @@
 import { byId, el } from './dom.js';
 import { inkNow } from './robot_paint.js';
 import type { Ink } from './robot_paint.js';
+import { zoneInkNow } from './places_paint.js';
 
 export type FloorColour = 'coverage' | 'deviation' | 'plain';
 export type LayerName = 'map' | 'markers' | 'ids' | 'reach' | 'route' | 'zones';
@@ -12,7 +13,7 @@ const colours: [FloorColour, string][] = [
   ['coverage', 'coverage'], ['deviation', 'deviation'], ['plain', 'nothing']];
 
 const legends: Record<FloorColour, [string, string][]> = {
-  coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more']],
+  coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more'], ['free', 'cannot stand']],
   deviation: [['more', '5 mm or less'], ['one', '20 mm or more: standard deviation of a fix'], ['none', 'no marker at some heading']],
   plain: [],
 };
@@ -63,7 +64,17 @@ export class Layers {
         lines.push(swatch, words);
       }
     }
+    if (document.body.dataset['mode'] === 'places') lines.push(...placesLegend());
     byId('legend').replaceChildren(lines.length === 0 ? 'From above, as through the ceiling.' : '', ...lines,
       ...legends[this.floor].flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words]));
   }
+}
+
+function placesLegend(): (HTMLElement | string)[] {
+  const colours = zoneInkNow();
+  return ([['out', 'hatched', 'keep-out'], ['slow', 'tinted', 'speed zone'], ['lane', '', 'lane, arrows: one way'], ['spot', 'disc', 'place']] as const).flatMap(([kind, shape, words]) => {
+    const swatch = el('span', { class: `swatch ${shape}` });
+    swatch.style.setProperty('--swatch', colours[kind]);
+    return [swatch, words];
+  });
 }

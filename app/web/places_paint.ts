@@ -10,8 +10,10 @@ const inks: Record<'light' | 'dark', ZoneInk> = {
   light: { out: '#a31515', slow: '#0b5fce', lane: '#00646c', spot: '#6a2fa0', paper: '#ffffff', chosen: '#d05a00' },
   dark: { out: '#ff9a92', slow: '#8fbcff', lane: '#5fd0d8', spot: '#d9a8ff', paper: '#12161d', chosen: '#ffc46b' },
 };
-const inkNow = (): ZoneInk => inks[document.documentElement.dataset['theme'] === 'dark' ? 'dark' : 'light'];
+/** Of zones, lanes and places. */
+export const zoneInkNow = (): ZoneInk => inks[document.documentElement.dataset['theme'] === 'dark' ? 'dark' : 'light'];
 const hatchPx = 11;
+const manyItems = 150;  // from this many on, nodes have no label unless chosen
 export const handlePx = 6;
 
 export interface Marks { positions: Point[] }
@@ -53,7 +55,7 @@ function hatch(c: CanvasRenderingContext2D, points: Point[], view: View): void {
 }
 
 function drawZone(c: CanvasRenderingContext2D, view: View, zone: Zone, chosen: boolean): void {
-  const colours = inkNow();
+  const colours = zoneInkNow();
   const colour = zone.kind === 'keep_out' ? colours.out : colours.slow;
   const points = zone.corners.map((p) => view.toScreen(p));
   c.fillStyle = c.strokeStyle = colour;
@@ -70,14 +72,18 @@ function drawZone(c: CanvasRenderingContext2D, view: View, zone: Zone, chosen: b
   c.setLineDash(zone.kind === 'keep_out' ? [] : [7, 4]);
   trace(c, points);
   c.stroke();
+}
+
+function labelZone(c: CanvasRenderingContext2D, view: View, zone: Zone): void {
+  const colours = zoneInkNow();
   c.textAlign = 'center';
   const speed = zone.kind === 'speed_zone' ? `${zone.name === '' ? '' : ': '}${zone.maxMps} m/s` : zone.name === '' ? 'keep out' : '';
-  label(c, `${zone.name}${speed}`, middleOf(points), colour, colours.paper);
+  label(c, `${zone.name}${speed}`, middleOf(zone.corners.map((p) => view.toScreen(p))), zone.kind === 'keep_out' ? colours.out : colours.slow, colours.paper);
 }
 
 /** Corners to drag, and a small ring in the middle of each side, which adds one. */
 function drawHandles(c: CanvasRenderingContext2D, view: View, zone: Zone, corner: number | null): void {
-  const colours = inkNow();
+  const colours = zoneInkNow();
   const points = zone.corners.map((p) => view.toScreen(p));
   c.setLineDash([]);
   c.lineWidth = 2;
@@ -105,7 +111,7 @@ function arrow(c: CanvasRenderingContext2D, at: Point, angle: number): void {
 }
 
 function drawLane(c: CanvasRenderingContext2D, view: View, lane: Lane, from: Spot, to: Spot, chosen: boolean): void {
-  const colours = inkNow();
+  const colours = zoneInkNow();
   const [a, b] = [view.toScreen(from), view.toScreen(to)];
   const angle = Math.atan2(b.y - a.y, b.x - a.x);
   c.strokeStyle = c.fillStyle = chosen ? colours.chosen : colours.lane;
@@ -116,12 +122,19 @@ function drawLane(c: CanvasRenderingContext2D, view: View, lane: Lane, from: Spo
   c.lineTo(b.x, b.y);
   c.stroke();
   if (lane.oneWay) for (const share of [1 / 3, 2 / 3]) arrow(c, { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) }, angle);
-  c.textAlign = 'center';
-  if (lane.maxMps !== null) label(c, `${lane.maxMps} m/s`, { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 - 8 }, colours.lane, colours.paper);
 }
 
-function drawSpot(c: CanvasRenderingContext2D, view: View, spot: Spot, chosen: boolean, many: boolean): void {
-  const colours = inkNow();
+/** Beside the lane, clear of its arrows. */
+function labelLane(c: CanvasRenderingContext2D, view: View, lane: Lane, from: Spot, to: Spot): void {
+  if (lane.maxMps === null) return;
+  const [a, b] = [view.toScreen(from), view.toScreen(to)];
+  const isSteep = Math.abs(b.y - a.y) > Math.abs(b.x - a.x);
+  c.textAlign = isSteep ? 'start' : 'center';
+  label(c, `${lane.maxMps} m/s`, { x: (a.x + b.x) / 2 + (isSteep ? 12 : 0), y: (a.y + b.y) / 2 - (isSteep ? -4 : 10) }, zoneInkNow().lane, zoneInkNow().paper);
+}
+
+function drawSpot(c: CanvasRenderingContext2D, view: View, spot: Spot, chosen: boolean): void {
+  const colours = zoneInkNow();
   const p = view.toScreen(spot);
   const colour = spot.kind === 'place' ? colours.spot : colours.lane;
   c.strokeStyle = chosen ? colours.chosen : colour;
@@ -141,8 +154,13 @@ function drawSpot(c: CanvasRenderingContext2D, view: View, spot: Spot, chosen: b
     c.fillStyle = c.strokeStyle;
     arrow(c, end, Math.atan2(end.y - p.y, end.x - p.x));
   }
+}
+
+function labelSpot(c: CanvasRenderingContext2D, view: View, spot: Spot): void {
+  const colours = zoneInkNow();
+  const p = view.toScreen(spot);
   c.textAlign = 'start';
-  if (spot.kind === 'place' || chosen || !many) label(c, spot.name, { x: p.x + 11, y: p.y - 9 }, colour, colours.paper);
+  label(c, spot.name, { x: p.x + 11, y: p.y - 9 }, spot.kind === 'place' ? colours.spot : colours.lane, colours.paper);
 }
 
 /** `edits`: with handles at what is selected, and rings at the positions that the check complains of. */
@@ -151,13 +169,15 @@ export function paintPlaces(c: CanvasRenderingContext2D, view: View, editor: Pla
   const items = editor.shown();
   const isChosen = (key: number) => edits && key === editor.selected;
   for (const kind of ['speed_zone', 'keep_out']) for (const zone of items) if (isZone(zone) && zone.kind === kind) drawZone(c, view, zone, isChosen(zone.key));
-  for (const lane of items) {
-    if (!isLane(lane)) continue;
+  const lanes = items.filter(isLane).flatMap((lane) => {
     const [from, to] = [editor.spot(lane.from), editor.spot(lane.to)];
-    if (from && to) drawLane(c, view, lane, from, to, isChosen(lane.key));
-  }
-  const many = items.length > 150;
-  for (const spot of items) if (isSpot(spot)) drawSpot(c, view, spot, isChosen(spot.key), many);
+    return from && to ? [{ lane, from, to }] : [];
+  });
+  for (const { lane, from, to } of lanes) drawLane(c, view, lane, from, to, isChosen(lane.key));
+  for (const spot of items) if (isSpot(spot)) drawSpot(c, view, spot, isChosen(spot.key));
+  for (const zone of items) if (isZone(zone)) labelZone(c, view, zone);
+  for (const { lane, from, to } of lanes) labelLane(c, view, lane, from, to);
+  for (const spot of items) if (isSpot(spot) && (spot.kind === 'place' || isChosen(spot.key) || items.length <= manyItems)) labelSpot(c, view, spot);
   const chosen = editor.chosen;
   if (edits && chosen && isZone(chosen)) drawHandles(c, view, chosen, editor.corner);
   if (edits) drawMarks(c, view, marks);
@@ -165,7 +185,7 @@ export function paintPlaces(c: CanvasRenderingContext2D, view: View, editor: Pla
 }
 
 function drawMarks(c: CanvasRenderingContext2D, view: View, marks: Marks): void {
-  c.strokeStyle = inkNow().out;
+  c.strokeStyle = zoneInkNow().out;
   c.lineWidth = 2.5;
   c.setLineDash([4, 3]);
   for (const position of marks.positions) {
@@ -179,7 +199,7 @@ function drawMarks(c: CanvasRenderingContext2D, view: View, marks: Marks): void 
 /** What is being drawn: corners so far and the pointer. */
 export function paintDrawing(c: CanvasRenderingContext2D, view: View, points: Point[], hover: Point | null): void {
   if (points.length === 0) return;
-  const colours = inkNow();
+  const colours = zoneInkNow();
   const all = [...points, ...(hover ? [hover] : [])].map((p) => view.toScreen(p));
   c.save();
   c.strokeStyle = colours.chosen;
