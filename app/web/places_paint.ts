@@ -13,6 +13,7 @@ const inks: Record<'light' | 'dark', ZoneInk> = {
 /** Of zones, lanes and places. */
 export const zoneInkNow = (): ZoneInk => inks[document.documentElement.dataset['theme'] === 'dark' ? 'dark' : 'light'];
 const hatchPx = 11;
+const shortPx = 64;   // a lane shorter than this on the screen has one arrow and no label
 const manyItems = 150;  // from this many on, nodes have no label unless chosen
 export const handlePx = 6;
 
@@ -121,13 +122,13 @@ function drawLane(c: CanvasRenderingContext2D, view: View, lane: Lane, from: Spo
   c.moveTo(a.x, a.y);
   c.lineTo(b.x, b.y);
   c.stroke();
-  if (lane.oneWay) for (const share of [1 / 3, 2 / 3]) arrow(c, { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) }, angle);
+  if (lane.oneWay) for (const share of Math.hypot(b.x - a.x, b.y - a.y) < shortPx ? [0.55] : [1 / 3, 2 / 3]) arrow(c, { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) }, angle);
 }
 
 /** Beside the lane, clear of its arrows. */
 function labelLane(c: CanvasRenderingContext2D, view: View, lane: Lane, from: Spot, to: Spot): void {
-  if (lane.maxMps === null) return;
   const [a, b] = [view.toScreen(from), view.toScreen(to)];
+  if (lane.maxMps === null || Math.hypot(b.x - a.x, b.y - a.y) < shortPx) return;
   const isSteep = Math.abs(b.y - a.y) > Math.abs(b.x - a.x);
   c.textAlign = isSteep ? 'start' : 'center';
   label(c, `${lane.maxMps} m/s`, { x: (a.x + b.x) / 2 + (isSteep ? 12 : 0), y: (a.y + b.y) / 2 - (isSteep ? -4 : 10) }, zoneInkNow().lane, zoneInkNow().paper);
