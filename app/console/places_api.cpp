@@ -15,9 +15,9 @@ using nlohmann::ordered_json;
 
 constexpr const char* places_path = "/api/places";
 constexpr const char* routes_path = "/api/routes";
-constexpr const char* history_path = "/api/places/history";
+constexpr const char* places_history_path = "/api/places/history";
 
-HttpResponse document(const ordered_json& content, const std::string& etag) {
+HttpResponse tagged_document(const ordered_json& content, const std::string& etag) {
   return {.body = content.dump(), .etag = etag};
 }
 
@@ -44,8 +44,8 @@ std::optional<HttpResponse> PlacesApi::answer(const HttpRequest& request) const 
   const bool reads = request.method == "GET" || request.method == "HEAD";
   if (reads && target == places_path) return places();
   if (reads && target == routes_path) return routes();
-  if (reads && target.starts_with(history_path))
-    return history(target.substr(std::string(history_path).size()));
+  if (reads && target.starts_with(places_history_path))
+    return history(target.substr(std::string(places_history_path).size()));
   if (request.method == "PUT" && (target == places_path || target == routes_path))
     return save(request, load_places(site_.folder));
   if (request.method == "POST" && target == "/api/places/check") return check(request);
@@ -54,12 +54,12 @@ std::optional<HttpResponse> PlacesApi::answer(const HttpRequest& request) const 
 
 HttpResponse PlacesApi::places() const {
   const Places places = load_places(site_.folder);
-  return document(places_json(places), etag_of(places_text(places)));
+  return tagged_document(places_json(places), etag_of(places_text(places)));
 }
 
 HttpResponse PlacesApi::routes() const {
   const Places places = load_places(site_.folder);
-  return document(routes_json(places), etag_of(places_text(places)));
+  return tagged_document(routes_json(places), etag_of(places_text(places)));
 }
 
 HttpResponse PlacesApi::save(const HttpRequest& request, const Places& before) const {
@@ -88,14 +88,14 @@ HttpResponse PlacesApi::check(const HttpRequest& request) const {
 }
 
 HttpResponse PlacesApi::history(const std::string& rest) const {
-  if (rest.empty()) return document(history_.numbers(), "");
+  if (rest.empty()) return tagged_document(history_.numbers(), "");
   int number = 0;
   const char* const end = rest.data() + rest.size();
   const auto [stop, error] = std::from_chars(rest.data() + 1, end, number);
   const bool is_number = rest.front() == '/' && error == std::errc() && stop == end;
   const std::optional<std::string> text = is_number ? history_.text(number) : std::nullopt;
   if (!text) return refusal(404, "found no such state");
-  return document(places_json(parse_places(*text, "history")), etag_of(*text));
+  return tagged_document(places_json(parse_places(*text, "history")), etag_of(*text));
 }
 
 }  // namespace lodestar

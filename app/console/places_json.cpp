@@ -86,7 +86,7 @@ struct PrintedDocument {
   }
 };
 
-PrintedDocument printed(const json& document) {
+PrintedDocument one_item_a_line(const json& document) {
   PrintedDocument printed;
   std::size_t rest = document.size();
   for (const auto& [key, value] : document.items()) {
@@ -145,7 +145,7 @@ std::variant<Places, PlacesRefusal> places_from_json(const std::string& document
   try {
     const json read = parse_json(document);
     if (!read.is_object()) return PlacesRefusal{"found no object, wanted the lists of places.yaml", "", 0};
-    sent = printed(read);
+    sent = one_item_a_line(read);
     Places places = parse_places(sent.text, sent_name);
     if (const std::optional<TooSlow> slow = first_too_slow(places, robot))
       return PlacesRefusal{fmt::format("found {}, wanted {}", slow->found, slow->wanted), slow->list,
