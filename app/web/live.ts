@@ -38,7 +38,7 @@ export class Live implements Guest, Listener {
   onSaving: (what: 'markers' | 'places') => void = () => {};
   private readonly socket: LiveSocket;
   private readonly panel: DrivePanel;
-  private readonly places: Places;
+  readonly places: Places;
   readonly hand: HandDrive;
   readonly survey: SurveyView;
   private path: Point[] = [];
@@ -103,6 +103,7 @@ export class Live implements Guest, Listener {
     document.body.toggleAttribute('data-robot', hello.robot);
     if (hello.survey) document.body.dataset['survey'] = '';
     if (before === null) this.heardAt = performance.now();
+    else for (const what of ['markers', 'places'] as const) this.onSaved(what);  // perhaps, meanwhile
     if (before === null && hello.robot) this.onRobot();
     this.goalsChanged();
   }

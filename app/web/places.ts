@@ -8,6 +8,9 @@ export class Places {
   private routes: Routes = { format: 'lodestar-routes', version: 1, places: [], routes: [] };
   private etag = '';
   private asked = false;
+  /** Of the last save of this list, and its tag: other parts of the page need not be told who saved. */
+  saving: Promise<unknown> = Promise.resolve();
+  savedAs = '';
 
   constructor(private readonly goals: Goals, private readonly say: (words: string, bad?: boolean) => void) {}
 
@@ -99,7 +102,10 @@ export class Places {
   private save(): void {
     this.attempt(async () => {
       try {
-        ({ routes: this.routes, etag: this.etag } = await putRoutes(this.routes, this.etag));
+        const put = putRoutes(this.routes, this.etag);
+        this.saving = put.catch(() => undefined);
+        ({ routes: this.routes, etag: this.etag } = await put);
+        this.savedAs = this.etag;
         this.say('Saved the places');
       } catch (error) {
         ({ routes: this.routes, etag: this.etag } = await getRoutes());

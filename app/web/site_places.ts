@@ -25,6 +25,8 @@ export interface PlacesHost {
   /** The tools' buttons follow. */
   refresh(): void;
   hasRobot(): boolean;
+  /** The list of the live view, which saves places too. */
+  readonly list: { saving: Promise<unknown>; savedAs: string };
   /** Is this mode on? */
   isOn(): boolean;
   /** Are zones shown in the present mode? */
@@ -212,14 +214,14 @@ export class SitePlaces {
 
   /** Somebody saved the site's places, perhaps this page. */
   async heardOfSaving(): Promise<string> {
-    await this.busy;
+    await Promise.all([this.busy, this.host.list.saving]);
     const tagged = await api.getPlaces();
     if (tagged.etag === this.etag) return '';
     if (this.editor.dirty) return 'Somebody else saved places or zones; saving yours will ask what to do, Reload shows theirs';
     this.take(tagged);
     this.editor.replaceAll(tagged.places);
     this.editor.markSaved();
-    return 'Somebody else saved places or zones: they are shown now';
+    return tagged.etag === this.host.list.savedAs ? '' : 'Somebody else saved places or zones: they are shown now';
   }
 
   // -- drafts -------------------------------------------------------------------------------------------------
