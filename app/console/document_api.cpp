@@ -67,6 +67,12 @@ ordered_json heights_json(const std::optional<HeightBands>& heights) {
   return {{"low_m", heights->low_m}, {"step_m", heights->step_m}, {"touch_m", heights->touch_m}};
 }
 
+/// 304 for a document that the client has.
+HttpResponse unless_known(const HttpResponse& response, const HttpRequest& request) {
+  if (response.etag.empty() || !has_etag(request.if_none_match, response.etag)) return response;
+  return {.status = 304, .etag = response.etag};
+}
+
 std::optional<HttpResponse> page_file(const std::string& target) {
   for (const PageFile& file : page_files()) {
     if (file.target != target) continue;
@@ -117,7 +123,8 @@ DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::fi
 
 HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   const std::string& target = request.target;
-  if (std::optional<HttpResponse> places = places_.answer(request)) return *places;
+  if (const std::optional<HttpResponse> places = places_.answer(request))
+    return request.method == "PUT" ? *places : unless_known(*places, request);
   if (request.method == "PUT" && target == "/api/markers") return save_markers(request);
   if (request.method == "POST") return post(request);
   if (request.method != "GET" && request.method != "HEAD") return refusal(405, "found another method");
@@ -131,10 +138,7 @@ HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   if (target.starts_with(history_path)) response = history(target);
   if (target == runs_path || target.starts_with(std::string(runs_path) + "/")) response = runs(target);
   if (!response) return refusal(404, "found no such document");
-  if (!response->etag.empty() && has_etag(request.if_none_match, response->etag)) {
-    return {.status = 304, .etag = response->etag};
-  }
-  return *response;
+  return unless_known(*response, request);
 }
 
 bool DocumentApi::takes_long(const HttpRequest& head) {
