@@ -25,14 +25,15 @@ VarianceFactor variance_factor(const NavigationOptions& options) {
   return options.learned ? options.learned->variance_factor : VarianceFactor();
 }
 
+RobotShape shape_of(const GridPlannerOptions& robot) {
+  return robot.footprint ? RobotShape(*robot.footprint) : RobotShape(robot.radius_m);
+}
+
 }  // namespace
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
-      zone_speed_(world.zones.speed_zones,
-                  options.planner.footprint ? RobotShape(*options.planner.footprint)
-                                            : RobotShape(options.planner.radius_m),
-                  options.drive),
+      zone_speed_(world.zones.speed_zones, shape_of(options.planner), options.drive),
       behaviour_options_{.drive = options.drive,
                          .spin = options.spin,
                          .backtrack = options.backtrack,
@@ -57,7 +58,15 @@ std::optional<LearnedState> Navigation::learned() const {
                       .distrusted = known_.trust.distrusted()};
 }
 
+/// Speed zones hold at once; keep-outs some steps later, as another map does.
+void Navigation::use_zones(const Zones& zones) {
+  zone_speed_ = ZoneSpeed(zones.speed_zones, shape_of(options_.planner), options_.drive);
+  planner_.use_keep_out(zones.keep_out);
+}
+
 NavigationStep Navigation::step(const SensorInput& input) {
+  if (input.zones) use_zones(*input.zones);
+
   // Localize. Travel comes first: a frame was exposed before the newest wheel reading, and the filter
   // corrects the past.
   NavigationStep step;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -53,7 +54,8 @@ struct SensorInput {
   std::vector<Frame> frames;
   BaseFeedback base;
   std::vector<Scan> scans;
-  ScanPackets packets;  ///< of the scanner, since the beginning
+  ScanPackets packets;                           ///< of the scanner, since the beginning
+  std::shared_ptr<const Zones> zones = nullptr;  ///< that people have set since the last step, if so
 };
 
 /// How exactly a person says where the robot is; by default as with a click on the map.
@@ -129,6 +131,7 @@ class Navigation {
   [[nodiscard]] bool arrived() const { return std::holds_alternative<Arrived>(behaviour_.state); }
 
  private:
+  void use_zones(const Zones& zones);
   [[nodiscard]] Facts judge(const SensorInput& input, const NavigationStep& step,
                             const LocalizationState& known, bool map_changed) const;
   void judge_room(Facts& facts, bool is_contradicted) const;
