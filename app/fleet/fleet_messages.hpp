@@ -10,8 +10,8 @@
 
 #include "maps/geometry.hpp"
 
-// The messages of VDA 5050, versions 2.0.0 and 2.1.0, as values: what a fleet's master sends, and the words that
-// both sides use.
+// The messages of VDA 5050, versions 2.0.0 and 2.1.0, as values: what a fleet's master sends, and the words
+// that both sides use.
 namespace lodestar {
 
 enum class VdaVersion { v2_0_0, v2_1_0 };
@@ -44,7 +44,7 @@ inline constexpr const char* no_route = "noRouteError";
 inline constexpr const char* instant_action = "instantActionError";
 inline constexpr const char* no_order_to_cancel = "noOrderToCancel";
 inline constexpr const char* order_action = "orderActionError";
-inline constexpr const char* drive = "driveError";      ///< our own: the released base was not driven to its end
+inline constexpr const char* drive = "driveError";  ///< our own: the released base was not driven to its end
 inline constexpr const char* stopped = "robotStopped";  ///< our own: a reason not to move, at present
 }  // namespace vda_error
 

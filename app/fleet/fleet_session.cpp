@@ -21,12 +21,12 @@ FleetSessionOptions fleet_session_options(const Site& site, const FleetSettings&
   OrderBookOptions& book = options.book;
   book.map = settings.map.empty() ? site.name : settings.map;
   for (const Place& place : site.places.places)
-    book.positions[place.name] = {.position_m = place.position_m, .heading_rad = place.yaw_rad, .map = book.map};
+    book.positions[place.name] = {
+        .position_m = place.position_m, .heading_rad = place.yaw_rad, .map = book.map};
   for (const RouteNode& node : site.places.nodes)
     book.positions[node.name] = {.position_m = node.position_m, .heading_rad = {}, .map = book.map};
   book.node_actions = {"wait"};
   book.instant_actions = {"initPosition", "stateRequest", "factsheetRequest"};
-  book.slowest_mps = std::max(site.robot.dead_band_mps.value_or(0.0), book.slowest_mps);
   book.fastest_mps = site.robot.max_forward_mps;
   options.battery = site.robot.battery;
   const double fastest_mps = site.robot.max_forward_mps;
@@ -49,8 +49,7 @@ void FleetSession::hear(const SensorInput& input) {
   wheels_.take(input.base.travel);
   for (const WheelTravel& reading : input.base.travel) {
     if (travel_)
-      driven_m_ +=
-          std::abs(reading.left_m - travel_->left_m + reading.right_m - travel_->right_m) / 2.0;
+      driven_m_ += std::abs(reading.left_m - travel_->left_m + reading.right_m - travel_->right_m) / 2.0;
     travel_ = reading;
   }
   base_ = {.state = input.base.state,
@@ -75,7 +74,8 @@ void FleetSession::attend(const MissionStep& step, Mission& mission) {
 /// What the drive has come to.
 void FleetSession::follow(const MissionStep& step, const Mission& mission) {
   if (!is_ours_) return;
-  const bool has_ended_goal = step.event == MissionEvent::goal_arrived || step.event == MissionEvent::goal_failed;
+  const bool has_ended_goal =
+      step.event == MissionEvent::goal_arrived || step.event == MissionEvent::goal_failed;
   if (has_ended_goal && mission.current() > 0 && mission.current() <= targets_.size()) {
     const DriveTarget& target = targets_[mission.current() - 1];
     if (step.event == MissionEvent::goal_arrived) {
@@ -229,14 +229,14 @@ bool FleetSession::wants_base(const NavigationStep& step) const {
 }
 
 void FleetSession::report(const NavigationStep& step, const Mission& mission) {
-  const Visible visible{
-      .revision = book_.revision(),
-      .connections = link_.connections(),
-      .driving = !wheels_.holds(),
-      .paused = book_.is_paused() || (is_ours_ && mission.paused()),
-      .wants_base = wants_base(step),
-      .field_violation = step.stop && waits_for_others(*step.stop),
-      .emergency_stop = base_.fault == BaseFault::emergency_stop ? EmergencyStop::manual : EmergencyStop::none};
+  const Visible visible{.revision = book_.revision(),
+                        .connections = link_.connections(),
+                        .driving = !wheels_.holds(),
+                        .paused = book_.is_paused() || (is_ours_ && mission.paused()),
+                        .wants_base = wants_base(step),
+                        .field_violation = step.stop && waits_for_others(*step.stop),
+                        .emergency_stop = base_.fault == BaseFault::emergency_stop ? EmergencyStop::manual
+                                                                                   : EmergencyStop::none};
   if (node_of_driven_ != book_.last_sequence()) driven_m_ = 0.0;
   node_of_driven_ = book_.last_sequence();
   const Duration since = now_ - reported_at_;

@@ -64,10 +64,10 @@ class FleetTransport::Client {
     mosquitto_disconnect_callback_set(mosquitto_.get(), [](mosquitto*, void* self, int result) {
       static_cast<Client*>(self)->has_disconnected(result);
     });
-    mosquitto_message_callback_set(
-        mosquitto_.get(), [](mosquitto*, void* self, const mosquitto_message* message) {
-          static_cast<Client*>(self)->has_received(*message);
-        });
+    mosquitto_message_callback_set(mosquitto_.get(),
+                                   [](mosquitto*, void* self, const mosquitto_message* message) {
+                                     static_cast<Client*>(self)->has_received(*message);
+                                   });
     identify();
   }
 
@@ -93,8 +93,8 @@ class FleetTransport::Client {
     constexpr const char* system_certificates = "/etc/ssl/certs";
     const std::string ca = settings_.ca_file.string();
     check(mosquitto_tls_set(mosquitto_.get(), or_null(ca), ca.empty() ? system_certificates : nullptr,
-                            or_null(settings_.certificate_file.string()), or_null(settings_.key_file.string()),
-                            nullptr),
+                            or_null(settings_.certificate_file.string()),
+                            or_null(settings_.key_file.string()), nullptr),
           "certificates");
   }
 
@@ -119,9 +119,10 @@ class FleetTransport::Client {
   void connect() {
     constexpr int keepalive_s = 10;  // a broker calls a connection broken after 1.5 times that
     const std::string will = connection_text(header(connection_count_), ConnectionState::broken);
-    mosquitto_will_set(mosquitto_.get(), topic("connection").c_str(), static_cast<int>(will.size()), will.data(),
-                       1, true);
-    const int result = mosquitto_connect_async(mosquitto_.get(), address_.host.c_str(), address_.port, keepalive_s);
+    mosquitto_will_set(mosquitto_.get(), topic("connection").c_str(), static_cast<int>(will.size()),
+                       will.data(), 1, true);
+    const int result =
+        mosquitto_connect_async(mosquitto_.get(), address_.host.c_str(), address_.port, keepalive_s);
     if (result != MOSQ_ERR_SUCCESS) return wait_for_broker(words_of(result));
     state_ = State::connecting;
     give_up_ = Clock::now() + std::chrono::seconds(10);
@@ -149,7 +150,8 @@ class FleetTransport::Client {
 
   void wait_for_broker(const std::string& why) {
     constexpr Clock::duration longest = std::chrono::seconds(5);
-    if (said_ != why) tell_(Severity::warning, fmt::format("fleet: no connection to {}: {}", settings_.broker, why));
+    if (said_ != why)
+      tell_(Severity::warning, fmt::format("fleet: no connection to {}: {}", settings_.broker, why));
     said_ = why;
     state_ = State::away;
     next_try_ = Clock::now() + pause_;
@@ -166,8 +168,8 @@ class FleetTransport::Client {
     publish("connection", connection_text(header(connection_count_), ConnectionState::online), 1, true);
     publish("factsheet", factsheet_text(header(factsheet_count_), factsheet_), 0, true);
     link_.connected();
-    tell_(Severity::info, fmt::format("fleet: connected to {} as {}/{}", settings_.broker, settings_.manufacturer,
-                                      settings_.serial));
+    tell_(Severity::info, fmt::format("fleet: connected to {} as {}/{}", settings_.broker,
+                                      settings_.manufacturer, settings_.serial));
   }
 
   void has_disconnected(int result) {
@@ -176,7 +178,8 @@ class FleetTransport::Client {
 
   /// A retained order is of another day: nobody may find the robot driving off by it.
   void has_received(const mosquitto_message& message) {
-    if (message.retain) return tell_(Severity::warning, fmt::format("fleet: {} is retained: ignored", message.topic));
+    if (message.retain)
+      return tell_(Severity::warning, fmt::format("fleet: {} is retained: ignored", message.topic));
     const std::string_view text(static_cast<const char*>(message.payload),
                                 static_cast<std::size_t>(message.payloadlen));
     const MessageAddress address{.manufacturer = settings_.manufacturer, .serial = settings_.serial};
@@ -194,8 +197,8 @@ class FleetTransport::Client {
   }
 
   void publish(const char* name, const std::string& text, int quality, bool is_retained) {
-    mosquitto_publish(mosquitto_.get(), nullptr, topic(name).c_str(), static_cast<int>(text.size()), text.data(),
-                      quality, is_retained);
+    mosquitto_publish(mosquitto_.get(), nullptr, topic(name).c_str(), static_cast<int>(text.size()),
+                      text.data(), quality, is_retained);
   }
 
   void say_goodbye() {

@@ -11,9 +11,10 @@
 
 namespace lodestar {
 
-/// Speaks MQTT with the broker, on a thread of its own: sends what the control loop reports, and reads what comes
-/// for it. While there is no broker it tries again, at first after half a second and then every five; the
-/// robot's client ID is always the same, so that a broker ends the old connection before it begins the new one.
+/// Speaks MQTT with the broker, on a thread of its own: sends what the control loop reports, and reads what
+/// comes for it. While there is no broker it tries again, at first after half a second and then every five;
+/// the robot's client ID is always the same, so that a broker ends the old connection before it begins the
+/// new one.
 class FleetTransport {
  public:
   /// Throws InputError when a file of the settings cannot be used.

@@ -50,7 +50,8 @@ class Reader {
     if (!found->is_string()) throw Invalid{fmt::format("{} is no text", key)};
     auto value = found->get<std::string>();
     if (value.size() > limits_.text_bytes)
-      throw Invalid{fmt::format("{} has {} bytes, at most {} are read", key, value.size(), limits_.text_bytes)};
+      throw Invalid{
+          fmt::format("{} has {} bytes, at most {} are read", key, value.size(), limits_.text_bytes)};
     if (value.empty() && !may_be_empty) throw Invalid{fmt::format("{} is empty", key)};
     return value;
   }
@@ -67,7 +68,8 @@ class Reader {
 
   [[nodiscard]] static bool flag(const Json& json, const char* key) {
     const auto found = json.find(key);
-    if (found == json.end() || !found->is_boolean()) throw Invalid{fmt::format("{} is not true or false", key)};
+    if (found == json.end() || !found->is_boolean())
+      throw Invalid{fmt::format("{} is not true or false", key)};
     return found->get<bool>();
   }
 
@@ -75,7 +77,8 @@ class Reader {
     const auto found = json.find(key);
     if (found == json.end() || !found->is_number()) throw Invalid{fmt::format("{} is no number", key)};
     const auto value = found->get<double>();
-    if (!(std::abs(value) <= most)) throw Invalid{fmt::format("{} is {}, at most {} make sense", key, value, most)};
+    if (!(std::abs(value) <= most))
+      throw Invalid{fmt::format("{} is {}, at most {} make sense", key, value, most)};
     return value;
   }
 
@@ -94,7 +97,8 @@ class Reader {
     if (key == nullptr || !first_of(json, {key})) return none;
     const Json& found = json.at(key);
     if (!found.is_array()) throw Invalid{fmt::format("{} is no list", key)};
-    if (found.size() > most) throw Invalid{fmt::format("{} {}, at most {} are read", found.size(), key, most)};
+    if (found.size() > most)
+      throw Invalid{fmt::format("{} {}, at most {} are read", found.size(), key, most)};
     for (const Json& item : found)
       if (!item.is_object()) throw Invalid{fmt::format("an item of {} is no object", key)};
     return found;
@@ -130,7 +134,9 @@ class Reader {
     Reader& reader_;
   };
 
-  void refer(std::string key, std::string value) { references_.push_back({std::move(key), std::move(value)}); }
+  void refer(std::string key, std::string value) {
+    references_.push_back({std::move(key), std::move(value)});
+  }
 
   [[nodiscard]] FleetError error(const std::string& what) const {
     return {.type = vda_error::validation, .description = what, .references = references_};
@@ -197,7 +203,8 @@ FleetNode read_node(Reader& reader, const Json& json) {
 /// then drives ahead is no demand.
 std::vector<std::string> demands_in(const Json& json) {
   std::vector<std::string> demands;
-  for (const char* key : {"maxHeight", "minHeight", "direction", "maxRotationSpeed", "trajectory", "corridor"}) {
+  for (const char* key :
+       {"maxHeight", "minHeight", "direction", "maxRotationSpeed", "trajectory", "corridor"}) {
     if (Reader::first_of(json, {key}) == nullptr) continue;
     const bool is_empty = json.at(key) == "" || json.at(key) == 0.0;
     if (!is_empty) demands.emplace_back(key);

@@ -83,7 +83,8 @@ Json parameter(const char* key, const char* type, bool is_optional = false) {
 
 Json actions_offered() {
   return Json::array(
-      {offered("startPause", {"INSTANT"}), offered("stopPause", {"INSTANT"}), offered("cancelOrder", {"INSTANT"}),
+      {offered("startPause", {"INSTANT"}), offered("stopPause", {"INSTANT"}),
+       offered("cancelOrder", {"INSTANT"}),
        offered("initPosition", {"INSTANT"},
                Json::array({parameter("x", "NUMBER"), parameter("y", "NUMBER"), parameter("theta", "NUMBER"),
                             parameter("mapId", "STRING", true), parameter("lastNodeId", "STRING", true)})),
@@ -93,15 +94,16 @@ Json actions_offered() {
 
 Json limits_kept() {
   const MessageLimits limits;
-  return {{"maxStringLens", {{"msgLen", limits.bytes}, {"idLen", limits.text_bytes}, {"idNumericalOnly", false}}},
-          {"maxArrayLens",
-           {{"order.nodes", limits.nodes},
-            {"order.edges", limits.nodes},
-            {"node.actions", limits.actions},
-            {"edge.actions", 0},
-            {"actions.actionsParameters", limits.parameters},
-            {"instantActions", limits.actions}}},
-          {"timing", {{"minOrderInterval", 0.1}, {"minStateInterval", 0.1}, {"defaultStateInterval", 30.0}}}};
+  return {
+      {"maxStringLens", {{"msgLen", limits.bytes}, {"idLen", limits.text_bytes}, {"idNumericalOnly", false}}},
+      {"maxArrayLens",
+       {{"order.nodes", limits.nodes},
+        {"order.edges", limits.nodes},
+        {"node.actions", limits.actions},
+        {"edge.actions", 0},
+        {"actions.actionsParameters", limits.parameters},
+        {"instantActions", limits.actions}}},
+      {"timing", {{"minOrderInterval", 0.1}, {"minStateInterval", 0.1}, {"defaultStateInterval", 30.0}}}};
 }
 
 /// A disc as twelve corners about it.
@@ -140,12 +142,14 @@ std::string state_text(const MessageHeader& header, const FleetReport& report) {
     return {{"edgeId", edge.id}, {"sequenceId", edge.sequence}, {"released", edge.released}};
   });
   if (report.map_from_base) json["agvPosition"] = position_state(report);
-  json["velocity"] = {{"vx", report.velocity.forward_mps}, {"vy", 0.0}, {"omega", report.velocity.turn_radps}};
+  json["velocity"] = {
+      {"vx", report.velocity.forward_mps}, {"vy", 0.0}, {"omega", report.velocity.turn_radps}};
   json["actionStates"] = array_of(report.actions, action_state);
   json["batteryState"] = {{"batteryCharge", report.charge_percent}, {"charging", false}};
   if (report.battery_v) json["batteryState"]["batteryVoltage"] = *report.battery_v;
   json["errors"] = array_of(report.errors, error_state);
-  json["safetyState"] = {{"eStop", to_string(report.emergency_stop)}, {"fieldViolation", report.field_violation}};
+  json["safetyState"] = {{"eStop", to_string(report.emergency_stop)},
+                         {"fieldViolation", report.field_violation}};
   return text_of(json);
 }
 
@@ -179,16 +183,13 @@ Factsheet factsheet_of(const Robot& robot) {
   return facts;
 }
 
-/// The largest load is not known here: it is said to be none. Optional fields of edges and orders that the robot
-/// obeys are listed; one that is not leads to an orderError.
+/// The largest load is not known here: it is said to be none. Optional fields of edges and orders that the
+/// robot obeys are listed; one that is not leads to an orderError.
 std::string factsheet_text(const MessageHeader& header, const Factsheet& facts) {
   Json json = opened(header);
-  json["typeSpecification"] = {{"seriesName", facts.series},
-                               {"agvKinematic", "DIFF"},
-                               {"agvClass", "CARRIER"},
-                               {"maxLoadMass", 0.0},
-                               {"localizationTypes", {"SPOT"}},
-                               {"navigationTypes", {"AUTONOMOUS"}}};
+  json["typeSpecification"] = {{"seriesName", facts.series},    {"agvKinematic", "DIFF"},
+                               {"agvClass", "CARRIER"},         {"maxLoadMass", 0.0},
+                               {"localizationTypes", {"SPOT"}}, {"navigationTypes", {"AUTONOMOUS"}}};
   json["physicalParameters"] = {{"speedMin", facts.slowest_mps},
                                 {"speedMax", facts.fastest_mps},
                                 {"accelerationMax", facts.acceleration_mps2},
@@ -199,14 +200,15 @@ std::string factsheet_text(const MessageHeader& header, const Factsheet& facts) 
   json["protocolLimits"] = limits_kept();
   Json obeyed = Json::array();
   for (const char* name : {"order.nodes.nodePosition.theta", "order.nodes.nodePosition.allowedDeviationXY",
-                           "order.nodes.nodePosition.allowedDeviationTheta", "order.edges.maxSpeed"})
+                           "order.nodes.nodePosition.allowedDeviationTheta"})
     obeyed.push_back({{"parameter", name}, {"support", "SUPPORTED"}});
   json["protocolFeatures"] = {{"optionalParameters", std::move(obeyed)}, {"agvActions", actions_offered()}};
   const std::vector<Vec2> outline_m = facts.outline_m.empty() ? around_disc(facts.radius_m) : facts.outline_m;
   json["agvGeometry"] = {
-      {"envelopes2d", Json::array({{{"set", "body"}, {"polygonPoints", array_of(outline_m, [](const Vec2& p) -> Json {
-                                       return {{"x", p.x()}, {"y", p.y()}};
-                                     })}}})}};
+      {"envelopes2d",
+       Json::array({{{"set", "body"}, {"polygonPoints", array_of(outline_m, [](const Vec2& p) -> Json {
+                                         return {{"x", p.x()}, {"y", p.y()}};
+                                       })}}})}};
   json["loadSpecification"] = Json::object();
   return text_of(json);
 }

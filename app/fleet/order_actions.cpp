@@ -125,11 +125,7 @@ std::vector<DriveTarget> OrderBook::targets() const {
                        .sequence = node.sequence,
                        .position_m = node.at->position_m,
                        .heading_rad = node.at->heading_rad,
-                       .max_mps = std::nullopt,
                        .rests = rests_at(node)};
-    const auto way = std::ranges::find(edges_, node.sequence - 1, &FleetEdge::sequence);
-    if (way != edges_.end() && way->max_mps && *way->max_mps < options_.fastest_mps)
-      target.max_mps = way->max_mps;
     targets.push_back(std::move(target));
     if (targets.back().rests) return targets;
   }

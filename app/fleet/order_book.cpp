@@ -56,8 +56,8 @@ void OrderBook::take_order(const FleetOrder& order, const std::optional<Pose2>& 
   if (!is_update && is_active())
     return reject(order_error(vda_error::order, order, fmt::format("order {} is not done", order_id_)));
   if (is_update && order.update < update_id_)
-    return reject(order_error(vda_error::order_update, order,
-                              fmt::format("orderUpdateId {} came before", update_id_)));
+    return reject(
+        order_error(vda_error::order_update, order, fmt::format("orderUpdateId {} came before", update_id_)));
   if (is_update && was_cleared_)
     return reject(order_error(vda_error::order_update, order, "this order was cancelled"));
   if (std::optional<FleetError> error = infeasible(order)) return reject(std::move(*error));
@@ -87,9 +87,9 @@ std::optional<FleetError> OrderBook::infeasible(const FleetOrder& order) const {
     if (!edge.demands.empty())
       return refuse(fmt::format("{} is not supported", edge.demands.front()),
                     {{"edgeId", edge.id}, {"parameter", edge.demands.front()}});
-    if (edge.max_mps && *edge.max_mps < options_.slowest_mps)
-      return refuse(fmt::format("maxSpeed {}, the robot drives from {} m/s on", *edge.max_mps,
-                                options_.slowest_mps),
+    if (edge.max_mps && *edge.max_mps < options_.fastest_mps)
+      return refuse(fmt::format("maxSpeed {} is not kept: the robot drives up to {} m/s", *edge.max_mps,
+                                options_.fastest_mps),
                     {{"edgeId", edge.id}, {"parameter", "maxSpeed"}});
     if (!edge.actions.empty())
       return refuse("no actions on edges", {{"edgeId", edge.id}, {"actionId", edge.actions.front().id}});
@@ -124,7 +124,8 @@ void OrderBook::begin(const FleetOrder& order, const std::optional<Pose2>& map_f
   constexpr std::size_t most_remembered = 1000;
   while (old_action_ids_.size() > most_remembered) old_action_ids_.pop_front();
   append(order, 0);
-  const double turn_rad = at.heading_rad ? std::abs(wrap_angle(map_from_base->yaw_rad - *at.heading_rad)) : 0.0;
+  const double turn_rad =
+      at.heading_rad ? std::abs(wrap_angle(map_from_base->yaw_rad - *at.heading_rad)) : 0.0;
   const double within_rad = at.deviation_rad > 0.0 ? at.deviation_rad : options_.heading_tolerance_rad;
   if (turn_rad <= within_rad) reached(first.sequence);
   changed();
@@ -138,15 +139,16 @@ void OrderBook::update(const FleetOrder& order) {
   const FleetNode& first = order.nodes.front();
   if (first.id != end_id || first.sequence != end_sequence)
     return reject(order_error(vda_error::order_update, order,
-                              fmt::format("begins with node {} ({}), the last released one is {} ({})", first.id,
-                                          first.sequence, end_id, end_sequence),
+                              fmt::format("begins with node {} ({}), the last released one is {} ({})",
+                                          first.id, first.sequence, end_id, end_sequence),
                               {{"nodeId", first.id}}));
   for (const FleetNode& node : order.nodes) {
     const bool is_stitch = &node == &first;
     for (const FleetAction& action : node.actions) {
       const bool is_repeated = std::ranges::any_of(order_actions_, [&](const ActionRecord& record) {
         const bool is_of_horizon = record.sequence > end_sequence;
-        return record.action.id == action.id && !is_of_horizon && !(is_stitch && record.sequence == end_sequence);
+        return record.action.id == action.id && !is_of_horizon &&
+               !(is_stitch && record.sequence == end_sequence);
       });
       if (is_repeated)
         return reject(order_error(vda_error::order_update, order, "an actionId of the base is used again",
@@ -253,7 +255,8 @@ bool OrderBook::is_active() const {
 
 void OrderBook::reject(FleetError error) {
   constexpr std::size_t most_kept = 20;
-  if (std::ranges::any_of(rejections_, [&](const FleetError& known) { return is_same(known, error); })) return;
+  if (std::ranges::any_of(rejections_, [&](const FleetError& known) { return is_same(known, error); }))
+    return;
   rejections_.push_back(std::move(error));
   if (rejections_.size() > most_kept) rejections_.pop_front();
   changed();
@@ -266,7 +269,8 @@ void OrderBook::drop_rejections() {
 std::vector<FleetError> OrderBook::errors() const {
   std::vector<FleetError> errors(rejections_.begin(), rejections_.end());
   if (drive_error_) errors.push_back(*drive_error_);
-  if (!stopped_.empty()) errors.push_back({.type = vda_error::stopped, .description = stopped_, .references = {}});
+  if (!stopped_.empty())
+    errors.push_back({.type = vda_error::stopped, .description = stopped_, .references = {}});
   return errors;
 }
 

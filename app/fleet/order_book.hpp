@@ -17,8 +17,7 @@ struct OrderBookOptions {
   /// onto the node. Chosen by hand: a third of the usual distance between nodes.
   double start_tolerance_m = 0.3;
   double heading_tolerance_rad = radians(5.0);  ///< at the first node, before it turns there
-  double slowest_mps = 0.02;                    ///< that the robot can drive
-  double fastest_mps = 1e9;                     ///< a limit above this asks for nothing
+  double fastest_mps = 0.0;                     ///< the robot's; a limit of an edge below it cannot be kept
 };
 
 /// An action and what has come of it.
@@ -26,7 +25,7 @@ struct ActionRecord {
   FleetAction action;
   ActionStatus status = ActionStatus::waiting;
   std::string result;
-  std::uint32_t sequence = 0;   ///< of its node; of an instant action 0
+  std::uint32_t sequence = 0;  ///< of its node; of an instant action 0
   bool is_instant = false;
   bool is_due = false;  ///< its node has been reached
 };
@@ -41,12 +40,12 @@ struct DriveTarget {
   std::uint32_t sequence = 0;
   Vec2 position_m = Vec2::Zero();
   std::optional<double> heading_rad;
-  std::optional<double> max_mps;  ///< on the way there
-  bool rests = false;             ///< an action there, or the end of the base, asks the robot to stop
+  bool rests = false;  ///< an action there, or the end of the base, asks the robot to stop
 };
 
 /// The orders of a VDA 5050 master, as a robot keeps them: which are accepted (6.6.2, figure 8), what of the
-/// present one is left, which actions are due, and what went wrong. Knows neither time, nor robot, nor network.
+/// present one is left, which actions are due, and what went wrong. Knows neither time, nor robot, nor
+/// network.
 ///
 ///      lastNode                    last released
 ///         o----------o----------o ............ o ............ o

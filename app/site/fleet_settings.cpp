@@ -22,14 +22,15 @@ std::string read_topic_word(StrictYaml& yaml, const std::string& key) {
   return word;
 }
 
+/// 127.0.0.1 and its like, but no name that only begins so.
 bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
+  const bool is_number = host.find_first_not_of("0123456789.") == std::string::npos;
+  return host == "localhost" || host == "::1" || (is_number && host.starts_with("127."));
 }
 
 int port_of(const std::string& url, const std::string& text) {
-  const bool is_number =
-      !text.empty() && text.size() <= 5 &&
-      std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+  const bool is_number = !text.empty() && text.size() <= 5 &&
+                         std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
   const int port = is_number ? std::stoi(text) : 0;
   if (port < 1 || port > 65535)
     throw InputError(fmt::format("broker: found '{}', wanted a port in 1..65535", url));
