@@ -35,11 +35,12 @@ CLI::Option* add_fleet_option(CLI::App& command, FleetArguments& arguments) {
 }
 
 FleetSettings fleet_settings(const Site& site, const FleetArguments& arguments, bool is_simulated) {
-  if (!site.fleet && !is_simulated)
+  const std::optional<FleetSettings> kept = load_fleet_settings(site.folder);
+  if (!kept && !is_simulated)
     throw InputError(site.folder / "site.yaml", 0, "no fleet",
                      "fleet: {broker, interface, manufacturer, serial, version}");
-  FleetSettings settings = site.fleet.value_or(FleetSettings{});
-  if (!site.fleet) {
+  FleetSettings settings = kept.value_or(FleetSettings{});
+  if (!kept) {
     settings.manufacturer = "lodestar";
     settings.serial = topic_word(site.name);
   }

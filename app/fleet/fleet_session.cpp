@@ -28,7 +28,7 @@ FleetSessionOptions fleet_session_options(const Site& site, const FleetSettings&
   book.node_actions = {"wait"};
   book.instant_actions = {"initPosition", "stateRequest", "factsheetRequest"};
   book.fastest_mps = site.robot.max_forward_mps;
-  options.battery = site.robot.battery;
+  options.battery = load_battery_curve(site.robot_file);
   const double fastest_mps = site.robot.max_forward_mps;
   options.ask_for_base_m =
       ahead_s * fastest_mps + fastest_mps * fastest_mps / (2.0 * site.robot.max_acceleration_mps2);

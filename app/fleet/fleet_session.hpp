@@ -8,6 +8,7 @@
 #include "app/fleet/order_book.hpp"
 #include "app/navigation/mission.hpp"
 #include "app/navigation/wheel_rest.hpp"
+#include "app/site/fleet_settings.hpp"
 #include "app/site/site.hpp"
 
 namespace lodestar {

@@ -101,6 +101,12 @@ FleetSettings read_fleet_settings(StrictYaml yaml, const std::filesystem::path& 
   return settings;
 }
 
+std::optional<FleetSettings> load_fleet_settings(const std::filesystem::path& folder) {
+  StrictYaml yaml = StrictYaml::load(folder / "site.yaml");
+  if (!yaml.has("fleet")) return std::nullopt;
+  return read_fleet_settings(yaml.mapping("fleet"), folder);
+}
+
 double BatteryCurve::percent_at(double battery_v) const {
   if (battery_v <= volts.front()) return percent.front();
   for (std::size_t i = 1; i < volts.size(); ++i) {
@@ -121,6 +127,12 @@ BatteryCurve read_battery_curve(StrictYaml yaml) {
     yaml.refuse("percent", "something else", "as many values as volts, in 0..100, none less than before");
   yaml.finish();
   return curve;
+}
+
+std::optional<BatteryCurve> load_battery_curve(const std::filesystem::path& robot_file) {
+  StrictYaml yaml = StrictYaml::load(robot_file);
+  if (!yaml.has("battery")) return std::nullopt;
+  return read_battery_curve(yaml.mapping("battery"));
 }
 
 }  // namespace lodestar

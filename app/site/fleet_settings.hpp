@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct FleetSettings {
   std::filesystem::path certificate_file;  ///< of this client, with its key
   std::filesystem::path key_file;
 };
+
+/// Of a site folder; nothing where its site.yaml has no `fleet`. load_site() has checked it before.
+std::optional<FleetSettings> load_fleet_settings(const std::filesystem::path& folder);
 
 /// Where the broker listens.
 struct BrokerAddress {
@@ -46,5 +50,8 @@ struct BatteryCurve {
 };
 
 BatteryCurve read_battery_curve(StrictYaml yaml);
+
+/// Of a robot.yaml; nothing where it has no `battery`.
+std::optional<BatteryCurve> load_battery_curve(const std::filesystem::path& robot_file);
 
 }  // namespace lodestar

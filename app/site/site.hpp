@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "app/site/fleet_settings.hpp"
 #include "app/site/goal.hpp"
 #include "drivers/base/base_state.hpp"
 #include "maps/camera_model.hpp"
@@ -66,7 +65,6 @@ struct Robot {
   std::optional<double> wheel_noise_m_per_sqrt_m;
   BaseSettings base;
   std::optional<RobotScanner> scanner;
-  std::optional<BatteryCurve> battery;  ///< nothing: the charge is not known in percent
 };
 
 /// How the real base is connected.
@@ -109,7 +107,6 @@ struct Site {
   CameraSettings camera_settings;
   std::string scanner;                 ///< where the robot's scanner is; empty when the site names none
   std::optional<BaseConnection> base;  ///< nothing when the site is for simulation only
-  std::optional<FleetSettings> fleet;  ///< nothing where no fleet manager is
 };
 
 /// Reads `folder`/site.yaml, all files that it names, and places.yaml beside it if there is one. Throws
