@@ -11,9 +11,9 @@
 namespace lodestar {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json opened(const MessageHeader& header) {
+OrderedJson opened(const MessageHeader& header) {
   return {{"headerId", header.number},
           {"timestamp", header.timestamp},
           {"version", to_string(header.version)},
@@ -22,31 +22,31 @@ Json opened(const MessageHeader& header) {
 }
 
 /// What a master sent may come back in a message; a byte that is no UTF-8 is replaced.
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string text_of(const OrderedJson& json) {
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 /// 2.0.0 wants a heading in a node's position, though orders need none: such positions are left out.
-Json node_state(const FleetNode& node, VdaVersion version) {
-  Json json{{"nodeId", node.id}, {"sequenceId", node.sequence}, {"released", node.released}};
+OrderedJson node_state(const FleetNode& node, VdaVersion version) {
+  OrderedJson json{{"nodeId", node.id}, {"sequenceId", node.sequence}, {"released", node.released}};
   const bool may_be_without_heading = version != VdaVersion::v2_0_0;
   if (!node.at || (!node.at->heading_rad && !may_be_without_heading)) return json;
-  Json& position = json["nodePosition"];
+  OrderedJson& position = json["nodePosition"];
   position = {{"x", node.at->position_m.x()}, {"y", node.at->position_m.y()}, {"mapId", node.at->map}};
   if (node.at->heading_rad) position["theta"] = *node.at->heading_rad;
   return json;
 }
 
-Json action_state(const ActionRecord& record) {
-  Json json{{"actionId", record.action.id},
-            {"actionType", record.action.type},
-            {"actionStatus", to_string(record.status)}};
+OrderedJson action_state(const ActionRecord& record) {
+  OrderedJson json{{"actionId", record.action.id},
+                   {"actionType", record.action.type},
+                   {"actionStatus", to_string(record.status)}};
   if (!record.result.empty()) json["resultDescription"] = record.result;
   return json;
 }
 
-Json error_state(const FleetError& error) {
-  Json references = Json::array();
+OrderedJson error_state(const FleetError& error) {
+  OrderedJson references = OrderedJson::array();
   for (const ErrorReference& one : error.references)
     references.push_back({{"referenceKey", one.key}, {"referenceValue", one.value}});
   return {{"errorType", error.type},
@@ -55,7 +55,7 @@ Json error_state(const FleetError& error) {
           {"errorReferences", std::move(references)}};
 }
 
-Json position_state(const FleetReport& report) {
+OrderedJson position_state(const FleetReport& report) {
   return {{"x", report.map_from_base->position_m.x()},
           {"y", report.map_from_base->position_m.y()},
           {"theta", wrap_angle(report.map_from_base->yaw_rad)},
@@ -65,34 +65,36 @@ Json position_state(const FleetReport& report) {
 }
 
 template <typename List, typename Write>
-Json array_of(const List& list, const Write& write) {
-  Json array = Json::array();
+OrderedJson array_of(const List& list, const Write& write) {
+  OrderedJson array = OrderedJson::array();
   for (const auto& item : list) array.push_back(write(item));
   return array;
 }
 
-Json offered(const char* type, std::vector<const char*> scopes, Json parameters = Json::array()) {
-  Json json{{"actionType", type}, {"actionScopes", std::move(scopes)}};
+OrderedJson offered(const char* type, std::vector<const char*> scopes,
+                    OrderedJson parameters = OrderedJson::array()) {
+  OrderedJson json{{"actionType", type}, {"actionScopes", std::move(scopes)}};
   if (!parameters.empty()) json["actionParameters"] = std::move(parameters);
   return json;
 }
 
-Json parameter(const char* key, const char* type, bool is_optional = false) {
+OrderedJson parameter(const char* key, const char* type, bool is_optional = false) {
   return {{"key", key}, {"valueDataType", type}, {"isOptional", is_optional}};
 }
 
-Json actions_offered() {
-  return Json::array(
+OrderedJson actions_offered() {
+  return OrderedJson::array(
       {offered("startPause", {"INSTANT"}), offered("stopPause", {"INSTANT"}),
        offered("cancelOrder", {"INSTANT"}),
        offered("initPosition", {"INSTANT"},
-               Json::array({parameter("x", "NUMBER"), parameter("y", "NUMBER"), parameter("theta", "NUMBER"),
-                            parameter("mapId", "STRING", true), parameter("lastNodeId", "STRING", true)})),
+               OrderedJson::array({parameter("x", "NUMBER"), parameter("y", "NUMBER"),
+                                   parameter("theta", "NUMBER"), parameter("mapId", "STRING", true),
+                                   parameter("lastNodeId", "STRING", true)})),
        offered("stateRequest", {"INSTANT"}), offered("factsheetRequest", {"INSTANT"}),
-       offered("wait", {"NODE"}, Json::array({parameter("seconds", "NUMBER")}))});
+       offered("wait", {"NODE"}, OrderedJson::array({parameter("seconds", "NUMBER")}))});
 }
 
-Json limits_kept() {
+OrderedJson limits_kept() {
   const MessageLimits limits;
   return {
       {"maxStringLens", {{"msgLen", limits.bytes}, {"idLen", limits.text_bytes}, {"idNumericalOnly", false}}},
@@ -126,7 +128,7 @@ std::string timestamp_text(std::int64_t unix_ms) {
 }
 
 std::string state_text(const MessageHeader& header, const FleetReport& report) {
-  Json json = opened(header);
+  OrderedJson json = opened(header);
   json["orderId"] = report.order_id;
   json["orderUpdateId"] = report.update_id;
   json["lastNodeId"] = report.last_node_id;
@@ -138,7 +140,7 @@ std::string state_text(const MessageHeader& header, const FleetReport& report) {
   json["operatingMode"] = to_string(report.mode);
   json["nodeStates"] =
       array_of(report.nodes, [&](const FleetNode& node) { return node_state(node, header.version); });
-  json["edgeStates"] = array_of(report.edges, [](const FleetEdge& edge) -> Json {
+  json["edgeStates"] = array_of(report.edges, [](const FleetEdge& edge) -> OrderedJson {
     return {{"edgeId", edge.id}, {"sequenceId", edge.sequence}, {"released", edge.released}};
   });
   if (report.map_from_base) json["agvPosition"] = position_state(report);
@@ -154,7 +156,7 @@ std::string state_text(const MessageHeader& header, const FleetReport& report) {
 }
 
 std::string connection_text(const MessageHeader& header, ConnectionState state) {
-  Json json = opened(header);
+  OrderedJson json = opened(header);
   json["connectionState"] = to_string(state);
   return text_of(json);
 }
@@ -186,7 +188,7 @@ Factsheet factsheet_of(const Robot& robot) {
 /// The largest load is not known here: it is said to be none. Optional fields of edges and orders that the
 /// robot obeys are listed; one that is not leads to an orderError.
 std::string factsheet_text(const MessageHeader& header, const Factsheet& facts) {
-  Json json = opened(header);
+  OrderedJson json = opened(header);
   json["typeSpecification"] = {{"seriesName", facts.series},    {"agvKinematic", "DIFF"},
                                {"agvClass", "CARRIER"},         {"maxLoadMass", 0.0},
                                {"localizationTypes", {"SPOT"}}, {"navigationTypes", {"AUTONOMOUS"}}};
@@ -198,7 +200,7 @@ std::string factsheet_text(const MessageHeader& header, const Factsheet& facts) 
                                 {"width", facts.width_m},
                                 {"length", facts.length_m}};
   json["protocolLimits"] = limits_kept();
-  Json obeyed = Json::array();
+  OrderedJson obeyed = OrderedJson::array();
   for (const char* name : {"order.nodes.nodePosition.theta", "order.nodes.nodePosition.allowedDeviationXY",
                            "order.nodes.nodePosition.allowedDeviationTheta"})
     obeyed.push_back({{"parameter", name}, {"support", "SUPPORTED"}});
@@ -206,10 +208,11 @@ std::string factsheet_text(const MessageHeader& header, const Factsheet& facts) 
   const std::vector<Vec2> outline_m = facts.outline_m.empty() ? around_disc(facts.radius_m) : facts.outline_m;
   json["agvGeometry"] = {
       {"envelopes2d",
-       Json::array({{{"set", "body"}, {"polygonPoints", array_of(outline_m, [](const Vec2& p) -> Json {
-                                         return {{"x", p.x()}, {"y", p.y()}};
-                                       })}}})}};
-  json["loadSpecification"] = Json::object();
+       OrderedJson::array(
+           {{{"set", "body"}, {"polygonPoints", array_of(outline_m, [](const Vec2& p) -> OrderedJson {
+                                 return {{"x", p.x()}, {"y", p.y()}};
+                               })}}})}};
+  json["loadSpecification"] = OrderedJson::object();
   return text_of(json);
 }
 
