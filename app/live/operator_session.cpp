@@ -41,6 +41,7 @@ void OperatorSession::say(Stamp now, const std::string& words) {
 }
 
 void OperatorSession::apply_orders(Mission& mission, BaseDriver& base, Stamp now, Stamp clock) {
+  if (mission.finished()) by_console_ = false;  // the next drive may be another's
   for (const Order& order : link_.take_orders()) take(order, mission, base, now);
   if (link_.take_stop()) {
     next_goals_.clear();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/site/places_limits.hpp"
+#include "app/site/fleet_settings.hpp"
 #include "maps/camera_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
@@ -231,6 +232,7 @@ Robot load_robot(const std::filesystem::path& file) {
   if (yaml.has("wheels")) read_wheels(yaml.mapping("wheels"), robot);
   if (yaml.has("scanner")) read_scanner(yaml.mapping("scanner"), robot);
   if (yaml.has("base")) read_base_settings(yaml.mapping("base"), robot);
+  if (yaml.has("battery")) (void)read_battery_curve(yaml.mapping("battery"));  // kept by who asks for it
   robot.preferred_clearance_m = yaml.number("preferred_clearance_m", 0.0, 5.0);
   if (yaml.has("pass_corners_within_m"))
     robot.pass_corners_within_m = yaml.number("pass_corners_within_m", 0.0, 1.0);
@@ -279,6 +281,7 @@ Site load_site(const std::filesystem::path& folder) {
                   "scanner: in its robot.yaml too");
   }
   if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
+  if (yaml.has("fleet")) (void)read_fleet_settings(yaml.mapping("fleet"), folder);  // kept by who asks for it
   yaml.finish();
   return site;
 }
