@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "app/site/places_limits.hpp"
 #include "app/site/fleet_settings.hpp"
+#include "app/site/places_limits.hpp"
 #include "maps/camera_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
