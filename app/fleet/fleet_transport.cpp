@@ -15,18 +15,6 @@ namespace {
 
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// libmosquitto's own state, once in the process.
-struct Library {
-  Library() { mosquitto_lib_init(); }
-  ~Library() { mosquitto_lib_cleanup(); }
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
-};
-
-struct EndClient {
-  void operator()(mosquitto* client) const { mosquitto_destroy(client); }
-};
-
 std::int64_t unix_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
@@ -46,6 +34,18 @@ const char* or_null(const std::string& text) {
 }  // namespace
 
 class FleetTransport::Client {
+  /// libmosquitto's own state, once in the process.
+  struct Library {
+    Library() { mosquitto_lib_init(); }
+    ~Library() { mosquitto_lib_cleanup(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+  };
+
+  struct EndClient {
+    void operator()(mosquitto* client) const { mosquitto_destroy(client); }
+  };
+
  public:
   Client(const FleetSettings& settings, Factsheet factsheet, FleetLink& link,
          std::function<void(Severity, const std::string&)> tell)
