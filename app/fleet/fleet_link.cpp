@@ -19,7 +19,7 @@ bool FleetLink::publish(FleetReport report) {
 }
 
 bool FleetLink::give(FleetMessage message) {
-  constexpr std::size_t most_waiting = 32;
+  constexpr std::size_t most_waiting = 256;
   const std::lock_guard lock(mutex_);
   if (messages_.size() >= most_waiting) return false;
   messages_.push_back(std::move(message));

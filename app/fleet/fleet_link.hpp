@@ -12,7 +12,7 @@ namespace lodestar {
 
 /// Connects the control loop, which must never wait, with the thread that speaks to the broker, which may: as
 /// LiveLink does for the console. Both ways are bounded: a state replaces one that has not been sent, and of
-/// messages the first 32 wait.
+/// messages the first 256 wait.
 class FleetLink {
  public:
   // -- the control loop's side: no call waits

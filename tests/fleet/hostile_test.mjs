@@ -12,7 +12,7 @@ test('garbage is a validationError, and the drive goes on', async () => {
   const robot = startRobot(url, serial, version);
   const wait = (what, holds) => until(what, holds, () => `${robot.words()}\n${JSON.stringify(witness.state())}`);
   await wait('online', () => witness.connection() === 'ONLINE' && witness.state()?.agvPosition);
-  witness.send('order', message(serial, version, orderOver('far', 0, [[1.2, 5.6], [4.2, 5.6]])));
+  witness.send('order', message(serial, version, orderOver('far', 0, [[1.2, 5.6], [4.2, 5.2]])));
   await wait('it drives', () => witness.state().driving);
 
   const said = (words) => witness.state().errors.some((error) => error.errorType === 'validationError' && error.errorDescription.includes(words));

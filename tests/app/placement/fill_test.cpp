@@ -31,9 +31,12 @@ TEST(Fill, leaves_no_gap_by_the_check_s_own_measure_and_adds_nothing_twice) {
 
 TEST(Fill, keeps_sheets_apart_and_refuses_a_ceiling_that_no_camera_sees) {
   const Filling filling = fill_gaps({}, hall(), {.ceiling_m = 2.6, .wanted = 3});
-  for (const RegisteredMarker& one : filling.added)
-    for (const RegisteredMarker& other : filling.added)
-      if (one.id != other.id) EXPECT_GE((one.position_m - other.position_m).norm(), 0.5 - 1e-9);
+  for (const RegisteredMarker& one : filling.added) {
+    for (const RegisteredMarker& other : filling.added) {
+      if (one.id == other.id) continue;
+      EXPECT_GE((one.position_m - other.position_m).norm(), 0.5 - 1e-9);
+    }
+  }
   EXPECT_THROW((void)fill_gaps({}, hall(), {.ceiling_m = 1.2}), InputError);
 }
 
