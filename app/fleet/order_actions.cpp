@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 
 #include "app/fleet/order_book.hpp"
 
@@ -9,9 +10,10 @@ namespace lodestar {
 void OrderBook::take_instant(const FleetAction& action) {
   if (is_known(action.id)) return;
   constexpr std::size_t most_listed = 50;
-  const bool is_full = instant_actions_.size() >= most_listed;
+  constexpr std::ptrdiff_t most_open = 20;
+  const bool are_too_many = std::ranges::count_if(instant_actions_, std::not_fn(has_ended)) >= most_open;
   const auto ended = std::ranges::find_if(instant_actions_, has_ended);
-  if (is_full && ended != instant_actions_.end()) {
+  if (instant_actions_.size() >= most_listed && ended != instant_actions_.end()) {
     old_action_ids_.push_back(ended->action.id);
     instant_actions_.erase(ended);
   }
@@ -26,7 +28,7 @@ void OrderBook::take_instant(const FleetAction& action) {
     record.status = ActionStatus::finished;
     for (ActionRecord& other : instant_actions_)
       if (other.action.type == "startPause" && !has_ended(other)) other.status = ActionStatus::finished;
-  } else if (is_full && ended == instant_actions_.end()) {
+  } else if (are_too_many) {
     action_ended(action.id, false, "too many actions at once");
   } else if (!options_.instant_actions.contains(action.type)) {
     action_ended(action.id, false, fmt::format("no instant action {}", action.type));

@@ -82,7 +82,7 @@ std::vector<FleetOrder> through_network(Random& random, std::vector<FleetOrder>&
   }
   arriving.push_back(order);
   if (fate == 2) arriving.push_back(std::move(order));
-  if (random.below(3) == 0) std::ranges::move(late, std::back_inserter(arriving));
+  if (random.below(3) == 0) std::ranges::copy(late, std::back_inserter(arriving));
   if (arriving.size() > 2 || random.below(3) == 0) late.clear();
   return arriving;
 }
