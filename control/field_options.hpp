@@ -16,7 +16,8 @@ struct ProtectiveFieldOptions {
   /// mass is moved by some 10 cm in the first half second of a step.
   double start_mps2 = 1.0;
   double standing_margin_m = 0.02;  ///< a good standard deviation of the range (1.5 cm)
-  /// However near it is, a robot does not come nearer than this to what stands: twice the noise of five beams.
+  /// However near it is, a robot does not come nearer than this to what stands: twice the noise of five
+  /// beams.
   double least_standing_m = 0.01;
   /// Up to this speed what stands is passed like a wall: without it the noise of the range would end the
   /// drive in a gap that leaves 11 cm a side.
