@@ -1,5 +1,7 @@
 #include "app/common/worker.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "app/common/low_priority.hpp"
@@ -16,7 +18,9 @@ Worker::~Worker() {
   if (thread_.joinable()) thread_.join();
 }
 
+/// Of those for which nobody waits any more, none keeps another from waiting.
 std::optional<std::stop_source> Worker::give(Job job) {
+  for (const Waiting& dropped : take_cancelled()) dropped.job(dropped.cancel.get_token());
   const std::lock_guard lock(mutex_);
   if (waiting_.size() >= most_waiting_ + (under_way_ ? 0 : 1)) return std::nullopt;
   std::stop_source cancel;
@@ -24,6 +28,15 @@ std::optional<std::stop_source> Worker::give(Job job) {
   if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
   given_.notify_one();
   return cancel;
+}
+
+std::vector<Worker::Waiting> Worker::take_cancelled() {
+  const std::lock_guard lock(mutex_);
+  const auto cancelled = std::ranges::stable_partition(
+      waiting_, [](const Waiting& waiting) { return !waiting.cancel.stop_requested(); });
+  std::vector<Waiting> taken(std::move_iterator(cancelled.begin()), std::move_iterator(cancelled.end()));
+  waiting_.erase(cancelled.begin(), cancelled.end());
+  return taken;
 }
 
 void Worker::work() {

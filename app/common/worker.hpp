@@ -7,6 +7,7 @@
 #include <optional>
 #include <stop_token>
 #include <thread>
+#include <vector>
 
 namespace lodestar {
 
@@ -26,7 +27,8 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   /// What cancels this job; nothing when too many wait already. A job that is cancelled before its turn is
-  /// called all the same, to tell whoever waits for it.
+  /// called all the same, to tell whoever waits for it: at its turn, or before it on the thread that gives
+  /// another.
   [[nodiscard]] std::optional<std::stop_source> give(Job job);
 
  private:
@@ -35,6 +37,7 @@ class Worker {
     std::stop_source cancel;
   };
 
+  std::vector<Waiting> take_cancelled();
   void work();
   void do_next(std::unique_lock<std::mutex>& lock);
 

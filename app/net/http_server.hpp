@@ -22,7 +22,8 @@ struct HttpServerOptions {
   /// Which requests take long, by their header. They need the role edit, and a thread of their own handles
   /// them one after the other, so that a stop over a WebSocket never waits for them.
   std::function<bool(const HttpRequest& head)> takes_long;
-  std::size_t most_waiting = 8;  ///< requests that take long, beside the one under way; 503 beyond that
+  /// Requests that take long, beside the one under way; 503 beyond that. A page that is opened makes three.
+  std::size_t most_waiting = 16;
   /// Which read or write files, by their header: another thread handles these, for all roles, so that neither
   /// the sockets nor who only looks wait for a disk or for another client's draft.
   std::function<bool(const HttpRequest& head)> uses_files;

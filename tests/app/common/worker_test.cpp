@@ -45,6 +45,27 @@ TEST(Worker, tells_a_job_that_it_is_cancelled) {
   EXPECT_TRUE(seen.get_future().get());
 }
 
+TEST(Worker, a_cancelled_job_keeps_no_other_from_waiting) {
+  std::latch began(1);
+  std::latch may_end(1);
+  std::promise<void> last;
+  bool is_told = false;
+  Worker worker(1);
+  ASSERT_TRUE(worker.give([&](const std::stop_token&) {
+    began.count_down();
+    may_end.wait();
+  }));
+  began.wait();
+  const std::optional<std::stop_source> cancel =
+      worker.give([&](const std::stop_token& cancelled) { is_told = cancelled.stop_requested(); });
+  ASSERT_TRUE(cancel);
+  std::stop_source(*cancel).request_stop();
+  EXPECT_TRUE(worker.give([&](const std::stop_token&) { last.set_value(); }));
+  EXPECT_TRUE(is_told);
+  may_end.count_down();
+  last.get_future().wait();
+}
+
 TEST(Worker, ends_the_job_under_way_and_drops_the_others) {
   bool dropped = true;
   {
