@@ -88,4 +88,18 @@ Goal parse_goal(const std::string& option, const std::string& text, const Places
                   text, nearest_names(text, places)));
 }
 
+std::vector<Goal> mission_goals(const std::string& option, const std::string& name, const Places& places) {
+  const auto mission = std::ranges::find(places.missions, name, &NamedMission::name);
+  if (mission == places.missions.end()) {
+    std::string names;
+    for (const NamedMission& known : places.missions)
+      names += fmt::format("{}'{}'", names.empty() ? "" : ", ", known.name);
+    throw InputError(fmt::format("{}: found '{}', wanted a mission of places.yaml: {}", option, name,
+                                 names.empty() ? "it has none" : names));
+  }
+  std::vector<Goal> goals;
+  for (const std::string& place : mission->places) goals.push_back(parse_goal(option, place, places));
+  return goals;
+}
+
 }  // namespace lodestar
