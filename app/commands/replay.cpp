@@ -89,10 +89,8 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
     if (!file.warning.empty()) fmt::print(stderr, "lodestar: warning: {}\n", file.warning);
     options.learned = std::move(file.state);
   }
-  if (!arguments.mission.empty()) options.goals = mission_goals("--mission", arguments.mission, site.places);
-  if (!arguments.goals.empty()) options.goals.clear();
-  for (const std::string& text : arguments.goals)
-    options.goals.push_back(parse_goal("--goal", text, site.places));
+  if (!arguments.goals.empty() || !arguments.mission.empty())
+    options.goals = goals_in(arguments.goals, arguments.mission, site.places);
   if (arguments.routes)
     options.goals =
         RouteGraph(site.places, site.robot.max_forward_mps).over_edges(site.start.position_m, options.goals);
@@ -333,8 +331,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
   serve->excludes(command->get_option("--runs"))->excludes(command->get_option("--state"));
   command->add_flag("--survey", arguments->survey,
                     "The drive is a survey: says how to make a registry of it; with --serve one log for all "
-                    "that is driven, "
-                    "by hand or by goals, and the console shows how it stands");
+                    "that is driven, by hand or by goals, and the console shows how it stands");
   command
       ->add_flag("--explore", arguments->explore,
                  "With --survey: the robot knows no marker, and drives by itself until it has surveyed all")

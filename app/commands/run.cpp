@@ -206,9 +206,7 @@ ExitCode run_command(RunArguments arguments) {
                      .on_end = [&manager] { manager.stop(); },
                      .on_step = [&manager](Stamp now) { manager.step(now); },
                      .state = arguments.state};
-  if (!arguments.mission.empty()) options.goals = mission_goals("--mission", arguments.mission, site.places);
-  for (const std::string& text : arguments.goals)
-    options.goals.push_back(parse_goal("--goal", text, site.places));
+  options.goals = goals_in(arguments.goals, arguments.mission, site.places);
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
 

@@ -104,9 +104,14 @@ std::vector<Goal> RouteGraph::over_edges(const Vec2& from_m, const std::vector<G
   return all;
 }
 
+bool RouteGraph::has_edge(const std::string& name) const {
+  const auto point = std::ranges::find(points_, name, &Point::name);
+  return point != points_.end() && point->is_on_edge;
+}
+
 std::vector<std::string> RouteGraph::unreachable_from(const std::string& place) const {
   const auto start = std::ranges::find(points_, place, &Point::name);
-  if (start == points_.end() || !start->is_on_edge) return {};
+  if (!has_edge(place)) return {};
   const auto reached = reached_from(static_cast<std::size_t>(start - points_.begin()));
   std::vector<std::string> names;
   for (std::size_t i = 0; i < points_.size(); ++i)

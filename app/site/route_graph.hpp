@@ -25,7 +25,10 @@ class RouteGraph {
   /// The same for goals in turn. Throws InputError naming the goal to which no edges lead.
   [[nodiscard]] std::vector<Goal> over_edges(const Vec2& from_m, const std::vector<Goal>& goals) const;
 
-  /// Names of the places to which no edges lead from the one named.
+  /// Whether an edge begins or ends at the point of this name.
+  [[nodiscard]] bool has_edge(const std::string& name) const;
+
+  /// Names of the points on edges to which no edges lead from the one named.
   [[nodiscard]] std::vector<std::string> unreachable_from(const std::string& place) const;
 
  private:
