@@ -243,7 +243,11 @@ void Navigation::extend(std::span<const Goal> goals) {
 std::optional<double> Navigation::speed_limit(const PoseEstimate& estimate) {
   std::optional<double> limit_mps = zone_speed_.limit_mps(estimate);
   if (!is_under_way(behaviour_.state)) return limit_mps;
-  goals_.see(estimate.map_from_base.position_m);
+  if (std::holds_alternative<Backtracking>(behaviour_.state)) {
+    goals_.turn_back();
+  } else {
+    goals_.see(estimate.map_from_base.position_m);
+  }
   const std::optional<double> leg_mps = goals_.limit_mps(estimate, options_.drive);
   if (!limit_mps || (leg_mps && *leg_mps < *limit_mps)) limit_mps = leg_mps;
   return limit_mps;

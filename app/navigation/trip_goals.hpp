@@ -20,6 +20,9 @@ class TripGoals {
   /// More goals behind the last one, to which no path leads yet.
   void append(std::span<const Goal> goals);
   void path_leads_to_all() { led_to_ = goals_.size(); }
+
+  /// The robot turns back: to move away from the next goal now is not to pass it.
+  void turn_back() { nearest_m_.reset(); }
   [[nodiscard]] std::size_t beyond() const { return goals_.size() - led_to_; }
 
   /// Takes the robot's place, once per step.
