@@ -17,11 +17,13 @@ add_custom_target(lodestar_command_line ALL DEPENDS ${command_line_files}/writte
 install(TARGETS lodestar RUNTIME COMPONENT lodestar)
 install(DIRECTORY sites/lab DESTINATION ${CMAKE_INSTALL_DATADIR}/lodestar/sites COMPONENT lodestar
   PATTERN state.yaml EXCLUDE PATTERN .history EXCLUDE)
-install(DIRECTORY faults DESTINATION ${CMAKE_INSTALL_DATADIR}/lodestar COMPONENT lodestar)
+install(DIRECTORY faults scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/lodestar COMPONENT lodestar)
+install(FILES ${CMAKE_BINARY_DIR}/share/lodestar/commit DESTINATION ${CMAKE_INSTALL_DATADIR}/lodestar COMPONENT lodestar)
 install(DIRECTORY ${command_line_files}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT lodestar)
 install(DIRECTORY ${command_line_files}/bash-completion ${command_line_files}/zsh
   DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT lodestar)
 install(FILES packaging/lodestar@.service DESTINATION lib/systemd/system COMPONENT lodestar)
+install(FILES packaging/lodestar.tmpfiles DESTINATION lib/tmpfiles.d COMPONENT lodestar RENAME lodestar.conf)
 install(FILES packaging/70-lodestar.rules DESTINATION lib/udev/rules.d COMPONENT lodestar)
 
 # The rooms of which the development package has headers and libraries; localization is those below it, and maps is

@@ -16,12 +16,19 @@ struct ProtectiveFieldOptions {
   /// mass is moved by some 10 cm in the first half second of a step.
   double start_mps2 = 1.0;
   double standing_margin_m = 0.02;  ///< a good standard deviation of the range (1.5 cm)
+  /// However near it is, a robot does not come nearer than this to what stands: twice the noise of five
+  /// beams.
+  double least_standing_m = 0.01;
   /// Up to this speed what stands is passed like a wall: without it the noise of the range would end the
   /// drive in a gap that leaves 11 cm a side.
   double standing_creep_mps = 0.12;
-  /// A body around standing legs, one hidden behind the other; chosen by hand, as far as feet swing.
-  double body_margin_m = 0.25;
+  /// A body around standing legs: 0.25 m from its middle and 0.2 m from the shins of legs side by side.
+  /// Nearer than that it may touch the robot, which then only moves off.
+  double body_margin_m = 0.20;
   double mapped_margin_m = 0.01;  ///< the way's clearance is planned with elsewhere
+  /// Beside a wall that is nearer than that, the room may shrink by this share of the way to rest: with the
+  /// noise of the range the nearest hit along a wall is up to 5 cm ahead.
+  double mapped_slack_share = 0.2;
   /// Someone may step out from behind what hides them, at the speed at which people walk off (chosen by hand,
   /// half of the greatest). Before they can touch it the robot is down to the contact speed, not to rest.
   double hidden_mps = 1.0;

@@ -17,6 +17,11 @@ enum class Presence : std::uint8_t {
   hidden     ///< nothing was hit here, but someone may be behind
 };
 
+/// What does not move now, though some of it may begin to.
+inline bool is_still(Presence presence) {
+  return presence == Presence::mapped || presence == Presence::standing || presence == Presence::legs;
+}
+
 struct FieldPoint {
   Stamp stamp;
   Vec2 point_in_odom = Vec2::Zero();

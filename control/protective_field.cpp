@@ -15,10 +15,6 @@ BodyVelocity operator*(double share, const BodyVelocity& velocity) {
   return {share * velocity.forward_mps, share * velocity.turn_radps};
 }
 
-bool is_still(Presence presence) {
-  return presence == Presence::mapped || presence == Presence::standing || presence == Presence::legs;
-}
-
 FieldReason reason_for(Presence presence) {
   if (presence == Presence::person || presence == Presence::legs) return FieldReason::person_near;
   return presence == Presence::hidden ? FieldReason::hidden_corner : FieldReason::obstacle_ahead;
@@ -90,6 +86,12 @@ FieldLimit ProtectiveField::limit(const std::optional<FieldScan>& scan, Stamp no
   return limit(seen_from(odom_from_base, now, *scan, within_m(measured, wanted)), measured, wanted);
 }
 
+/// Before a corner the robot slows to the contact speed and no further: who may be there has not been seen.
+double ProtectiveField::least_share(const FieldHit& hit, const BodyVelocity& wanted) const {
+  if (hit.presence != Presence::hidden) return 0.0;
+  return std::min(options_.hidden_contact_mps / outline_speed_mps(wanted, shape_), 1.0);
+}
+
 /// Each hit lowers the share as far as it must. A slower robot is later at the same place, so the hits before
 /// are asked again until all agree.
 FieldLimit ProtectiveField::limit(std::span<const FieldHit> hits, const BodyVelocity& measured,
@@ -110,8 +112,8 @@ FieldLimit ProtectiveField::limit(std::span<const FieldHit> hits, const BodyVelo
   for (bool has_changed = true; has_changed && result.share > 0.0;) {
     has_changed = false;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-      if (is_safe(path, hits[i], distances_m[i], least_room_m)) continue;
-      double safe = 0.0;
+      double safe = least_share(hits[i], wanted);
+      if (result.share <= safe || is_safe(path, hits[i], distances_m[i], least_room_m)) continue;
       double unsafe = result.share;
       for (int halving = 0; halving < halvings; ++halving) {
         const double middle = 0.5 * (safe + unsafe);
@@ -135,8 +137,30 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   // Up to the creeping speed, what stands is passed like what is mapped.
   const bool is_passed = hit.presence == Presence::mapped || path.speed_mps() <= options_.standing_creep_mps;
   if (!is_passed) return rests_in_time(path, hit);
-  // Beside a wall the room is small, but a body has its own.
-  return stays_clear(path, hit, std::min(margin, hit.presence == Presence::legs ? distance_m : least_room_m));
+  // Along a wall the room may be small already.
+  switch (hit.presence) {
+    case Presence::legs:
+      return distance_m < margin ? moves_off(path, hit, distance_m) : stays_clear(path, hit, margin);
+    case Presence::standing:
+      return stays_clear(
+          path, hit,
+          std::min(distance_m, std::max(options_.least_standing_m, std::min(margin, least_room_m))));
+    default:
+      return stays_clear(path, hit,
+                         std::min(margin, least_room_m - options_.mapped_slack_share * path.travel_m()));
+  }
+}
+
+/// A disc that turns keeps its distance, but rubs along whoever leans on it.
+bool ProtectiveField::moves_off(const BrakingPath& path, const FieldHit& hit, double distance_m) const {
+  constexpr double least_share = 0.3;  // of its way: straight away, or past what is beside it and behind
+  double before_m = distance_m;
+  for (const BrakingPath::Step& step : path.steps()) {
+    const double after_m = shape_.distance_m(inverse(step.end) * hit.point_in_base);
+    if (after_m < before_m) return false;
+    before_m = after_m;
+  }
+  return before_m - distance_m >= least_share * path.travel_m();
 }
 
 bool ProtectiveField::stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const {

@@ -51,9 +51,11 @@ class ProtectiveField {
   /// How far what is there may have come since it was seen.
   [[nodiscard]] double reach_m(Presence presence, double time_s) const;
   [[nodiscard]] double margin_m(Presence presence) const;
+  [[nodiscard]] double least_share(const FieldHit& hit, const BodyVelocity& wanted) const;
   [[nodiscard]] bool is_safe(const BrakingPath& path, const FieldHit& hit, double distance_m,
                              double least_room_m) const;
   [[nodiscard]] bool stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const;
+  [[nodiscard]] bool moves_off(const BrakingPath& path, const FieldHit& hit, double distance_m) const;
   [[nodiscard]] bool rests_in_time(const BrakingPath& path, const FieldHit& hit) const;
   [[nodiscard]] double within_m(const BodyVelocity& measured, const BodyVelocity& wanted) const;
 

@@ -13,6 +13,7 @@
 
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_site.hpp"
+#include "app/campaign/random_things.hpp"
 #include "app/common/parallel.hpp"
 #include "app/common/whole_number.hpp"
 #include "control/safety_stop.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum MissionPurpose : std::uint64_t { building = 1, faults, registry_errors, people };
+enum MissionPurpose : std::uint64_t { building = 1, faults, registry_errors, people, things };
 
 std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
   std::map<std::uint64_t, MissionOutcome> outcomes;
@@ -43,6 +44,10 @@ std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
     }
   }
   return outcomes;
+}
+
+bool is_of(const MissionOutcome& outcome, const CampaignWorld& world) {
+  return outcome.people.has_value() == world.has_people && outcome.spared != world.has_faults;
 }
 
 /// Holds the file of outcomes against other campaigns, which would mix their lines with ours.
@@ -136,26 +141,27 @@ std::vector<int> campaign_ids() {
 }
 
 CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number,
-                           bool with_people) {
+                           const CampaignWorld& world) {
   const Random random(number);
   CampaignMission mission;
   mission.site = random_site(robot_and_cameras, ids, random.stream(building).bits());
-  if (with_people && !mission.site.robot.scanner) mission.site.robot.scanner.emplace();
-  mission.replay = {
-      .camera = robot_and_cameras.default_camera,
-      .seed = number,
-      .goals = mission.site.goals,
-      .faults = random_faults(random.stream(faults).bits(), mission.site.robot.scanner.has_value())};
-  spoil_registry(mission, random.stream(registry_errors));
-  if (!with_people) return mission;
+  if (world.has_people && !mission.site.robot.scanner) mission.site.robot.scanner.emplace();
+  mission.replay = {.camera = robot_and_cameras.default_camera, .seed = number, .goals = mission.site.goals};
+  if (world.has_faults) {
+    mission.replay.faults =
+        random_faults(random.stream(faults).bits(), mission.site.robot.scanner.has_value());
+    spoil_registry(mission, random.stream(registry_errors));
+  }
+  if (!world.has_people) return mission;
   constexpr std::uint64_t most_people = 6;
   mission.replay.people.count = 1 + static_cast<int>(random.stream(people).below(most_people));
+  mission.replay.discs = random_things(mission.site, random.stream(things).bits());
   return mission;
 }
 
-MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, bool with_people) {
+MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, const CampaignWorld& world) {
   const GoalRecord& goal = record.goals.front();
-  MissionOutcome outcome{.mission = number};
+  MissionOutcome outcome{.mission = number, .spared = !world.has_faults};
   for (const FaultEvent& fault : record.faults) outcome.faults.emplace_back(to_string(fault.kind));
   outcome.arrived = goal.arrived;
   if (const auto score = record.score_of(0)) outcome.error_m = score->position_error_m;
@@ -165,7 +171,7 @@ MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, bool wi
   outcome.noticed_after_s = noticed_after_s(record);
   outcome.stopped_within_m = stopped_within_m(record);
   const ContactScore& score = record.contact_score;
-  if (with_people)
+  if (world.has_people)
     outcome.people = PeopleContacts{score.moving, score.excused, score.at_rest, score.greatest_contact_mps};
   return outcome;
 }
@@ -184,6 +190,7 @@ nlohmann::ordered_json as_json(const MissionOutcome& outcome) {
       {"driven_s", outcome.driven_s},
       {"noticed_after_s", optional(outcome.noticed_after_s)},
       {"stopped_within_m", optional(outcome.stopped_within_m)}};
+  if (outcome.spared) json["without_faults"] = true;
   if (outcome.people) {
     json["people"] = {{"moving", outcome.people->moving},
                       {"excused", outcome.people->excused},
@@ -209,6 +216,7 @@ MissionOutcome outcome_from(const nlohmann::json& json) {
   };
   constexpr std::uint32_t most_contacts = std::numeric_limits<int>::max();
   return {.mission = json.at("mission").get_ref<const nlohmann::json::number_unsigned_t&>(),
+          .spared = json.value("without_faults", false),
           .faults = json.at("faults"),
           .arrived = json.at("arrived"),
           .error_m = optional("error_m").value_or(0.0),
@@ -227,6 +235,10 @@ std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const Ca
   const fs::path file = folder / "missions.jsonl";
   const SoleWriter sole_writer(file, options.resume);
   auto known = options.resume ? outcomes_in(file) : std::map<std::uint64_t, MissionOutcome>();
+  for (const auto& [number, outcome] : known)
+    if (!is_of(outcome, options.world))
+      throw InputError(file, 0, "outcomes of a campaign with other people or faults",
+                       "--people and --no-faults as it began, or another folder with -o");
   std::ofstream log(file, std::ios::app);
 
   const std::vector<int> ids = campaign_ids();
@@ -242,11 +254,11 @@ std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const Ca
       outcome = before->second;
     } else {
       if (is_over()) return;
-      CampaignMission mission = mission_of(robot_and_cameras, ids, number, options.people);
+      CampaignMission mission = mission_of(robot_and_cameras, ids, number, options.world);
       mission.replay.goes_on = options.goes_on;
       const RunRecord record = simulate_drive(mission.site, mission.replay);
       if (is_over()) return;  // perhaps in the middle of this mission
-      outcome = outcome_of(number, record, options.people);
+      outcome = outcome_of(number, record, options.world);
     }
     const std::lock_guard lock(mutex);
     if (before == known.end()) log << as_json(*outcome).dump() << "\n" << std::flush;

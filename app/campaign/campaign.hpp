@@ -22,9 +22,17 @@ struct PeopleContacts {
   double greatest_mps = 0.0;  ///< the robot's fastest in any of them
 };
 
+/// What the missions of a campaign meet.
+struct CampaignWorld {
+  bool has_people =
+      false;  ///< one to six, drawn from the mission's number; boxes and chairs; a scanner on the robot
+  bool has_faults = true;  ///< and registries that are not quite true
+};
+
 /// The outcome of one mission.
 struct MissionOutcome {
   std::uint64_t mission = 0;  ///< its number, and its seed
+  bool spared = false;        ///< of a campaign without faults
   std::vector<std::string> faults;
   bool arrived = false;
   double error_m = 0.0;  ///< true distance from the goal, when arrival was reported
@@ -48,23 +56,23 @@ struct CampaignMission {
   Site site;
   SimulatedDriveOptions replay;
 };
-/// `with_people`: one to six of them, drawn from the number, and a scanner on the robot.
 CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number,
-                           bool with_people = false);
-MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, bool with_people = false);
+                           const CampaignWorld& world = {});
+MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, const CampaignWorld& world = {});
 
 struct CampaignOptions {
   std::uint64_t first = 1;  ///< number of the first mission
   int missions = 100;
-  bool resume = false;                 ///< skip the missions that missions.jsonl already has
-  bool people = false;                 ///< walk about in all buildings
+  bool resume = false;  ///< skip the missions that missions.jsonl already has
+  CampaignWorld world;
   std::function<bool()> goes_on = {};  ///< asked before and after each mission; false: no more begin
 };
 
 /// Runs the missions on all cores. Each outcome is appended to `folder`/missions.jsonl at once, so that an
 /// interrupted campaign can be resumed. `done` is called after each, from any thread, with the completed
 /// share. Returns the outcomes that there are by ascending number. Throws InputError when the folder cannot
-/// be written, when it has outcomes that are not to be resumed, or when another campaign writes there.
+/// be written, when it has outcomes that are not to be resumed or of another world, or when another campaign
+/// writes there.
 std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const CampaignOptions& options,
                                          const std::filesystem::path& folder,
                                          const std::function<void(double)>& done);

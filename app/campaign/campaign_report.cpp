@@ -126,7 +126,8 @@ std::string row_of(const std::string& name, const Tally& tally) {
 }  // namespace
 
 std::string repeat_command(const MissionOutcome& outcome) {
-  return fmt::format("lodestar campaign --mission {}{}", outcome.mission, outcome.people ? " --people" : "");
+  return fmt::format("lodestar campaign --mission {}{}{}", outcome.mission, outcome.people ? " --people" : "",
+                     outcome.spared ? " --no-faults" : "");
 }
 
 Json campaign_json(const std::vector<MissionOutcome>& outcomes) {

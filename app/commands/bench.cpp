@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench/paper.hpp"
+#include "app/commands/bench_all.hpp"
 #include "app/commands/bench_plan.hpp"
 #include "app/commands/commands.hpp"
 
@@ -176,7 +177,8 @@ std::vector<Command> bench_commands(CLI::App& lodestar) {
   return {{paper_command, [arguments] { return paper(*arguments); }},
           bench_localize_command(*bench),
           bench_survey_command(*bench),
-          bench_plan_command(*bench)};
+          bench_plan_command(*bench),
+          bench_all_command(*bench)};
 }
 
 }  // namespace lodestar

@@ -45,12 +45,21 @@ ExitCode bench_scenario(const BenchPlanArguments& arguments) {
   const OccupancyMap map = load_movingai_map(arguments.map);
   const std::vector<MovingAiQuery> queries = load_movingai_queries(arguments.scenario, map);
   const std::vector<ScenarioAnswer> answers = answer_scenario(map, queries, {});
-  fmt::print("index,expected,found,microseconds,expanded\n");
-  for (std::size_t i = 0; i < answers.size(); ++i) print_row(i, answers[i]);
+  if (!arguments.json) {
+    fmt::print("index,expected,found,microseconds,expanded\n");
+    for (std::size_t i = 0; i < answers.size(); ++i) print_row(i, answers[i]);
+  }
 
   const auto optimal = static_cast<std::size_t>(std::ranges::count_if(answers, &ScenarioAnswer::optimal));
   const double ours = median_of(answers, &ScenarioAnswer::microseconds);
   const double astar = median_of(answers, &ScenarioAnswer::astar_microseconds);
+  if (arguments.json) {
+    const nlohmann::ordered_json json{{"queries", answers.size()},
+                                      {"optimal", optimal},
+                                      {"median_us", ours},
+                                      {"plain_astar_median_us", astar}};
+    fmt::print("{}\n", json.dump(2));
+  }
   fmt::print(stderr,
              "{} of {} queries optimal; median {:.2f} us, plain A* with a binary heap {:.2f} us, {:.1f} x\n",
              optimal, answers.size(), ours, astar, ours > 0.0 ? astar / ours : 0.0);
@@ -154,7 +163,7 @@ Command bench_plan_command(CLI::App& bench) {
   command
       ->add_option("--planner", arguments->planners, "Only these planners; default: all, on one map fastest")
       ->check(CLI::IsMember(planner_names()));
-  command->add_flag("--json", arguments->json, "The table of a site or a map as JSON");
+  command->add_flag("--json", arguments->json, "The table of a site, a map or a scenario as JSON");
   return {command, [arguments] {
             if (!arguments->site.empty()) return bench_planners(*arguments);
             if (!arguments->scenario.empty()) return bench_scenario(*arguments);

@@ -25,7 +25,7 @@ struct CampaignArguments {
   int missions = 100;
   std::optional<std::uint64_t> mission;
   bool resume = false;
-  bool people = false;
+  CampaignWorld world;
   bool quiet = false;
   std::string output = "runs/campaign";
 };
@@ -44,13 +44,14 @@ ExitCode verdict(const std::vector<MissionOutcome>& outcomes) {
   return has_failed ? job_failed : done;
 }
 
-ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, bool people, const fs::path& output) {
-  CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number, people);
+ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const CampaignWorld& world,
+                 const fs::path& output) {
+  CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number, world);
   RecordedRun recorded(output / fmt::format("mission-{}", number), mission.site, mission.replay.camera,
                        {.can_wait = true});
   mission.replay.watch = recorded.watcher();
   RunRecord record = simulate_drive(mission.site, mission.replay);
-  const MissionOutcome outcome = outcome_of(number, record, people);
+  const MissionOutcome outcome = outcome_of(number, record, world);
   record.repeat = repeat_command(outcome);
   const RunFolderEnd end = recorded.finish(record);
   if (!end.loss.empty()) throw InputError(end.loss);
@@ -61,7 +62,7 @@ ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, bool peopl
 
 ExitCode campaign_command(const CampaignArguments& arguments) {
   const Site site = open_site(arguments.site);
-  if (arguments.mission) return run_one(site, *arguments.mission, arguments.people, arguments.output);
+  if (arguments.mission) return run_one(site, *arguments.mission, arguments.world, arguments.output);
   const Interruption interruption;
   std::vector<MissionOutcome> outcomes;
   {
@@ -70,7 +71,7 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
                             {.first = arguments.first,
                              .missions = arguments.missions,
                              .resume = arguments.resume,
-                             .people = arguments.people,
+                             .world = arguments.world,
                              .goes_on = [] { return !Interruption::asked(); }},
                             arguments.output, [&progress](double share) { progress.show(share); });
   }
@@ -108,8 +109,11 @@ std::vector<Command> campaign_commands(CLI::App& lodestar) {
   command->add_option("--site", arguments->site, "Site folder for robot and cameras; default: the lab");
   command->add_option("--first", arguments->first, "Number of the first mission")->capture_default_str();
   command->add_option("--mission", arguments->mission, "Run this mission only, and write its run folder");
-  command->add_flag("--people", arguments->people,
-                    "One to six people walk about in each building, and the robot has a scanner");
+  command->add_flag("--people", arguments->world.has_people,
+                    "One to six people walk about in each building, boxes and chairs stand or are pushed in "
+                    "the way, and the robot has a scanner");
+  command->add_flag("!--no-faults", arguments->world.has_faults,
+                    "Nothing fails, and all markers hang where the registry says");
   command->add_flag("--resume", arguments->resume, "Continue an interrupted campaign");
   command->add_flag("--quiet", arguments->quiet, "No progress bar");
   command->add_option("-o,--output", arguments->output, "Folder of the report")->capture_default_str();

@@ -15,7 +15,9 @@ std::vector<Command> plan_commands(CLI::App& lodestar);
 std::vector<Command> map_commands(CLI::App& lodestar);
 std::vector<Command> markers_commands(CLI::App& lodestar);
 std::vector<Command> places_commands(CLI::App& lodestar);
+std::vector<Command> site_commands(CLI::App& lodestar);
 std::vector<Command> marker_file_commands(CLI::App& markers);  ///< convert, print: subcommands of `markers`
+std::vector<Command> marker_site_commands(CLI::App& markers);  ///< fill, plan: subcommands of `markers`
 Command map_build_command(CLI::App& map);
 Command marker_trust_command(CLI::App& markers);
 std::vector<Command> serve_commands(CLI::App& lodestar);

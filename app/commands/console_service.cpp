@@ -31,6 +31,11 @@ ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* l
     const std::lock_guard lock(saving_);
     saved_ = saved;
   });
+  documents_.on_saved_places([this](const Places& saved) {
+    log_info("places and zones were saved through the console");
+    const std::lock_guard lock(saving_);
+    saved_places_ = saved;
+  });
   server_ = std::make_unique<HttpServer>(
       HttpServerOptions{.access = options.access,
                         .takes_long = DocumentApi::takes_long,
@@ -40,7 +45,7 @@ ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* l
 
 void ConsoleService::serve_a_turn() {
   attempt([this] { server_->run_for(turn); });
-  tell_of_saved_markers();
+  tell_of_saved_documents();
   const std::optional<RobotState> fresh = link_ != nullptr ? link_->newest() : std::nullopt;
   const Stamp now = monotonic_now();
   for (const auto& channel : channels_) attempt([&] { channel->pump(now, fresh ? &*fresh : nullptr); });
@@ -49,12 +54,18 @@ void ConsoleService::serve_a_turn() {
   if (watched && link_ != nullptr) link_->want_state();
 }
 
-void ConsoleService::tell_of_saved_markers() {
+void ConsoleService::tell_of_saved_documents() {
   std::unique_lock lock(saving_);
-  const std::optional<MarkerRegistry> saved = std::exchange(saved_, std::nullopt);
+  const std::optional<MarkerRegistry> markers = std::exchange(saved_, std::nullopt);
+  const std::optional<Places> places = std::exchange(saved_places_, std::nullopt);
   lock.unlock();
-  if (!saved) return;
-  for (const auto& channel : channels_) attempt([&] { channel->take_markers(*saved); });
+  for (const auto& channel : channels_) {
+    if (markers) attempt([&] { channel->take_markers(*markers); });
+    if (places) attempt([&] { channel->take_places(*places); });
+  }
+  if (places) untold_zones_ = Zones{places->keep_out, places->speed_zones};
+  if (link_ == nullptr || !untold_zones_) return;
+  if (link_->give({.by = "saved", .what = ZonesOrder{*untold_zones_}})) untold_zones_.reset();
 }
 
 void ConsoleService::attempt(const std::function<void()>& step) {

@@ -36,7 +36,7 @@ class ConsoleService {
 
  private:
   void attempt(const std::function<void()>& step);
-  void tell_of_saved_markers();
+  void tell_of_saved_documents();
 
   DocumentApi documents_;
   LiveLink* link_;
@@ -44,6 +44,8 @@ class ConsoleService {
       channels_;       ///< declared before the server, whose sessions refer to them
   std::mutex saving_;  ///< of what follows: markers are saved on another thread of the server
   std::optional<MarkerRegistry> saved_;
+  std::optional<Places> saved_places_;
+  std::optional<Zones> untold_zones_;  ///< to the robot: its orders wait in a short queue
   std::unique_ptr<HttpServer> server_;
   std::string last_error_;  ///< logged once, not in every turn
 };

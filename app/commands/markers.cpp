@@ -242,6 +242,7 @@ std::vector<Command> markers_commands(CLI::App& lodestar) {
                                 {generate_command, [generated] { return generate(*generated); }},
                                 {check_command, [arguments] { return check(*arguments); }}};
   for (Command& command : marker_file_commands(*markers)) commands.push_back(std::move(command));
+  for (Command& command : marker_site_commands(*markers)) commands.push_back(std::move(command));
   commands.push_back(marker_trust_command(*markers));
   return commands;
 }

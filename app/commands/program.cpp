@@ -20,10 +20,10 @@ namespace {
 std::vector<Command> all_commands(CLI::App& app) {
   std::vector<Command> all;
   for (const auto make :
-       {replay_commands, campaign_commands, soak_commands, localize_commands, detect_commands, plan_commands,
-        map_commands, markers_commands, places_commands, calibrate_commands, survey_commands, bench_commands,
-        base_commands, scanner_commands, run_commands, scenario_commands, doctor_commands, serve_commands,
-        command_line_commands}) {
+       {replay_commands,    campaign_commands, soak_commands,   localize_commands, detect_commands,
+        plan_commands,      map_commands,      site_commands,   markers_commands,  places_commands,
+        calibrate_commands, survey_commands,   bench_commands,  base_commands,     scanner_commands,
+        run_commands,       scenario_commands, doctor_commands, serve_commands,    command_line_commands}) {
     for (Command& command : make(app)) all.push_back(std::move(command));
   }
   return all;

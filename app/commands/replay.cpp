@@ -11,6 +11,7 @@
 #include "app/commands/disturbance_options.hpp"
 #include "app/commands/driven_survey.hpp"
 #include "app/commands/explored_replay.hpp"
+#include "app/commands/fleet_replay.hpp"
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/commands/people_options.hpp"
@@ -61,6 +62,7 @@ struct ReplayArguments {
   bool survey = false;
   bool explore = false;
   ConsoleServiceOptions console;
+  FleetArguments fleet;
 };
 
 SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Site& site) {
@@ -273,6 +275,7 @@ ExitCode replay_command(const ReplayArguments& arguments) {
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   const SimulatedDriveOptions options = replay_options(arguments, site);
   if (arguments.explore) return replay_exploring(site, options, output_folder(site, arguments));
+  if (arguments.fleet.is_wanted) return replay_in_fleet(site, options, arguments.fleet);
   if (arguments.serve) return replay_served(site, options, arguments);
   return arguments.runs > 1 ? replay_many(site, options, arguments) : replay_once(site, options, arguments);
 }
@@ -339,6 +342,9 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->excludes(serve)
       ->excludes(command->get_option("--runs"))
       ->excludes(command->get_option("--goal"));
+  CLI::Option* fleet = add_fleet_option(*command, arguments->fleet);
+  for (const char* other : {"--runs", "--goal", "--serve", "--survey", "--state"})
+    fleet->excludes(command->get_option(other));
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
   command->add_flag("--quiet", arguments->quiet, "No progress bar");

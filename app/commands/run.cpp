@@ -10,6 +10,7 @@
 #include "app/commands/console_options.hpp"
 #include "app/commands/console_service.hpp"
 #include "app/commands/driven_survey.hpp"
+#include "app/commands/fleet_service.hpp"
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/common/interruption.hpp"
@@ -46,6 +47,7 @@ struct RunArguments {
   std::string runs;
   std::string state;
   ConsoleServiceOptions console;
+  FleetArguments fleet;
 };
 
 GuardOptions guard_options(const BaseProtocol& protocol) {
@@ -174,6 +176,21 @@ ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> pro
   return served.succeeded() ? done : job_failed;
 }
 
+/// Drives by a fleet manager's orders until it is told to stop; with the console, if that is wanted.
+ExitCode drive_in_fleet(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
+                        const RunArguments& arguments) {
+  FleetService fleet(parts.site, fleet_settings(parts.site, arguments.fleet, false));
+  options.hold_on_base_fault = true;
+  options.on_input = [&fleet](const SensorInput& input) { fleet.session().hear(input); };
+  options.conduct = [&fleet](const MissionStep& step, Mission& mission) {
+    fleet.session().attend(step, mission);
+    return true;
+  };
+  if (arguments.serve) return drive_served(parts, std::move(protocol), options, arguments);
+  (void)run(parts.site, parts.bus, std::move(protocol), parts.camera, options);
+  return done;
+}
+
 /// A robot that has a scanner does not drive without it.
 std::unique_ptr<Scanner> scanner_of(const Site& site) {
   if (!site.robot.scanner) return nullptr;
@@ -184,8 +201,9 @@ std::unique_ptr<Scanner> scanner_of(const Site& site) {
 }
 
 ExitCode run_command(RunArguments arguments) {
-  if (arguments.goals.empty() && arguments.mission.empty() && !arguments.serve && !arguments.survey)
-    throw InputError("found neither --goal, --mission, --serve nor --survey");
+  const bool is_given_goals = !arguments.goals.empty() || !arguments.mission.empty() || arguments.fleet.is_wanted;
+  if (!is_given_goals && !arguments.serve && !arguments.survey)
+    throw InputError("found neither --goal, --mission, --serve, --fleet nor --survey");
   if (arguments.runs.empty()) arguments.runs = runs_folder();
   Site site = open_site(arguments.site);
   if (arguments.explore) site.registry = {};
@@ -217,6 +235,7 @@ ExitCode run_command(RunArguments arguments) {
   options.scanner = scanner.get();
   const Interruption interruption;
   const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};
+  if (arguments.fleet.is_wanted) return drive_in_fleet(parts, std::move(protocol), options, arguments);
   if (arguments.survey) return drive_surveying(parts, std::move(protocol), options, arguments);
   return arguments.serve ? drive_served(parts, std::move(protocol), options, arguments)
                          : drive_once(parts, std::move(protocol), options, arguments);
@@ -258,6 +277,9 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
       ->excludes(command->get_option("--goal"));
   command->add_option("--runs", arguments->runs,
                       "With --serve: folder for run folders, unless -o names one; default: runs");
+  add_fleet_option(*command, arguments->fleet)
+      ->excludes(command->get_option("--goal"))
+      ->excludes(command->get_option("--survey"));
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
   command->add_option(

@@ -8,7 +8,6 @@
 #include "app/common/whole_number.hpp"
 #include "app/console/registry_edit.hpp"
 #include "app/console/registry_json.hpp"
-#include "app/console/routes.hpp"
 #include "app/placement/formats.hpp"
 #include "app/placement/sheet.hpp"
 #include "app/web/page.hpp"
@@ -68,17 +67,10 @@ ordered_json heights_json(const std::optional<HeightBands>& heights) {
   return {{"low_m", heights->low_m}, {"step_m", heights->step_m}, {"touch_m", heights->touch_m}};
 }
 
-bool matches(const std::string& tags, const std::string& etag) {
-  return tags == "*" || tags.find(etag) != std::string::npos;
-}
-
-/// The refusal to save over `present` when the client has not read it; else nothing.
-std::optional<HttpResponse> conflict_with(const std::string& present, const std::string& if_match) {
-  if (if_match.empty()) return refusal(428, "found no If-Match, wanted the tag that was read");
-  if (matches(if_match, etag_of(present))) return std::nullopt;
-  HttpResponse conflict = refusal(412, "another user saved since it was read");
-  conflict.etag = etag_of(present);
-  return conflict;
+/// 304 for a document that the client has.
+HttpResponse unless_known(const HttpResponse& response, const HttpRequest& request) {
+  if (response.etag.empty() || !has_etag(request.if_none_match, response.etag)) return response;
+  return {.status = 304, .etag = response.etag};
 }
 
 std::optional<HttpResponse> page_file(const std::string& target) {
@@ -126,12 +118,14 @@ DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::fi
       registry_file_(site_.registry_file),
       history_(registry_file_.parent_path() / ".history"),
       runs_(runs_folder),
-      coverage_(site_) {}
+      coverage_(site_),
+      places_(site_) {}
 
 HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   const std::string& target = request.target;
+  if (const std::optional<HttpResponse> places = places_.answer(request))
+    return request.method == "PUT" ? *places : unless_known(*places, request);
   if (request.method == "PUT" && target == "/api/markers") return save_markers(request);
-  if (request.method == "PUT" && target == "/api/routes") return save_routes(request);
   if (request.method == "POST") return post(request);
   if (request.method != "GET" && request.method != "HEAD") return refusal(405, "found another method");
 
@@ -141,18 +135,15 @@ HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   if (target == "/api/map/cells") response = cells();
   if (target == "/api/map/heights") response = heights();
   if (target == "/api/markers") response = markers();
-  if (target == "/api/routes") response = routes();
   if (target.starts_with(history_path)) response = history(target);
   if (target == runs_path || target.starts_with(std::string(runs_path) + "/")) response = runs(target);
   if (!response) return refusal(404, "found no such document");
-  if (!response->etag.empty() && matches(request.if_none_match, response->etag)) {
-    return {.status = 304, .etag = response->etag};
-  }
-  return *response;
+  return unless_known(*response, request);
 }
 
 bool DocumentApi::takes_long(const HttpRequest& head) {
-  return head.method == "POST" && head.target.starts_with("/api/markers/");
+  return head.method == "POST" &&
+         (head.target.starts_with("/api/markers/") || head.target == "/api/places/check");
 }
 
 bool DocumentApi::uses_files(const HttpRequest& head) {
@@ -223,23 +214,6 @@ HttpResponse DocumentApi::save_markers(const HttpRequest& request) const {
     return refusal(422, error.what());
   }
   return markers();
-}
-
-HttpResponse DocumentApi::routes() const {
-  const Places places = load_places(site_.folder);
-  return {.body = routes_json(places).dump(), .etag = etag_of(places_text(places))};
-}
-
-HttpResponse DocumentApi::save_routes(const HttpRequest& request) const {
-  const Places before = load_places(site_.folder);
-  if (std::optional<HttpResponse> conflict = conflict_with(places_text(before), request.if_match))
-    return *conflict;
-  try {
-    save_places(with_routes(before, request.body), site_.folder);
-  } catch (const InputError& error) {
-    return refusal(422, error.what());
-  }
-  return routes();
 }
 
 HttpResponse DocumentApi::history(const std::string& target) const {

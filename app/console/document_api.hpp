@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "app/console/document_history.hpp"
+#include "app/console/places_api.hpp"
 #include "app/console/run_archive.hpp"
 #include "app/console/site_coverage.hpp"
 #include "app/net/http.hpp"
@@ -27,7 +28,7 @@ namespace lodestar {
 ///   POST /api/markers/export       {format, registry} -> {text}
 ///   POST /api/markers/import       {name, text} -> a registry
 ///   POST /api/markers/print        {ids, paper} -> a PDF
-///   GET  /api/routes               places and missions; PUT saves them, with If-Match
+///   /api/places..., /api/routes    what people name on the map: PlacesApi
 ///   GET  /api/runs                 names of runs;  /api/runs/NAME  one of them
 ///   GET  /api/runs/NAME/pictures/T.jpg
 ///
@@ -50,6 +51,9 @@ class DocumentApi {
   /// Called with the markers each time a client has saved them, from the thread that answers.
   void on_saved_markers(std::function<void(const MarkerRegistry&)> tell) { on_saved_ = std::move(tell); }
 
+  /// The same for places and zones.
+  void on_saved_places(std::function<void(const Places&)> tell) { places_.on_saved(std::move(tell)); }
+
   [[nodiscard]] const Site& site() const { return site_; }
 
  private:
@@ -59,8 +63,6 @@ class DocumentApi {
   [[nodiscard]] std::optional<HttpResponse> heights() const;
   [[nodiscard]] HttpResponse markers() const;
   HttpResponse save_markers(const HttpRequest& request) const;
-  [[nodiscard]] HttpResponse routes() const;
-  HttpResponse save_routes(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse history(const std::string& target) const;
   [[nodiscard]] HttpResponse runs(const std::string& target) const;
   [[nodiscard]] HttpResponse post(const HttpRequest& request) const;
@@ -71,6 +73,7 @@ class DocumentApi {
   RunArchive runs_;
   std::function<void(const MarkerRegistry&)> on_saved_;
   SiteCoverage coverage_;
+  PlacesApi places_;
 };
 
 }  // namespace lodestar

@@ -62,11 +62,12 @@ class LiveView::Session : public SocketSession {
 };
 
 LiveView::LiveView(const Site& site, LiveLink* link, const LiveSurvey* survey, const LiveViewOptions& options)
-    : link_(link),
+    : site_(site),
+      link_(link),
       survey_(survey),
       registry_(site.registry),
       options_(options),
-      preview_(site),
+      preview_(std::make_unique<const PathPreview>(site, site.places)),
       camera_(site.registry),
       lease_(options.lease),
       session_(monotonic_now().time_since_epoch().count()),
@@ -274,9 +275,28 @@ void LiveView::show_survey() {
   for (const Client* const client : clients_) client->outbox->offer(survey_slot, survey_message_);
 }
 
+void LiveView::take_markers(const MarkerRegistry& saved) {
+  registry_ = saved;
+  tell_saved("markers");
+}
+
+void LiveView::take_places(const Places& saved) {
+  saved_places_ = saved;
+  tell_saved("places");
+}
+
+void LiveView::tell_saved(const std::string& what) const {
+  for (const Client* const client : clients_)
+    client->outbox->queue(message_of({{"type", "saved"}, {"what", what}}));
+}
+
 /// Planning takes seconds on large maps, so the worker does it: each client has at most one preview under
-/// way.
+/// way. The planner for new zones goes before those that are waiting.
 void LiveView::begin_previews() {
+  if (saved_places_ && planner_.give([this, places = *saved_places_](const std::stop_token&) {
+        preview_ = std::make_unique<const PathPreview>(site_, places);
+      }))
+    saved_places_.reset();
   for (Client* const client : clients_) {
     if (!client->preview || client->answer.valid()) continue;
     const auto answer = std::make_shared<std::promise<ordered_json>>();
@@ -303,7 +323,7 @@ ordered_json LiveView::preview_of(const std::vector<Goal>& goals,
                                   const std::optional<PoseEstimate>& robot) const {
   if (!robot) return {{"why", "the robot does not know where it is"}};
   try {
-    return preview_.plan(robot->map_from_base, goals);
+    return preview_->plan(robot->map_from_base, goals);
   } catch (const std::exception& error) {
     return {{"why", error.what()}};
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -28,7 +29,8 @@ struct LiveViewOptions {
 /// Server to client: `hello` first (role, client number, session, whether a robot is connected), then
 /// `state`, `path` when it changes, `seen` by the scanner, `survey` (survey_json.hpp) when there is a new
 /// estimate, `preview`, `asked` {client, name} when another asks the driver for control, `control` when it
-/// was handed over to this client, and `refused` with the reason in words. Client to server: {"type": ...}
+/// was handed over to this client, `saved` {what} when somebody saved the site's markers or places, and
+/// `refused` with the reason in words. Client to server: {"type": ...}
 ///   stop                                  from anyone who may view
 ///   camera   {on}                         pictures on or off
 ///   name     {name}                       what others are to call this client
@@ -50,7 +52,9 @@ class LiveView : public LiveChannel {
   [[nodiscard]] bool is_watched() const override { return !clients_.empty(); }
   void pump(Stamp now, const RobotState* fresh) override;
   /// Only what a survey is compared with: the page reads the markers itself.
-  void take_markers(const MarkerRegistry& saved) override { registry_ = saved; }
+  void take_markers(const MarkerRegistry& saved) override;
+  /// Previews go by them soon after.
+  void take_places(const Places& saved) override;
 
  private:
   class Session;
@@ -84,16 +88,19 @@ class LiveView : public LiveChannel {
   void show_camera(Stamp now);
   void show_seen(const RobotState& state, Stamp now);
   void show_survey();
+  void tell_saved(const std::string& what) const;
   void begin_previews();
   void show_previews();
   [[nodiscard]] nlohmann::ordered_json preview_of(const std::vector<Goal>& goals,
                                                   const std::optional<PoseEstimate>& robot) const;
 
+  const Site& site_;
   LiveLink* link_;
   const LiveSurvey* survey_;
   MarkerRegistry registry_;
   LiveViewOptions options_;
-  PathPreview preview_;
+  std::unique_ptr<const PathPreview> preview_;  ///< once constructed, only the worker uses it
+  std::optional<Places> saved_places_;          ///< that previews do not go by yet
   CameraPicture camera_;
   Lease lease_;
   std::vector<Client*> clients_;

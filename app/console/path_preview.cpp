@@ -8,8 +8,9 @@ namespace lodestar {
 
 using nlohmann::ordered_json;
 
-PathPreview::PathPreview(const Site& site)
-    : options_(navigation_options(site.robot)), planner_(drivable_map(site), options_.planner) {}
+PathPreview::PathPreview(const Site& site, const Places& places)
+    : options_(navigation_options(site.robot)),
+      planner_(with_keep_out(site.map.map, places.keep_out), options_.planner) {}
 
 ordered_json PathPreview::plan(const Pose2& start, const std::vector<Goal>& goals) const {
   Path whole{{start.position_m}};

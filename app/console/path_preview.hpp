@@ -11,7 +11,8 @@ namespace lodestar {
 /// Previews a drive: plans as the navigator would, without driving.
 class PathPreview {
  public:
-  explicit PathPreview(const Site& site);
+  /// Keeps out of what these places say.
+  PathPreview(const Site& site, const Places& places);
 
   /// From a pose through all goals: {"points", "length_m", "time_s", "turns"}, or {"why", "goal", "nearest"}:
   /// the reason in words, the number (from 0) of the goal that cannot be reached, and the place nearest to it

@@ -142,7 +142,8 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     attend(options, mission, base, recorder);
     next = std::max(next + control_period, monotonic_now());
     sleep_until(next);
-    const SensorInput input = sense(camera, options.scanner, base);
+    SensorInput input = sense(camera, options.scanner, base);
+    if (options.session != nullptr) input.zones = options.session->take_zones();
     if (options.on_input) options.on_input(input);
     const MissionStep step = mission.step(input);
     base.command(step.navigation.command);

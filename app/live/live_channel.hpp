@@ -2,6 +2,7 @@
 
 #include "app/live/robot_state.hpp"
 #include "app/net/socket.hpp"
+#include "maps/places.hpp"
 
 namespace lodestar {
 
@@ -20,6 +21,8 @@ class LiveChannel {
   virtual void pump(Stamp now, const RobotState* fresh) = 0;
   /// Called when a client has saved the site's markers. A running drive keeps those that it started with.
   virtual void take_markers(const MarkerRegistry& saved) = 0;
+  /// The same for its places and zones, which a robot obeys soon after.
+  virtual void take_places(const Places& /*saved*/) {}
 };
 
 }  // namespace lodestar

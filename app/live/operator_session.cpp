@@ -41,6 +41,7 @@ void OperatorSession::say(Stamp now, const std::string& words) {
 }
 
 void OperatorSession::apply_orders(Mission& mission, BaseDriver& base, Stamp now, Stamp clock) {
+  if (mission.finished()) by_console_ = false;  // the next drive may be another's
   for (const Order& order : link_.take_orders()) take(order, mission, base, now);
   if (link_.take_stop()) {
     next_goals_.clear();
@@ -76,6 +77,10 @@ void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& bas
     const bool done = mission.finished() && mission.place_robot(pose);
     say_by(fmt::format("set pose to ({:.2f}, {:.2f}, {:.0f}°){}", pose.position_m.x(), pose.position_m.y(),
                        degrees(pose.yaw_rad), done ? "" : ": not now"));
+  } else if (const auto* set = std::get_if<ZonesOrder>(&order.what)) {
+    zones_ = std::make_shared<const Zones>(set->zones);
+    say_by(fmt::format("zones: {} keep-outs, {} speed zones", zones_->keep_out.size(),
+                       zones_->speed_zones.size()));
   } else if (const auto* steer = std::get_if<SteerOrder>(&order.what)) {
     if (!mission.finished()) {  // the present drive ends first
       if (mission.phase() != MissionPhase::stopping) mission.stop();

@@ -2,7 +2,9 @@
 
 #include <deque>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/live/live_link.hpp"
@@ -21,6 +23,9 @@ class OperatorSession {
   /// Call before a step. `clock` is monotonic_now(), `now` the step's own time.
   void apply_orders(Mission& mission, BaseDriver& base, Stamp now, Stamp clock);
 
+  /// Zones that were set by the orders, handed out once, for the step's input; null when none were.
+  [[nodiscard]] std::shared_ptr<const Zones> take_zones() { return std::exchange(zones_, nullptr); }
+
   /// Call after it. `error_m` is evaluated only when a state is wanted.
   void publish(const SensorInput& input, const MissionStep& step, const Mission& mission,
                const std::function<std::optional<double>()>& error_m = {});
@@ -35,6 +40,7 @@ class OperatorSession {
   std::function<void(const std::string&)> tell_;
   std::vector<Goal> next_goals_;  ///< to start when the robot has come to rest
   bool by_console_ = false;       ///< the present drive was ordered from the console
+  std::shared_ptr<const Zones> zones_;
   std::deque<DriveEvent> events_;
   std::uint64_t said_ = 0;
   std::optional<FixAttempt> last_fix_;

@@ -6,6 +6,7 @@
 
 #include "app/site/goal.hpp"
 #include "maps/motion.hpp"
+#include "maps/zones.hpp"
 
 // Orders of operators at the console. Their permission has been checked before.
 namespace lodestar {
@@ -26,9 +27,14 @@ struct SteerOrder {
   BodyVelocity wanted;
 };
 
+/// Obeys these zones from now on.
+struct ZonesOrder {
+  Zones zones;
+};
+
 struct Order {
   std::string by;  ///< who, in words
-  std::variant<GoOrder, PauseOrder, ResumeOrder, ClearFaultOrder, PlaceOrder, SteerOrder> what;
+  std::variant<GoOrder, PauseOrder, ResumeOrder, ClearFaultOrder, PlaceOrder, SteerOrder, ZonesOrder> what;
 };
 
 }  // namespace lodestar

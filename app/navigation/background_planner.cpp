@@ -8,14 +8,16 @@ namespace lodestar {
 BackgroundPlanner::BackgroundPlanner(const OccupancyMap& map, const TripPlannerOptions& options,
                                      const PlanArrivalOptions& arrival, std::vector<KeepOut> keep_out)
     : robot_(options.planner), keep_out_(std::move(keep_out)), arrival_(arrival) {
-  prepared_ = prepared_on(map);
+  prepared_ = prepared_on(map, keep_out_);
   planner_.emplace(prepared_.drivable, options);
 }
 
-BackgroundPlanner::Prepared BackgroundPlanner::prepared_on(OccupancyMap map) const {
+/// Also on the worker: reads nothing that changes.
+BackgroundPlanner::Prepared BackgroundPlanner::prepared_on(OccupancyMap map,
+                                                           std::span<const KeepOut> keep_out) const {
   Prepared prepared;
-  if (!keep_out_.empty())
-    prepared.drivable = std::make_shared<const ObstacleField>(with_keep_out(map, keep_out_));
+  if (!keep_out.empty())
+    prepared.drivable = std::make_shared<const ObstacleField>(with_keep_out(map, keep_out));
   prepared.map = std::make_shared<const ObstacleField>(std::move(map));
   if (!prepared.drivable) prepared.drivable = prepared.map;
   prepared.forward_clearance =
@@ -24,9 +26,26 @@ BackgroundPlanner::Prepared BackgroundPlanner::prepared_on(OccupancyMap map) con
   return prepared;
 }
 
+/// Waits for its turn, with the obstacles that are planned around.
+BackgroundPlanner::Ground& BackgroundPlanner::next_ground() {
+  if (!next_) next_ = Ground{.map = std::nullopt, .obstacles_in_map = obstacles_in_map_};
+  return *next_;
+}
+
+void BackgroundPlanner::use_map(OccupancyMap map) {
+  Ground& next = next_ground();
+  next.map = std::move(map);
+  next.obstacles_in_map = obstacles_in_map_ = {};
+}
+
 void BackgroundPlanner::use_obstacles(std::vector<Vec2> occupied_in_map) {
-  if (!next_) next_.emplace();
-  next_->obstacles_in_map = std::move(occupied_in_map);
+  obstacles_in_map_ = std::move(occupied_in_map);
+  next_ground().obstacles_in_map = obstacles_in_map_;
+}
+
+void BackgroundPlanner::use_keep_out(std::vector<KeepOut> keep_out) {
+  keep_out_ = std::move(keep_out);
+  next_ground().has_other_keep_out = true;
 }
 
 template <typename Awaited, typename Result>
@@ -51,9 +70,10 @@ bool BackgroundPlanner::begin_step(std::span<const Vec2> blind_m) {
 }
 
 void BackgroundPlanner::prepare_next(std::span<const Vec2> blind_m) {
-  auto prepare = [this, ground = std::move(*next_), before = prepared_,
+  auto prepare = [this, ground = std::move(*next_), before = prepared_, keep_out = keep_out_,
                   blind = std::vector<Vec2>(blind_m.begin(), blind_m.end())]() mutable {
-    const Prepared prepared = ground.map ? prepared_on(std::move(*ground.map)) : before;
+    if (!ground.map && ground.has_other_keep_out) ground.map = before.map->map();
+    const Prepared prepared = ground.map ? prepared_on(std::move(*ground.map), keep_out) : before;
     planner_->use_map(prepared.drivable, ground.obstacles_in_map, blind);
     return prepared;
   };

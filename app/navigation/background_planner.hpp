@@ -38,7 +38,10 @@ class BackgroundPlanner {
 
   /// Prepares another map, without obstacles that it lacks. While one is being prepared, the newest waits and
   /// replaces those before it.
-  void use_map(OccupancyMap map) { next_ = Ground{std::move(map), {}}; }
+  void use_map(OccupancyMap map);
+
+  /// Plans around these keep-outs instead of those before from some steps on, on the same map.
+  void use_keep_out(std::vector<KeepOut> keep_out);
 
   /// Plans around these points of the map frame from some steps on: what the map lacks. The clearance ahead
   /// stays that of the map.
@@ -61,6 +64,7 @@ class BackgroundPlanner {
   /// What to plan on: the map, or the one before, and what it lacks.
   struct Ground {
     std::optional<OccupancyMap> map;
+    bool has_other_keep_out = false;
     std::vector<Vec2> obstacles_in_map;
   };
   struct Prepared {
@@ -82,11 +86,13 @@ class BackgroundPlanner {
 
   template <typename Awaited, typename Result>
   [[nodiscard]] bool has_arrived(const Awaited& awaited, const std::future<Result>& result) const;
-  [[nodiscard]] Prepared prepared_on(OccupancyMap map) const;
+  [[nodiscard]] Prepared prepared_on(OccupancyMap map, std::span<const KeepOut> keep_out) const;
+  Ground& next_ground();
   void prepare_next(std::span<const Vec2> blind_m);
 
   GridPlannerOptions robot_;
   std::vector<KeepOut> keep_out_;
+  std::vector<Vec2> obstacles_in_map_;  ///< as last set, for the newest map
   PlanArrivalOptions arrival_;
   std::uint64_t step_ = 0;
   Prepared prepared_;

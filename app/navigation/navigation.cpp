@@ -25,14 +25,15 @@ VarianceFactor variance_factor(const NavigationOptions& options) {
   return options.learned ? options.learned->variance_factor : VarianceFactor();
 }
 
+RobotShape shape_of(const GridPlannerOptions& robot) {
+  return robot.footprint ? RobotShape(*robot.footprint) : RobotShape(robot.radius_m);
+}
+
 }  // namespace
 
 Navigation::Navigation(const KnownWorld& world, const NavigationOptions& options)
     : options_(options),
-      zone_speed_(world.zones.speed_zones,
-                  options.planner.footprint ? RobotShape(*options.planner.footprint)
-                                            : RobotShape(options.planner.radius_m),
-                  options.drive),
+      zone_speed_(world.zones.speed_zones, shape_of(options.planner), options.drive),
       behaviour_options_{.drive = options.drive,
                          .spin = options.spin,
                          .backtrack = options.backtrack,
@@ -57,7 +58,15 @@ std::optional<LearnedState> Navigation::learned() const {
                       .distrusted = known_.trust.distrusted()};
 }
 
+/// Speed zones hold at once; keep-outs some steps later, as another map does.
+void Navigation::use_zones(const Zones& zones) {
+  zone_speed_ = ZoneSpeed(zones.speed_zones, shape_of(options_.planner), options_.drive);
+  planner_.use_keep_out(zones.keep_out);
+}
+
 NavigationStep Navigation::step(const SensorInput& input) {
+  if (input.zones) use_zones(*input.zones);
+
   // Localize. Travel comes first: a frame was exposed before the newest wheel reading, and the filter
   // corrects the past.
   NavigationStep step;
@@ -72,7 +81,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
   // Judge.
   const bool map_changed = planner_.begin_step(behaviour_.places.blind_places_m());
   Facts facts = judge(input, step, known, map_changed);
-  look_around(input, facts);
+  look_around(input, known.filter, facts);
 
   // Decide.
   const Behaviour about =
@@ -126,8 +135,9 @@ MappedPose Navigation::mapped_pose(const Facts& facts) const {
 }
 
 /// A scanner that cannot be believed is a reason to stop, behind those of the pose.
-void Navigation::look_around(const SensorInput& input, Facts& facts) {
+void Navigation::look_around(const SensorInput& input, const PoseFilter& filter, Facts& facts) {
   if (!surroundings_) return;
+  surroundings_->use_scales({filter.wheel_scales().x(), filter.wheel_scales().y(), filter.turn_scale()});
   surroundings_->add_packets(input.packets, input.now);
   surroundings_->add(input.base.travel, input.scans, input.now, mapped_pose(facts));
   plan_around_obstacles(facts);

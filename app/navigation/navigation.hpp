@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -55,7 +56,8 @@ struct SensorInput {
   std::vector<Frame> frames;
   BaseFeedback base;
   std::vector<Scan> scans;
-  ScanPackets packets;  ///< of the scanner, since the beginning
+  ScanPackets packets;                           ///< of the scanner, since the beginning
+  std::shared_ptr<const Zones> zones = nullptr;  ///< that people have set since the last step, if so
 };
 
 /// How exactly a person says where the robot is; by default as with a click on the map.
@@ -142,12 +144,13 @@ class Navigation {
   [[nodiscard]] bool arrived() const { return std::holds_alternative<Arrived>(behaviour_.state); }
 
  private:
+  void use_zones(const Zones& zones);
   [[nodiscard]] Facts judge(const SensorInput& input, const NavigationStep& step,
                             const LocalizationState& known, bool map_changed) const;
   std::optional<double> speed_limit(const PoseEstimate& estimate);
   void judge_room(Facts& facts, bool is_contradicted) const;
   [[nodiscard]] MappedPose mapped_pose(const Facts& facts) const;
-  void look_around(const SensorInput& input, Facts& facts);
+  void look_around(const SensorInput& input, const PoseFilter& filter, Facts& facts);
   void plan_around_obstacles(const Facts& facts);
   void protect(const SensorInput& input, Duration elapsed, Moved& after, NavigationStep& step);
   Behaviour planned(Behaviour behaviour, const std::optional<PoseEstimate>& estimate,

@@ -1,10 +1,12 @@
 #include "app/navigation/surroundings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "localization/scan/smoothed_ends.hpp"
 #include "localization/scan/veil.hpp"
 
 namespace lodestar {
@@ -52,13 +54,13 @@ StopReason stop_for(FieldReason reason) {
   return StopReason::scanner_silent;
 }
 
-/// What legs carry, as points around them.
-void append_ring(const Vec2& middle_m, double radius_m, std::vector<Vec2>& points_m) {
-  constexpr int points = 12;
-  for (int i = 0; i < points; ++i) {
-    const double turn_rad = 2.0 * std::numbers::pi * i / points;
-    points_m.push_back(middle_m + radius_m * Vec2(std::cos(turn_rad), std::sin(turn_rad)));
+std::array<Vec2, 12> ring(const Vec2& middle_m, double radius_m) {
+  std::array<Vec2, 12> points_m;
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    const double turn_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / points_m.size();
+    points_m[i] = middle_m + radius_m * Vec2(std::cos(turn_rad), std::sin(turn_rad));
   }
+  return points_m;
 }
 
 bool moves(const BodyVelocity& velocity) {
@@ -150,9 +152,14 @@ FieldScan Surroundings::presences(const DeskewedScan& scan, const std::optional<
     if (!stands[i]) return Presence::person;
     return memory_.has_legs(ray.end_m) ? Presence::legs : Presence::standing;
   };
-  for (std::size_t i = 0; i < scan.rays.size(); ++i)
-    if (const Ray& ray = scan.rays[i]; ends_at_something(ray))
-      result.points.push_back({ray.stamp, ray.end_m, presence_of(i)});
+  const std::vector<Vec2> smoothed_m = smoothed_ends_m(scan);
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    const Ray& ray = scan.rays[i];
+    if (!ends_at_something(ray)) continue;
+    const Presence presence = presence_of(i);
+    // What does not move is passed closely.
+    result.points.push_back({ray.stamp, is_still(presence) ? smoothed_m[i] : ray.end_m, presence});
+  }
   const OccupancyMap& map = mapped.map.map();
   const auto can_stand = [&](const Vec2& point_in_odom) {
     if (!map_from_odom) return true;
@@ -212,14 +219,22 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) 
   std::vector<Vec2> points_m;
   if (!map_from_odom) return points_m;
   const MapExplanation explanation(mapped.map, mapped.estimate->covariance);
-  std::vector<Vec2> stands_in_odom = memory_.standing_m(now);
-  for (const Vec2& leg_in_odom : memory_.standing_legs_m(now))
-    append_ring(leg_in_odom, options_.field.body_margin_m, stands_in_odom);
-  for (const Vec2& point_in_odom : stands_in_odom) {
-    const Vec2 point_in_map = *map_from_odom * point_in_odom;
-    const double range_m = (point_in_map - mapped.estimate->map_from_base.position_m).norm();
-    if (!explanation.explains(point_in_map, range_m)) points_m.push_back(point_in_map);
+  const Vec2& robot_m = mapped.estimate->map_from_base.position_m;
+  const auto append_unexplained = [&](const Vec2& point_in_map) {
+    if (!explanation.explains(point_in_map, (point_in_map - robot_m).norm()))
+      points_m.push_back(point_in_map);
+  };
+  const double beside_m = options_.shape.outer_radius_m() + options_.begins_beside_m;
+  const auto append_around = [&](const Vec2& middle_in_odom, double radius_m) {
+    for (const Vec2& point_in_map : ring(*map_from_odom * middle_in_odom, radius_m))
+      if ((point_in_map - robot_m).norm() > beside_m) append_unexplained(point_in_map);
+  };
+  for (const Vec2& thing_in_odom : memory_.standing_m(now)) {
+    append_unexplained(*map_from_odom * thing_in_odom);
+    append_around(thing_in_odom, options_.around_things_m);
   }
+  for (const Vec2& leg_in_odom : memory_.standing_legs_m(now))
+    append_around(leg_in_odom, options_.around_legs_m);
   return points_m;
 }
 

@@ -31,6 +31,13 @@ struct SurroundingsOptions {
   MapContradictionOptions contradiction;
   /// A path is looked at no more often than this for what stands in its way.
   Duration between_detours = std::chrono::seconds(1);
+  /// Paths are planned around a body of this radius where legs stand, and with so much more room around what
+  /// else stands, than the field needs: what is behind the side that was seen is not known, and cells of 5 cm
+  /// round it off.
+  double around_legs_m = 0.28;
+  double around_things_m = 0.04;
+  /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
+  double begins_beside_m = 0.06;
   /// What stands so near to a path's disc is in its way: what a path keeps at the least.
   double least_margin_m = 0.01;
 };
@@ -51,6 +58,9 @@ class Surroundings {
   /// Wheel travel first, then the scans that arrived with it.
   void add(std::span<const WheelTravel> travel, std::span<const Scan> scans, Stamp now,
            const MappedPose& mapped);
+
+  /// The wheels' scales as learned so far.
+  void use_scales(const TravelScales& scales) { track_.use_scales(scales); }
 
   /// What the scanner's driver has read and refused, since the beginning.
   void add_packets(const ScanPackets& total, Stamp now) { watch_.add_packets(total, now); }

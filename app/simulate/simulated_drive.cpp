@@ -110,7 +110,8 @@ class SimulatedDrive {
 
   MissionStep step(OperatorSession* session = nullptr) {
     simulation_.advance(control_period);
-    const SensorInput input = sense(simulation_, base_);
+    SensorInput input = sense(simulation_, base_);
+    if (session != nullptr) input.zones = session->take_zones();
     if (options_.on_input) options_.on_input(input);
     if (options_.is_placed_at_start && !is_placed_)
       is_placed_ = mission_.place_robot(site_.start, {.position_m = 0.02, .heading_rad = radians(1.0)});

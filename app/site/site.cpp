@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "app/site/fleet_settings.hpp"
+#include "app/site/places_limits.hpp"
 #include "maps/camera_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
@@ -203,17 +205,9 @@ void check_name(const StrictYaml::OtherKey& profile, const std::filesystem::path
                    "a name of 1 to 40 letters, digits, '-' and '_'");
 }
 
-/// The motors cannot drive slower than their dead band: such a zone would be obeyed by nobody.
-void check_speed_zones(const Site& site) {
-  const double slowest_mps = site.robot.dead_band_mps.value_or(0.0);
-  const auto check = [&](const std::string& what, double max_mps) {
-    if (max_mps >= slowest_mps) return;
-    throw InputError(site.folder / places_file_name, 0, fmt::format("max_mps {} of {}", max_mps, what),
-                     fmt::format("at least the robot's dead_band_mps, {}", slowest_mps));
-  };
-  for (const SpeedZone& zone : site.places.speed_zones) check("speed zone '" + zone.name + "'", zone.max_mps);
-  for (const RouteEdge& edge : site.places.edges)
-    if (edge.max_mps) check(fmt::format("the edge '{}' to '{}'", edge.from, edge.to), *edge.max_mps);
+void check_speed_limits(const Site& site) {
+  const std::optional<TooSlow> slow = first_too_slow(site.places, site.robot);
+  if (slow) throw InputError(site.folder / places_file_name, 0, slow->found, slow->wanted);
 }
 
 }  // namespace
@@ -238,6 +232,7 @@ Robot load_robot(const std::filesystem::path& file) {
   if (yaml.has("wheels")) read_wheels(yaml.mapping("wheels"), robot);
   if (yaml.has("scanner")) read_scanner(yaml.mapping("scanner"), robot);
   if (yaml.has("base")) read_base_settings(yaml.mapping("base"), robot);
+  if (yaml.has("battery")) (void)read_battery_curve(yaml.mapping("battery"));  // kept by who asks for it
   robot.preferred_clearance_m = yaml.number("preferred_clearance_m", 0.0, 5.0);
   if (yaml.has("pass_corners_within_m"))
     robot.pass_corners_within_m = yaml.number("pass_corners_within_m", 0.0, 1.0);
@@ -272,7 +267,7 @@ Site load_site(const std::filesystem::path& folder) {
   for (StrictYaml& goal : yaml.list_of_mappings("goals")) site.goals.push_back(read_goal(goal));
   if (site.goals.empty()) yaml.refuse("goals", "an empty list", "at least one goal");
   site.places = load_places(folder);
-  check_speed_zones(site);
+  check_speed_limits(site);
   if (yaml.has("camera")) site.camera = yaml.text("camera");
   if (yaml.has("camera_settings")) {
     if (!site.camera.starts_with("v4l2:"))
@@ -286,6 +281,7 @@ Site load_site(const std::filesystem::path& folder) {
                   "scanner: in its robot.yaml too");
   }
   if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
+  if (yaml.has("fleet")) (void)read_fleet_settings(yaml.mapping("fleet"), folder);  // kept by who asks for it
   yaml.finish();
   return site;
 }

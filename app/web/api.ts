@@ -1,8 +1,10 @@
 // The server's documents. A refused request throws a Refusal with the server's message.
 import type { Registry } from './editor.js';
+import type { ListName, PlacesDocument } from './places_doc.js';
 
 export class Refusal extends Error {
-  constructor(readonly status: number, words: string) { super(words); }
+  /** `item`: of the document sent, that is to blame. */
+  constructor(readonly status: number, words: string, readonly item: { list: ListName; index: number } | null = null) { super(words); }
 }
 
 export interface Site {
@@ -45,8 +47,8 @@ async function request(method: string, target: string, body?: unknown, headers: 
   }
   const response = await fetch(target, init).catch(() => { throw new Refusal(0, 'the server does not answer'); });
   if (!response.ok) {
-    const words = await response.json().then((b: { error?: string }) => b.error).catch(() => undefined);
-    throw new Refusal(response.status, words ?? response.statusText);
+    const why = await response.json().catch(() => ({})) as { error?: string; list?: ListName; index?: number };
+    throw new Refusal(response.status, why.error ?? response.statusText, why.list === undefined ? null : { list: why.list, index: why.index ?? 0 });
   }
   return response;
 }
@@ -100,3 +102,14 @@ export interface Run { name: string; summary: Record<string, unknown>; estimate:
 export const getRuns = (): Promise<string[]> => json(request('GET', '/api/runs'));
 export const pictureOfRun = (run: string, picture: string): string => `/api/runs/${encodeURIComponent(run)}/pictures/${encodeURIComponent(picture)}`;
 export const getRun = (name: string): Promise<Run> => json(request('GET', `/api/runs/${encodeURIComponent(name)}`));
+
+export interface PlacesIssue { kind: string; severity: 'error' | 'warning'; words: string; positions_m: [number, number][] }
+export interface TaggedPlaces { places: PlacesDocument; etag: string }
+const taggedPlaces = async (response: Response): Promise<TaggedPlaces> =>
+  ({ places: await response.json() as PlacesDocument, etag: response.headers.get('ETag') ?? '' });
+export const getPlaces = async (): Promise<TaggedPlaces> => taggedPlaces(await request('GET', '/api/places'));
+export const putPlaces = async (places: PlacesDocument, etag: string): Promise<TaggedPlaces> =>
+  taggedPlaces(await request('PUT', '/api/places', places, { 'If-Match': etag }));
+export const checkPlaces = (places: PlacesDocument): Promise<PlacesIssue[]> => json(request('POST', '/api/places/check', places));
+export const getPlacesHistory = (): Promise<number[]> => json(request('GET', '/api/places/history'));
+export const getFormerPlaces = (number: number): Promise<PlacesDocument> => json(request('GET', `/api/places/history/${number}`));

@@ -8,6 +8,7 @@ export interface Command {
   everywhere?: boolean;  // not only while markers are edited
   onMap?: boolean;       // by its key only while the map has the focus: lists and fields use it too
   surveying?: boolean;   // also during a survey, which proposes changes
+  placing?: boolean;     // only while zones, lanes and places are drawn
   run: () => void;
   pressed?: () => boolean;
   possible?: () => boolean;

@@ -22,6 +22,7 @@ import { Pointer } from './pointer.js';
 import { Replay } from './replay.js';
 import { paintRoutes } from './route.js';
 import { Stage } from './stage.js';
+import { SitePlaces } from './site_places.js';
 import { View } from './view.js';
 import { attempt, complain, say } from './words.js';
 
@@ -40,6 +41,7 @@ export class Console implements Page {
   readonly actions: Actions;
   readonly documents: Documents;
   readonly modes: Modes;
+  readonly places: SitePlaces;
   private readonly draft: Draft;
   readonly commands: Command[];
   readonly routes: Point[][];
@@ -61,14 +63,23 @@ export class Console implements Page {
     this.draft = new Draft(this.editor, site.name, complain);
     this.routes = site.routes.map((route) => route.map(([x, y]) => ({ x, y })));
     this.stage.painters.push((c) => { if (this.layers.shown.route && this.modes.now === 'edit') paintRoutes(c, this.stage, this.routes); });
-    this.commands = pageCommands(this);
+    this.places = new SitePlaces({ stage: this.stage, snap: this.pointer.snap, goTo: (points) => this.goTo(points), refresh: () => this.refreshTools(),
+      hasRobot: () => this.live.hello?.robot === true, list: this.live.places, isOn: () => this.modes?.now === 'places',
+      shows: () => this.layers.shown.zones && this.modes?.now !== 'replay' }, site.name);
+    this.commands = [...this.places.commands(), ...pageCommands(this)];
     this.makeTools();
     this.modes = new Modes(this);
     this.listen();
     byId('title').textContent = `Lodestar: ${site.name}`;
     this.editor.load(tagged.registry);
     this.fit();
-    attempt(() => this.draft.offer());
+    attempt(() => this.offerDrafts());
+  }
+
+  /** One question after the other. */
+  private async offerDrafts(): Promise<string> {
+    const markers = await this.draft.offer();
+    return await this.places.open() || markers;
   }
 
   // -- after a change ---------------------------------------------------------------------------------------
@@ -129,6 +140,12 @@ export class Console implements Page {
     this.stage.redraw();
   }
 
+  /** About the middle of the map. */
+  zoom(factor: number): void {
+    this.view.zoomAt({ x: this.view.width / 2, y: this.view.height / 2 }, factor);
+    this.stage.redraw();
+  }
+
   turnView(deg: number): void {
     this.view.turnBy(deg);
     this.stage.redraw();
@@ -152,7 +169,7 @@ export class Console implements Page {
     for (const command of this.commands.filter((c) => c.button)) {
       const words = command.title + (command.key ? ` (${command.key})` : '');
       byId('tools').append(button(command.button!, words, () => this.run(command),
-        { id: `tool-${command.name}`, ...(command.everywhere ? { class: 'everywhere' } : {}) }));
+        { id: `tool-${command.name}`, ...(command.everywhere ? { class: 'everywhere' } : command.placing ? { class: 'placing' } : {}) }));
     }
   }
 
@@ -163,6 +180,7 @@ export class Console implements Page {
       if (command.pressed) tool.setAttribute('aria-pressed', String(command.pressed()));
     }
     byId('tool-save').classList.toggle('main', this.editor.dirty);
+    byId('tool-places-save').classList.toggle('main', this.places.editor.dirty);
   }
 
   private run(command: Command): void {
@@ -173,22 +191,24 @@ export class Console implements Page {
   }
 
   private isPossibleNow(command: Command): boolean {
+    if (command.placing) return this.modes.now === 'places';
     return this.modes.now === 'edit' || command.everywhere === true || (this.modes.now === 'survey' && command.surveying === true);
   }
 
   private listen(): void {
     this.layers.onChange = () => this.layersChanged();
     this.layers.showLegend();
-    this.pointer.onHover = (at) => { byId('where').textContent = at ? `${at.x.toFixed(3)}, ${at.y.toFixed(3)} m` : ''; };
+    this.pointer.onHover = (at) => { this.places.hoverAt(at); byId('where').textContent = at ? `${at.x.toFixed(3)}, ${at.y.toFixed(3)} m` : ''; };
     this.pointer.onDrag = () => this.dragged();
     this.editor.onChange = () => this.changed();
-    addEventListener('beforeunload', (e) => { if (this.editor.dirty) e.preventDefault(); });
+    this.live.onSaving = (what) => attempt(() => what === 'places' ? this.places.heardOfSaving() : this.documents.heardOfSaving());
+    addEventListener('beforeunload', (e) => { if (this.editor.dirty || this.places.editor.dirty) e.preventDefault(); });
     addEventListener('keydown', (e) => {
       if ((byId('dialog') as HTMLDialogElement).open) return;
       const key = keyOf(e);
       if (isTyping(e.target) && !['Ctrl+S', 'Ctrl+P'].includes(key)) return;
-      const command = this.commands.find((c) => c.key === key);
-      if (!command || !this.isPossibleNow(command)) return;
+      const command = this.commands.find((c) => c.key === key && this.isPossibleNow(c));
+      if (!command) return;
       if (command.onMap && document.activeElement !== byId('stage')) return;
       e.preventDefault();
       this.run(command);

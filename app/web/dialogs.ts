@@ -3,7 +3,7 @@ import * as api from './api.js';
 import type { Command } from './commands.js';
 import { ask, byId, el, plural } from './dom.js';
 import type { Editor, Registry } from './editor.js';
-import { differences, summary } from './history.js';
+import { bothChanged, differences, summary } from './history.js';
 
 const suffixes: Record<string, string> = {
   lodestar: '.yaml', csv: '.csv', stargazer: '.yaml', apriltag: '.json', fiducial_slam: '.txt', geojson: '.geojson',
@@ -46,13 +46,6 @@ export async function printChosen(editor: Editor): Promise<void> {
 
 export type Resolution = 'merge' | 'theirs' | 'mine' | '';
 
-export async function askAboutConflict(base: Registry, mine: Registry, theirs: Registry): Promise<Resolution> {
-  const words = `Another user has saved: ${summary(base, theirs)}. You: ${summary(base, mine)}.`;
-  return await ask('Another user saved first', [el('p', { id: 'conflict-words' }, words),
-    el('p', {}, 'Merging applies your changes to theirs; where both changed a marker, yours wins.')],
-    [['merge', 'Merge'], ['theirs', 'Take theirs'], ['mine', 'Overwrite with mine'], ['', 'Continue editing']]) as Resolution;
-}
-
 const mostLines = 40;
 
 /** The changes that are not saved, marker by marker. */
@@ -61,6 +54,14 @@ const changesOf = (from: Registry, to: Registry): HTMLElement[] => {
   return [el('ul', { class: 'plain' }, ...lines.slice(0, mostLines).map((line) => el('li', {}, line))),
     ...(lines.length > mostLines ? [el('p', {}, `and ${lines.length - mostLines} more`)] : [])];
 };
+
+export async function askAboutConflict(base: Registry, mine: Registry, theirs: Registry): Promise<Resolution> {
+  const words = `Another user has saved: ${summary(base, theirs)}. You: ${summary(base, mine)}.`;
+  const both = bothChanged(base, mine, theirs);
+  return await ask('Another user saved first', [el('p', { id: 'conflict-words' }, words), el('p', {}, 'They changed:'), ...changesOf(base, theirs), el('p', {}, 'You changed:'), ...changesOf(base, mine),
+    el('p', both.length > 0 ? { class: 'error', id: 'conflict-both' } : { id: 'conflict-both' }, both.length > 0 ? `Changed by both: ${both.join(', ')}. A merge takes yours.` : 'No marker was changed by both: a merge loses nothing.')],
+    [['merge', 'Merge'], ['theirs', 'Take theirs'], ['mine', 'Overwrite with mine'], ['', 'Continue editing']]) as Resolution;
+}
 
 export async function confirmReload(theirs: Registry, mine: Registry): Promise<boolean> {
   return await ask('Throw away your changes?', [el('p', {}, `Not saved: ${summary(theirs, mine)}.`), ...changesOf(theirs, mine)],

@@ -8,6 +8,7 @@ import { merged } from './history.js';
 export class Documents {
   private base: Registry;
   private etag: string;
+  private busy: Promise<unknown> = Promise.resolve();
 
   /** `hasRobot`: is a robot connected that drives by the markers loaded at its start? */
   constructor(private readonly editor: Editor, tagged: api.Tagged, private readonly hasRobot: () => boolean) {
@@ -15,6 +16,12 @@ export class Documents {
   }
 
   async save(): Promise<string> {
+    const saving = this.saveNow();
+    this.busy = saving.catch(() => undefined);
+    return await saving;
+  }
+
+  private async saveNow(): Promise<string> {
     const mine = this.editor.registry();
     try {
       this.take(await api.putMarkers(mine, this.etag));
@@ -24,6 +31,18 @@ export class Documents {
       if (!(error instanceof api.Refusal) || error.status !== 412) throw error;
       return await this.settle(mine);
     }
+  }
+
+  /** Somebody saved the markers, perhaps this page. */
+  async heardOfSaving(): Promise<string> {
+    await this.busy;
+    const tagged = await api.getMarkers();
+    if (tagged.etag === this.etag) return '';
+    if (this.editor.dirty) return 'Somebody else saved the markers; saving yours will ask what to do, Reload shows theirs';
+    this.take(tagged);
+    this.editor.replaceAll(tagged.registry);
+    this.editor.markSaved();
+    return 'Somebody else saved the markers: they are shown now';
   }
 
   /** What is thrown away is asked for, and undo brings it back. */

@@ -5,6 +5,7 @@ import type { Layers } from './layers.js';
 import type { View } from './view.js';
 
 const badTint = [214, 60, 50], doubtTint = [232, 176, 40], goodTint = [46, 150, 80];
+const hatchCells = 5;  // from one line of the hatching to the next
 const goodDeviationM = 0.005, badDeviationM = 0.02;
 
 export class FloorPaint {
@@ -12,7 +13,7 @@ export class FloorPaint {
   deviations: Float32Array | null = null;
   private readonly raster = document.createElement('canvas');
   private colours = coloursNow();
-  private tints: { none: number[]; one: number[]; more: number[] } = { none: [], one: [], more: [] };
+  private tints: { none: number[]; hatch: number[]; one: number[]; more: number[] } = { none: [], hatch: [], one: [], more: [] };
 
   constructor(private readonly floor: Floor, private readonly coverage: Coverage, private readonly layers: Layers) {
     this.raster.width = floor.info.columns;
@@ -24,11 +25,11 @@ export class FloorPaint {
     this.colours = coloursNow();
     const { columns, rows } = this.floor.info;
     const context = this.raster.getContext('2d')!;
-    this.tints = { none: this.tinted(badTint, 0.42), one: this.tinted(doubtTint, 0.3), more: this.tinted(goodTint, 0.3) };
+    this.tints = { none: this.tinted(badTint, 0.42), hatch: this.tinted(badTint, 1), one: this.tinted(doubtTint, 0.3), more: this.tinted(goodTint, 0.3) };
     const image = context.createImageData(columns, rows);
     for (let row = 0; row < rows; ++row) {
       for (let column = 0; column < columns; ++column) {
-        const colour = this.colourOf(row * columns + column);
+        const colour = this.colourOf(row * columns + column, (row + column) % hatchCells === 0);
         const at = 4 * ((rows - 1 - row) * columns + column);
         for (let i = 0; i < 3; ++i) image.data[at + i] = colour[i]!;
         image.data[at + 3] = 255;
@@ -37,14 +38,15 @@ export class FloorPaint {
     context.putImageData(image, 0, 0);
   }
 
-  private colourOf(index: number): number[] {
+  /** Gaps are hatched: their red and the green of what is covered look alike to many. */
+  private colourOf(index: number, hatched: boolean): number[] {
     const value = this.floor.cells[index]!;
     if (value < 0) return this.colours.unknown;
     if (value >= 50) return this.colours.wall;
     if (this.layers.floor === 'plain' || !this.floor.canStand(index)) return this.colours.free;
     if (this.layers.floor === 'deviation') return this.tinted(deviationTint(this.deviations?.[index] ?? 0), 0.45);
     const count = this.coverage.counts[index]!;
-    return count === 0 ? this.tints.none : count === 1 ? this.tints.one : this.tints.more;
+    return count === 0 ? hatched ? this.tints.hatch : this.tints.none : count === 1 ? this.tints.one : this.tints.more;
   }
 
   private tinted(tint: number[], share: number): number[] {

@@ -36,6 +36,12 @@ export function summary(from: Registry, to: Registry): string {
   return `${changed} changed, ${added} added, ${removed} removed`;
 }
 
+/** IDs of markers that both sides changed, and differently. */
+export function bothChanged(base: Registry, mine: Registry, theirs: Registry): number[] {
+  const before = byIdOf(base), ours = byIdOf(mine), others = byIdOf(theirs);
+  return [...new Set([...before.keys(), ...ours.keys()])].filter((id) => !same(before.get(id), ours.get(id)) && !same(before.get(id), others.get(id)) && !same(ours.get(id), others.get(id)));
+}
+
 /** The changes from `base` to `mine`, applied to `theirs` (three-way merge). */
 export function merged(base: Registry, mine: Registry, theirs: Registry): Registry {
   const before = byIdOf(base), ours = byIdOf(mine), result = byIdOf(theirs);

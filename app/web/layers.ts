@@ -2,17 +2,18 @@
 import { byId, el } from './dom.js';
 import { inkNow } from './robot_paint.js';
 import type { Ink } from './robot_paint.js';
+import { zoneInkNow } from './places_paint.js';
 
 export type FloorColour = 'coverage' | 'deviation' | 'plain';
-export type LayerName = 'map' | 'markers' | 'ids' | 'reach' | 'route';
+export type LayerName = 'map' | 'markers' | 'ids' | 'reach' | 'route' | 'zones';
 
 const names: [LayerName, string][] = [
-  ['map', 'Map'], ['markers', 'Markers'], ['ids', 'IDs'], ['reach', 'Reach of the selection'], ['route', 'Usual route']];
+  ['map', 'Map'], ['markers', 'Markers'], ['ids', 'IDs'], ['reach', 'Reach of the selection'], ['route', 'Usual route'], ['zones', 'Zones and places']];
 const colours: [FloorColour, string][] = [
   ['coverage', 'coverage'], ['deviation', 'deviation'], ['plain', 'nothing']];
 
 const legends: Record<FloorColour, [string, string][]> = {
-  coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more']],
+  coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more'], ['free', 'cannot stand']],
   deviation: [['more', '5 mm or less'], ['one', '20 mm or more: standard deviation of a fix'], ['none', 'no marker at some heading']],
   plain: [],
 };
@@ -23,7 +24,7 @@ const lineKeys: Record<string, [keyof Ink, string][]> = {
 };
 
 export class Layers {
-  shown: Record<LayerName, boolean> = { map: true, markers: true, ids: true, reach: true, route: true };
+  shown: Record<LayerName, boolean> = { map: true, markers: true, ids: true, reach: true, route: true, zones: true };
   floor: FloorColour = 'coverage';
   onChange: () => void = () => {};
   private readonly choice = el('select', { id: 'floor-colour' }, ...colours.map(([value, words]) => el('option', { value }, words)));
@@ -63,7 +64,17 @@ export class Layers {
         lines.push(swatch, words);
       }
     }
+    if (document.body.dataset['mode'] === 'places') lines.push(...placesLegend());
     byId('legend').replaceChildren(lines.length === 0 ? 'From above, as through the ceiling.' : '', ...lines,
       ...legends[this.floor].flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words]));
   }
+}
+
+function placesLegend(): (HTMLElement | string)[] {
+  const colours = zoneInkNow();
+  return ([['out', 'hatched', 'keep-out'], ['slow', 'tinted', 'speed zone'], ['lane', '', 'lane, arrows: one way'], ['spot', 'disc', 'place']] as const).flatMap(([kind, shape, words]) => {
+    const swatch = el('span', { class: `swatch ${shape}` });
+    swatch.style.setProperty('--swatch', colours[kind]);
+    return [swatch, words];
+  });
 }

@@ -34,9 +34,11 @@ export class Live implements Guest, Listener {
   readonly control: Control;
   readonly trace = new LiveTrace();
   onRobot: () => void = () => {};
+  /** Somebody saved, perhaps this page. */
+  onSaving: (what: 'markers' | 'places') => void = () => {};
   private readonly socket: LiveSocket;
   private readonly panel: DrivePanel;
-  private readonly places: Places;
+  readonly places: Places;
   readonly hand: HandDrive;
   readonly survey: SurveyView;
   private path: Point[] = [];
@@ -101,6 +103,7 @@ export class Live implements Guest, Listener {
     document.body.toggleAttribute('data-robot', hello.robot);
     if (hello.survey) document.body.dataset['survey'] = '';
     if (before === null) this.heardAt = performance.now();
+    else for (const what of ['markers', 'places'] as const) this.onSaved(what);  // perhaps, meanwhile
     if (before === null && hello.robot) this.onRobot();
     this.goalsChanged();
   }
@@ -135,6 +138,14 @@ export class Live implements Guest, Listener {
 
   onAsked(client: number, name: string): void { this.control.showRequest(client, name); }
   onControl(): void { this.control.receive(); }
+
+  onSaved(what: 'markers' | 'places'): void {
+    if (what === 'places') {
+      this.places.refresh();
+      this.goalsChanged();
+    }
+    this.onSaving(what);
+  }
 
   onPath(points: [number, number][]): void {
     this.path = points.map(([x, y]) => ({ x, y }));

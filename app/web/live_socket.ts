@@ -35,7 +35,7 @@ export interface SeenMarker { id: number; confidence: number; o_px: [number, num
 export interface Picture { time_s: number; width_px: number; height_px: number; markers: SeenMarker[]; jpeg: Blob }
 
 type Message = ({ type: 'hello' } & Hello) | ({ type: 'state' } & State) | { type: 'path'; points: [number, number][] }
-  | ({ type: 'seen' } & Seen) | { type: 'asked'; client: number; name: string } | { type: 'control' }
+  | ({ type: 'seen' } & Seen) | { type: 'asked'; client: number; name: string } | { type: 'control' } | { type: 'saved'; what: 'markers' | 'places' }
   | ({ type: 'preview' } & Preview) | ({ type: 'survey' } & Survey) | { type: 'refused'; what: string; why: string };
 
 export interface Listener {
@@ -47,6 +47,7 @@ export interface Listener {
   onSeen(seen: Seen): void;
   onAsked(client: number, name: string): void;
   onControl(): void;
+  onSaved(what: 'markers' | 'places'): void;
   onRefused(what: string, why: string): void;
   onPicture(picture: Picture): void;
   onGone(): void;
@@ -90,6 +91,7 @@ export class LiveSocket {
       case 'seen': return this.listener.onSeen(message);
       case 'asked': return this.listener.onAsked(message.client, message.name);
       case 'control': return this.listener.onControl();
+      case 'saved': return this.listener.onSaved(message.what);
       case 'refused': return this.listener.onRefused(message.what, message.why);
     }
   }

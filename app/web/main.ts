@@ -33,5 +33,20 @@ async function start(): Promise<void> {
   say('Ready');
 }
 
-start().catch((error: unknown) => say(error instanceof api.Refusal && error.status === 401
-  ? 'This console needs its token: open the address with #t=TOKEN' : String(error), true));
+/** Instead of an empty page. */
+function explain(error: unknown): void {
+  const needsToken = error instanceof api.Refusal && error.status === 401;
+  const words = needsToken ? 'This console needs its token: open the address with #t=TOKEN' : error instanceof Error ? error.message : String(error);
+  const box = document.createElement('div');
+  box.id = 'no-start';
+  box.setAttribute('role', 'alert');
+  const head = document.createElement('h2');
+  head.textContent = needsToken ? 'Not signed in' : 'The console could not start';
+  const text = document.createElement('p');
+  text.textContent = needsToken ? `${words}. The token is what lodestar was started with: --token, --edit-token or --view-token.` : words;
+  box.append(head, text);
+  document.querySelector('main')!.replaceChildren(box);
+  say(words, true);
+}
+
+start().catch(explain);

@@ -4,11 +4,12 @@ import type { Layers } from './layers.js';
 import type { Live } from './live.js';
 import type { Guest, Pointer } from './pointer.js';
 import type { Replay } from './replay.js';
+import type { SitePlaces } from './site_places.js';
 import type { Stage } from './stage.js';
 import { attempt } from './words.js';
 
-export type Mode = 'edit' | 'live' | 'survey' | 'replay';
-const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['live', 'Live', 'watch and drive the robot'],
+export type Mode = 'edit' | 'places' | 'live' | 'survey' | 'replay';
+const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['places', 'Zones', 'draw zones, lanes and places'], ['live', 'Live', 'watch and drive the robot'],
   ['survey', 'Survey', 'survey the markers by driving'],
   ['replay', 'Replay', 'open a run and play it back']];
 
@@ -19,6 +20,7 @@ interface Parts {
   readonly layers: Layers;
   readonly live: Live;
   readonly pointer: Pointer;
+  readonly places: SitePlaces;
   readonly replay: Replay;
   readonly stage: Stage;
   fit(): void;
@@ -37,7 +39,7 @@ export class Modes {
   }
 
   enter(mode: Mode): void {
-    const { layers, live, pointer, replay, stage } = this.parts;
+    const { layers, live, places, pointer, replay, stage } = this.parts;
     const before = this.now;
     this.now = mode;
     document.body.dataset['mode'] = mode;
@@ -45,7 +47,9 @@ export class Modes {
     pointer.endPick();
     pointer.cancel();
     const isLive = mode === 'live' || mode === 'survey';
-    pointer.guest = mode === 'edit' ? null : isLive ? live : passive;
+    pointer.guest = mode === 'edit' ? null : mode === 'places' ? places.tools : isLive ? live : passive;
+    if (mode === 'places') places.judge();
+    else if (before === 'places') places.tools.take(null);
     stage.showsSelection = mode === 'edit';
     live.show(isLive, mode === 'survey');
     if (before !== mode) layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');

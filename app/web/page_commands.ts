@@ -19,6 +19,7 @@ export interface Page extends MarkerTools {
   readonly commands: Command[];
   fit(): void;
   turnView(deg: number): void;
+  zoom(factor: number): void;
   changeTheme(): void;
 }
 
@@ -35,6 +36,8 @@ export function pageCommands(page: Page): Command[] {
     { name: 'turn-view', everywhere: true, key: '.', title: 'turn the view by 15° clockwise', run: () => page.turnView(-15) },
     { name: 'turn-view-back', everywhere: true, key: ',', title: 'turn the view by 15° counter-clockwise', run: () => page.turnView(15) },
     { name: 'north', everywhere: true, key: '0', title: 'reset the rotation of the view', run: () => page.turnView(-page.view.turnDeg) },
+    { name: 'zoom-in', everywhere: true, button: '+', key: '+', title: 'zoom in', run: () => page.zoom(1.5) },
+    { name: 'zoom-out', everywhere: true, button: '−', key: '-', title: 'zoom out', run: () => page.zoom(1 / 1.5) },
     { name: 'fit', everywhere: true, button: 'Fit', key: 'F', title: 'show the whole map', run: () => page.fit() },
     { name: 'align', button: 'Align', title: 'align all markers to the map by pairs of points', run: () => alignByPairs(editor, page.pointer, page.stage, say) },
     { name: 'import', button: 'Import', title: 'read markers of another format', run: () => pickFile((file) => attempt(() => importFrom(editor, file))) },

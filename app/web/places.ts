@@ -8,11 +8,18 @@ export class Places {
   private routes: Routes = { format: 'lodestar-routes', version: 1, places: [], routes: [] };
   private etag = '';
   private asked = false;
+  /** Of the last save of this list, and its tag: other parts of the page need not be told who saved. */
+  saving: Promise<unknown> = Promise.resolve();
+  savedAs = '';
 
   constructor(private readonly goals: Goals, private readonly say: (words: string, bad?: boolean) => void) {}
 
   open(): void {
-    if (this.asked) return;
+    if (!this.asked) this.refresh();
+  }
+
+  /** Reads them again: somebody has saved. */
+  refresh(): void {
     this.asked = true;
     this.attempt(async () => {
       ({ routes: this.routes, etag: this.etag } = await getRoutes());
@@ -31,7 +38,7 @@ export class Places {
     };
     const line = (name: string, words: string, goals: (Goal | undefined)[], remove: () => void) => el('li', { class: 'place' },
       button(name, words, () => this.goals.set(goals.filter((g) => g !== undefined))),
-      button('×', `Remove ${name}`, () => { remove(); this.save(); }, { 'aria-label': `Remove ${name}` }));
+      button('×', `Remove ${name}`, () => this.attempt(() => this.removeIfWanted(name, remove)), { 'aria-label': `Remove ${name}` }));
     byId('places').replaceChildren(
       el('ul', { class: 'plain' },
         ...this.routes.places.map((p) => line(p.name, 'Use this place as the goal', [goalOf(p.name)], () => this.forgetPlace(p.name))),
@@ -40,6 +47,15 @@ export class Places {
       el('div', { class: 'row' },
         button('Keep as place', 'Keep the last goal under a name', () => this.attempt(() => this.keepPlace()), { id: 'place-keep' }),
         button('Keep as route', 'Keep all goals, in order, under a name', () => this.attempt(() => this.keepRoute()), { id: 'route-keep' })));
+  }
+
+  /** Saved at once, so it is asked for. */
+  private async removeIfWanted(name: string, remove: () => void): Promise<void> {
+    const routes = this.routes.routes.filter((r) => r.places.includes(name)).map((r) => r.name);
+    const words = routes.length > 0 ? `The routes over it go too: ${routes.join(', ')}.` : 'Earlier states of all places stay in the history (Zones).';
+    if (await ask(`Remove ${name}?`, [el('p', {}, words)], [['go', 'Remove'], ['', 'Keep']]) !== 'go') return;
+    remove();
+    this.save();
   }
 
   private forgetPlace(name: string): void {
@@ -86,7 +102,10 @@ export class Places {
   private save(): void {
     this.attempt(async () => {
       try {
-        ({ routes: this.routes, etag: this.etag } = await putRoutes(this.routes, this.etag));
+        const put = putRoutes(this.routes, this.etag);
+        this.saving = put.catch(() => undefined);
+        ({ routes: this.routes, etag: this.etag } = await put);
+        this.savedAs = this.etag;
         this.say('Saved the places');
       } catch (error) {
         ({ routes: this.routes, etag: this.etag } = await getRoutes());

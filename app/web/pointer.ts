@@ -36,13 +36,14 @@ export class Pointer {
   private down: Point = { x: 0, y: 0 };
   private last: Point = { x: 0, y: 0 };
   private moved = false;
+  private readonly fingers = new Map<number, Point>();
 
   constructor(private readonly stage: Stage) {
     const element = stage.element;
     element.addEventListener('pointerdown', (e) => this.press(e));
     element.addEventListener('pointermove', (e) => this.move(e));
     element.addEventListener('pointerup', (e) => this.release(e));
-    element.addEventListener('pointercancel', () => this.cancel());
+    element.addEventListener('pointercancel', (e) => { this.fingers.delete(e.pointerId); this.cancel(); });
     element.addEventListener('pointerleave', () => this.onHover(null));
     element.addEventListener('wheel', (e) => {
       e.preventDefault();
@@ -88,6 +89,8 @@ export class Pointer {
 
   private press(e: PointerEvent): void {
     const { editor, view, element } = this.stage;
+    this.fingers.set(e.pointerId, this.at(e));
+    if (this.fingers.size === 2) return this.cancel();
     this.down = this.last = this.at(e);
     this.moved = false;
     element.setPointerCapture(e.pointerId);
@@ -128,6 +131,7 @@ export class Pointer {
   private move(e: PointerEvent): void {
     const now = this.at(e);
     const { view } = this.stage;
+    if (this.fingers.size > 1) return this.pinch(e.pointerId, now);
     this.onHover(view.toMap(now));
     const gesture = this.gesture;
     if (!gesture) return;
@@ -156,6 +160,19 @@ export class Pointer {
     this.last = now;
   }
 
+  /** Two fingers zoom about the middle between them, and pan. */
+  private pinch(id: number, now: Point): void {
+    const before = this.fingers.get(id);
+    const other = [...this.fingers].find(([key]) => key !== id)?.[1];
+    if (!before || !other) return;
+    this.fingers.set(id, now);
+    this.moved = true;
+    const middle = { x: (now.x + other.x) / 2, y: (now.y + other.y) / 2 };
+    this.stage.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
+    this.stage.view.zoomAt(middle, Math.hypot(now.x - other.x, now.y - other.y) / Math.max(1, Math.hypot(before.x - other.x, before.y - other.y)));
+    this.stage.redraw();
+  }
+
   private movedBy(before: Marker[], leader: Marker, from: Point, to: Point, snapping: boolean): Marker[] {
     const grid = this.snap.gridM;
     const place = (value: number) => snapping ? Math.round(value / grid) * grid : value;
@@ -178,6 +195,7 @@ export class Pointer {
 
   private release(e: PointerEvent): void {
     const { editor, marquee } = this.stage;
+    this.fingers.delete(e.pointerId);
     const gesture = this.gesture;
     this.gesture = null;
     this.stage.marquee = null;

@@ -129,8 +129,13 @@ export class Stage {
       }
       drawFromAbove(c, marker, view, chosen ? colours.chosen : colours.marker, colours.dot, sidePx < fineFromPx);
       if (this.layers.shown.ids && (sidePx > labelFromPx || few)) {
+        c.strokeStyle = colours.paper;
+        c.lineWidth = 3;
+        c.lineJoin = 'round';
         c.fillStyle = chosen ? colours.chosen : colours.ink;
-        c.fillText(String(marker.id), middle.x, middle.y + Math.max(sidePx * 0.75, 14) + 8);
+        const below = middle.y + Math.max(sidePx * 0.75, 14) + 8;
+        c.strokeText(String(marker.id), middle.x, below);  // a rim, so that IDs can be read on walls
+        c.fillText(String(marker.id), middle.x, below);
       }
     }
     c.textAlign = 'start';

@@ -63,8 +63,7 @@ void ContactJudge::remember(Stamp now, const Pose2& map_from_base, std::span<con
   moment.stamp = now;
   moment.map_from_base = map_from_base;
   moment.speed_mps = 0.0;
-  moment.discs_m.clear();
-  for (const DiscState& disc : discs) moment.discs_m.push_back(disc.position_m);
+  moment.discs.assign(discs.begin(), discs.end());
   if (!history_.empty()) {
     const Moment& before = history_[history_.size() - std::min(speed_records, history_.size())];
     const double elapsed_s = seconds(now - before.stamp);
@@ -111,18 +110,19 @@ void ContactJudge::judge(std::size_t disc, const DiscState& state) {
   // One contact is one event: a robot that moves off while it is touched has not stood.
   if (touch == Touch::at_rest && score_.at_rest > 0) --score_.at_rest;
   touch = Touch::moving;
-  ++(is_excused(disc, state.radius_m) ? score_.excused : score_.moving);
+  ++(is_excused(disc) ? score_.excused : score_.moving);
 }
 
-bool ContactJudge::is_excused(std::size_t disc, double radius_m) const {
-  return was_fast(disc) || came_into_sight_too_late(disc, radius_m);
+bool ContactJudge::is_excused(std::size_t disc) const {
+  return was_fast(disc) || came_into_sight_too_late(disc);
 }
 
 bool ContactJudge::was_fast(std::size_t disc) const {
   constexpr double rounding = 1e-6;
   const Stamp since = history_.back().stamp - options_.fast_within;
   for (std::size_t i = history_.size() - 1; i > 0 && history_[i].stamp > since; --i) {
-    const double moved_m = (history_[i].discs_m[disc] - history_[i - 1].discs_m[disc]).norm();
+    const double moved_m =
+        (history_[i].discs[disc].position_m - history_[i - 1].discs[disc].position_m).norm();
     const double elapsed_s = seconds(history_[i].stamp - history_[i - 1].stamp);
     if (moved_m > options_.fast_mps * elapsed_s * (1.0 + rounding)) return true;
   }
@@ -130,14 +130,18 @@ bool ContactJudge::was_fast(std::size_t disc) const {
 }
 
 /// Walks back to when it came into sight; having been hidden for less than a scan counts as in sight.
-bool ContactJudge::came_into_sight_too_late(std::size_t disc, double radius_m) const {
+bool ContactJudge::came_into_sight_too_late(std::size_t disc) const {
   const Moment& contact = history_.back();
   std::optional<std::size_t> first_seen;
   Stamp last_seen = contact.stamp;
   std::size_t i = history_.size();
+  std::vector<VisibleDisc> visible;
   while (i > 0 && last_seen - history_[i - 1].stamp <= options_.scan_period) {
     --i;
-    if (!sees(history_[i], history_[i].discs_m[disc], radius_m)) continue;
+    visible.clear();
+    append_visible(history_[i].discs[disc], visible);
+    if (std::ranges::none_of(visible, [&](const VisibleDisc& part) { return sees(history_[i], part); }))
+      continue;
     first_seen = i;
     last_seen = history_[i].stamp;
   }
@@ -151,17 +155,18 @@ bool ContactJudge::came_into_sight_too_late(std::size_t disc, double radius_m) c
 }
 
 /// Any of five points across the near side of the disc.
-bool ContactJudge::sees(const Moment& moment, const Vec2& center_m, double radius_m) const {
+bool ContactJudge::sees(const Moment& moment, const VisibleDisc& disc) const {
   const Vec2 scanner_m = (moment.map_from_base * options_.base_from_scanner).position_m;
-  const Vec2 way = center_m - scanner_m;
+  const Vec2 way = disc.center_m - scanner_m;
   const double distance_m = way.norm();
-  if (distance_m <= radius_m) return true;
-  if (distance_m - radius_m > options_.range_m) return false;
+  if (distance_m <= disc.radius_m) return true;
+  if (distance_m - disc.radius_m > options_.range_m) return false;
   const Vec2 ahead = way / distance_m;
   const Vec2 left(-ahead.y(), ahead.x());
   constexpr std::array shares{0.0, -0.5, 0.5, -0.9, 0.9};
   return std::ranges::any_of(shares, [&](double share) {
-    const Vec2 point_m = center_m + radius_m * (share * left - std::sqrt(1.0 - square(share)) * ahead);
+    const Vec2 point_m =
+        disc.center_m + disc.radius_m * (share * left - std::sqrt(1.0 - square(share)) * ahead);
     return is_in_sight(map_, scanner_m, point_m);
   });
 }

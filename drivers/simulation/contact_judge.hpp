@@ -14,7 +14,7 @@ namespace lodestar {
 /// What the robot declares, and what it promises: no contact while it moves. A contact is excused only where
 /// that promise does not reach.
 struct ContactJudgeOptions {
-  // An ideal scanner on the robot.
+  // An ideal scanner on the robot; of people it sees the legs.
   Pose2 base_from_scanner;
   double range_m = 12.0;
   Duration scan_period = std::chrono::milliseconds(100);
@@ -56,17 +56,17 @@ class ContactJudge {
     Stamp stamp;
     Pose2 map_from_base;
     double speed_mps = 0.0;
-    std::vector<Vec2> discs_m;
+    std::vector<DiscState> discs;
   };
 
   [[nodiscard]] bool is_carried_off(Stamp now, const Pose2& map_from_base) const;
   void remember(Stamp now, const Pose2& map_from_base, std::span<const DiscState> discs);
   void measure_room(std::span<const DiscState> discs);
   void judge(std::size_t disc, const DiscState& state);
-  [[nodiscard]] bool is_excused(std::size_t disc, double radius_m) const;
+  [[nodiscard]] bool is_excused(std::size_t disc) const;
   [[nodiscard]] bool was_fast(std::size_t disc) const;
-  [[nodiscard]] bool came_into_sight_too_late(std::size_t disc, double radius_m) const;
-  [[nodiscard]] bool sees(const Moment& moment, const Vec2& center_m, double radius_m) const;
+  [[nodiscard]] bool came_into_sight_too_late(std::size_t disc) const;
+  [[nodiscard]] bool sees(const Moment& moment, const VisibleDisc& disc) const;
 
   OccupancyMap map_;
   double robot_radius_m_;

@@ -22,12 +22,19 @@ void WheelTrack::add(const WheelTravel& travel) {
   }
   const Mark& last = marks_.back();
   if (travel.stamp <= last.travel.stamp) return;
-  const double left_m = options_.left_scale * (travel.left_m - last.travel.left_m);
-  const double right_m = options_.right_scale * (travel.right_m - last.travel.right_m);
+  const double left_m = scales_.left * (travel.left_m - last.travel.left_m);
+  const double right_m = scales_.right * (travel.right_m - last.travel.right_m);
   const double arc_m = 0.5 * (left_m + right_m);
-  const double turn_rad = (right_m - left_m) / options_.track_width_m;
+  const double turn_rad = scales_.turn * (right_m - left_m) / options_.track_width_m;
   marks_.push_back({travel, last.odom_from_base * along_arc(arc_m, turn_rad), arc_m, turn_rad});
   while (marks_.size() > 2 && travel.stamp - marks_[1].travel.stamp >= options_.kept) marks_.pop_front();
+}
+
+void WheelTrack::use_scales(const TravelScales& scales) {
+  const auto cut = [&](double scale) {
+    return std::clamp(scale, 1.0 - options_.most_scale_change, 1.0 + options_.most_scale_change);
+  };
+  scales_ = {cut(scales.left), cut(scales.right), cut(scales.turn)};
 }
 
 std::optional<Pose2> WheelTrack::pose_at(Stamp stamp) const {

@@ -115,6 +115,46 @@ TEST(ProtectiveField, AtAHiddenCornerItIsSlowButNotStuck) {
   EXPECT_EQ(limit.reason, FieldReason::hidden_corner);
 }
 
+/// With the nearest hit a little ahead, as along any wall.
+TEST(ProtectiveField, BesideAWallItGoesOnHoweverNear) {
+  std::vector<FieldHit> hits;
+  for (double x_m = -1.0; x_m <= 1.0; x_m += 0.013)
+    hits.push_back({{x_m, radius_m + 0.004 + 0.0001 * std::abs(x_m - 0.02)}, 0.1, Presence::mapped});
+  const BodyVelocity creeping{0.1, 0.0};
+  EXPECT_EQ(disc_field().limit(hits, creeping, creeping).share, 1.0);
+}
+
+/// Noise makes the room look smaller than it is, now for this hit and then for that one.
+TEST(ProtectiveField, WhatStandsIsNotTouchedByGettingUsedToIt) {
+  const BodyVelocity creeping{0.1, 0.0};
+  const std::vector<FieldHit> hits{hit(0.0, radius_m - 0.005, Presence::standing),
+                                   hit(radius_m + 0.012, 0.0, Presence::standing)};
+  EXPECT_LT(disc_field().limit(hits, creeping, creeping).share, 0.2);
+  EXPECT_EQ(disc_field().limit(hits, {}, {-0.1, 0.0}).share, 1.0);
+}
+
+TEST(ProtectiveField, WithLegsInReachOfABodyItOnlyMovesOff) {
+  const std::vector<FieldHit> near{hit(radius_m + 0.15, 0.0, Presence::legs)};
+  EXPECT_EQ(disc_field().limit(near, {}, {0.0, 0.2}).share, 0.0);
+  EXPECT_EQ(disc_field().limit(near, {}, {0.1, 0.0}).share, 0.0);
+  EXPECT_EQ(disc_field().limit(near, {}, {-0.1, 0.0}).share, 1.0);
+  const std::vector<FieldHit> beside{hit(0.0, radius_m + 0.21, Presence::legs)};
+  EXPECT_EQ(disc_field().limit(beside, {0.1, 0.0}, {0.1, 0.0}).share, 1.0);
+}
+
+/// A corner that comes into sight when it is too late for the speed: braking to rest would help nobody more.
+TEST(ProtectiveField, AHiddenCornerNeverAsksForRest) {
+  const double contact_mps = ProtectiveFieldOptions{}.hidden_contact_mps;
+  std::vector<FieldHit> hits{hit(0.3, 0.1, Presence::hidden)};
+  const FieldLimit limit = disc_field().limit(hits, full, full);
+  EXPECT_NEAR(limit.share * full.forward_mps, contact_mps, 0.01);
+  EXPECT_EQ(limit.reason, FieldReason::hidden_corner);
+  const BodyVelocity slow{contact_mps, 0.0};
+  EXPECT_EQ(disc_field().limit(hits, full, slow).share, 1.0);
+  hits.push_back(hit(0.5, 0.1, Presence::person));
+  EXPECT_EQ(disc_field().limit(hits, full, full).share, 0.0);
+}
+
 TEST(FieldRelease, FallsAtOnceAndRisesGentlyAfterAWhile) {
   FieldRelease release;
   const auto at = [](double s) { return Stamp(from_seconds(s)); };

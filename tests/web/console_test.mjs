@@ -202,12 +202,15 @@ describe('with others', () => {
       const { editor } = window.lodestar.console;
       editor.change([{ ...window.lodestar.marker(i), y: to }]);
     }, [id, y]);
+    await move(page, 2454, 6.222);
     await move(other, 1395, 6.111);
     await save(other);
-    await move(page, 2454, 6.222);
+    await stateIs(page, 'Somebody else saved the markers');
     await page.keyboard.press('Control+s');
     await page.locator('#conflict-words').waitFor();
     assert.match(lineOf(2454), /y_m: 6.172/);  // nothing written yet
+    await page.locator('#dialog', { hasText: '1395: y' }).waitFor();  // what each side changed, marker by marker
+    await page.locator('#conflict-both', { hasText: 'loses nothing' }).waitFor();
     await page.getByRole('button', { name: 'Merge' }).click();
     await stateIs(page, 'Merged and saved');
     assert.match(lineOf(1395), /y_m: 6.111/);

@@ -12,8 +12,12 @@
 #include "app/campaign/campaign_report.hpp"
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_site.hpp"
+#include "app/campaign/random_things.hpp"
 #include "app/common/process_health.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "maps/input_error.hpp"
+#include "maps/map_overlay.hpp"
+#include "planning/margin_planner.hpp"
 
 #include "tests/maps/temporary_folder.hpp"
 
@@ -44,6 +48,43 @@ TEST(Campaign, builds_the_same_building_from_the_same_seed) {
   for (const RegisteredMarker& marker : first.registry.markers) seen.insert(marker.id);
   EXPECT_EQ(seen.size(), first.registry.markers.size()) << "no ID twice";
   EXPECT_GE(first.registry.markers.size(), 6U);
+}
+
+TEST(Campaign, puts_things_in_the_way_that_leave_one) {
+  const Site robot = lab();
+  int things = 0;
+  int pushed = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Site site = random_site(robot, ids, seed);
+    const std::vector<MovingDisc> drawn = random_things(site, seed);
+    const std::vector<MovingDisc> again = random_things(site, seed);
+    ASSERT_EQ(drawn.size(), again.size());
+    OccupancyMap map = site.map.map;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const Vec2 stands_m = drawn[i].trajectory.keys.back().position_m;
+      EXPECT_EQ(stands_m, again[i].trajectory.keys.back().position_m);
+      EXPECT_GE((stands_m - site.start.position_m).norm(), 1.0 + drawn[i].radius_m + site.robot.radius_m);
+      const Vec2 points_m[]{stands_m, stands_m + Vec2(drawn[i].radius_m, 0.0)};
+      map = overlaid(map, points_m);
+      ++things;
+      pushed += drawn[i].trajectory.keys.size() > 1 ? 1 : 0;
+    }
+    const MarginPlanner planner(map, navigation_options(site.robot).planner);
+    EXPECT_TRUE(
+        std::holds_alternative<Plan>(planner.plan(site.start.position_m, site.goals.front().position_m)));
+  }
+  EXPECT_GT(things, 10);
+  EXPECT_GT(pushed, 2);
+  EXPECT_LT(pushed, things);
+}
+
+TEST(Campaign, without_faults_has_none_and_a_true_registry) {
+  for (std::uint64_t number = 1; number <= 30; ++number) {
+    const CampaignMission mission = mission_of(lab(), ids, number, {.has_people = true, .has_faults = false});
+    EXPECT_TRUE(mission.replay.faults.empty());
+    EXPECT_EQ(mission.replay.disturbances.misplaced_m, 0.0);
+    EXPECT_GE(mission.replay.people.count, 1);
+  }
 }
 
 TEST(Campaign, draws_faults_of_every_kind) {

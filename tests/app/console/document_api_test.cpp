@@ -236,7 +236,8 @@ TEST_F(ConsoleTest, shows_run_folders_and_nothing_beside_them) {
 }
 
 TEST_F(ConsoleTest, gives_each_document_a_tag_and_304_for_it) {
-  for (const char* target : {"/api/site", "/api/map", "/api/map/cells", "/api/markers"}) {
+  for (const char* target :
+       {"/api/site", "/api/map", "/api/map/cells", "/api/markers", "/api/places", "/api/routes"}) {
     const HttpResponse read = get(target);
     ASSERT_EQ(read.status, 200) << target;
     const HttpResponse again = get(target, read.etag);

@@ -165,6 +165,36 @@ TEST(BackgroundPlanner, obeys_keep_outs_on_every_map_and_shows_none_of_them) {
   }
 }
 
+TEST(BackgroundPlanner, obeys_keep_outs_that_are_set_later_and_keeps_what_it_knows_to_stand_about) {
+  const OccupancyMap map = lab().map.map;
+  const KeepOut across{"across", {{8.8, -1.0}, {9.0, -1.0}, {9.0, 9.0}, {8.8, 9.0}}};
+  BackgroundPlanner planner(map, planner_options(), {});
+  const Vec2 thing_m{1.7, 5.3};  // on the straight way to near_m
+  const auto path_to = [&](const Vec2& goal_m) {
+    for (int step = 0; step < 10; ++step) planner.begin_step({});
+    planner.ask(query_to(goal_m));
+    std::optional<TripPlan> plan;
+    steps_until_taken(planner, plan);
+    const bool is_found = std::holds_alternative<PathFound>(plan->answer);
+    return is_found ? std::optional(plan->update->route.path) : std::nullopt;
+  };
+  const auto goes_around = [&] { return distance_to_path_m(path_to(near_m).value(), thing_m) > 0.25; };
+  ASSERT_FALSE(goes_around());
+  planner.use_obstacles({thing_m});
+  ASSERT_TRUE(path_to(far_m));
+  ASSERT_TRUE(goes_around());
+
+  planner.use_keep_out({across});
+  EXPECT_TRUE(planner.begin_step({})) << "the present path needs a review";
+  EXPECT_FALSE(path_to(far_m));
+  EXPECT_TRUE(goes_around()) << "the obstacle is forgotten";
+  EXPECT_EQ(planner.map().map().cells, map.cells);
+
+  planner.use_keep_out({});
+  EXPECT_TRUE(path_to(far_m));
+  EXPECT_TRUE(goes_around()) << "the obstacle is forgotten";
+}
+
 /// A robot in the lab that knows where it is and stands.
 class PlanAwaited : public testing::Test {
  protected:

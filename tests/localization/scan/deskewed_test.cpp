@@ -51,11 +51,22 @@ TEST(WheelTrack, KnowsNothingBeyondItsReadings) {
   EXPECT_FALSE(WheelTrack().pose_at(at(0.0)));
 }
 
-TEST(WheelTrack, ScalesTheWheels) {
-  WheelTrack track({.track_width_m = 0.5, .left_scale = 1.1, .right_scale = 0.9});
+TEST(WheelTrack, ScalesTheWheelsFromThenOn) {
+  WheelTrack track({.track_width_m = 0.5});
   track.add({at(0.0), 3.0, 4.0});
   track.add({at(0.1), 3.1, 4.1});
-  EXPECT_NEAR(track.pose_at(at(0.1))->yaw_rad, (0.09 - 0.11) / 0.5, 1e-12);
+  track.use_scales({.left = 1.05, .right = 0.95, .turn = 1.02});
+  EXPECT_NEAR(track.pose_at(at(0.1))->yaw_rad, 0.0, 1e-12);
+  track.add({at(0.2), 3.2, 4.2});
+  EXPECT_NEAR(track.pose_at(at(0.2))->yaw_rad, 1.02 * (0.095 - 0.105) / 0.5, 1e-12);
+}
+
+TEST(WheelTrack, CutsScalesThatNoWheelHas) {
+  WheelTrack track({.track_width_m = 0.5, .most_scale_change = 0.1});
+  track.add({at(0.0), 0.0, 0.0});
+  track.use_scales({.left = 3.0, .right = 3.0});
+  track.add({at(0.1), 0.1, 0.1});
+  EXPECT_NEAR(track.pose_at(at(0.1))->position_m.x(), 0.11, 1e-12);
 }
 
 /// A wall along x = 3 of the odometry frame, seen for 0.1 s while driving and turning at 1 rad/s.

@@ -1,0 +1,284 @@
+#include "app/fleet/fleet_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "app/recording/drive_moment.hpp"
+
+namespace lodestar {
+namespace {
+
+Goal goal_of(const DriveTarget& target) {
+  return {.position_m = target.position_m, .heading_rad = target.heading_rad};
+}
+
+}  // namespace
+
+FleetSessionOptions fleet_session_options(const Site& site, const FleetSettings& settings) {
+  constexpr double ahead_s = 3.0;
+  FleetSessionOptions options;
+  OrderBookOptions& book = options.book;
+  book.map = settings.map.empty() ? site.name : settings.map;
+  for (const Place& place : site.places.places)
+    book.positions[place.name] = {
+        .position_m = place.position_m, .heading_rad = place.yaw_rad, .map = book.map};
+  for (const RouteNode& node : site.places.nodes)
+    book.positions[node.name] = {.position_m = node.position_m, .heading_rad = {}, .map = book.map};
+  book.node_actions = {"wait"};
+  book.instant_actions = {"initPosition", "stateRequest", "factsheetRequest"};
+  book.fastest_mps = site.robot.max_forward_mps;
+  options.battery = load_battery_curve(site.robot_file);
+  const double fastest_mps = site.robot.max_forward_mps;
+  options.ask_for_base_m =
+      ahead_s * fastest_mps + fastest_mps * fastest_mps / (2.0 * site.robot.max_acceleration_mps2);
+  return options;
+}
+
+FleetSession::FleetSession(FleetLink& link, FleetSessionOptions options,
+                           std::function<void(const std::string&)> tell)
+    : link_(link), options_(std::move(options)), tell_(std::move(tell)), book_(options_.book) {}
+
+void FleetSession::say(const std::string& words) const {
+  if (tell_) tell_("fleet: " + words);
+}
+
+void FleetSession::hear(const SensorInput& input) {
+  if (reported_) elapsed_ = input.now - now_;
+  now_ = input.now;
+  wheels_.take(input.base.travel);
+  for (const WheelTravel& reading : input.base.travel) {
+    if (travel_)
+      driven_m_ += std::abs(reading.left_m - travel_->left_m + reading.right_m - travel_->right_m) / 2.0;
+    travel_ = reading;
+  }
+  base_ = {.state = input.base.state,
+           .fault = input.base.fault,
+           .details = input.base.details,
+           .travel = {},
+           .measured = input.base.measured,
+           .system = input.base.system};
+}
+
+void FleetSession::attend(const MissionStep& step, Mission& mission) {
+  follow(step, mission);
+  see_who_drives(mission);
+  take_messages(step.navigation);
+  hold(mission);
+  act(mission);
+  drive(mission);
+  note_stop(step.navigation);
+  report(step.navigation, mission);
+}
+
+/// What the drive has come to.
+void FleetSession::follow(const MissionStep& step, const Mission& mission) {
+  if (!is_ours_) return;
+  const bool has_ended_goal =
+      step.event == MissionEvent::goal_arrived || step.event == MissionEvent::goal_failed;
+  if (has_ended_goal && mission.current() > 0 && mission.current() <= targets_.size()) {
+    const DriveTarget& target = targets_[mission.current() - 1];
+    if (step.event == MissionEvent::goal_arrived) {
+      book_.reached(target.sequence);
+      say("at node " + target.node);
+    } else if (!is_stopped_by_us_ && mission.failure() != "stopped by the operator") {
+      book_.drive_failed(mission.failure());
+      say(fmt::format("node {} not reached: {}", target.node, mission.failure()));
+    }
+  }
+  if (!mission.finished()) return;
+  is_ours_ = false;
+}
+
+/// A person's stop of the master's drive is seen while it brakes.
+void FleetSession::see_who_drives(const Mission& mission) {
+  const bool is_another = !mission.finished() && !is_ours_;
+  const bool is_stopped = is_ours_ && mission.phase() == MissionPhase::stopping && !is_stopped_by_us_;
+  const bool is_manual = is_another || is_stopped || mission.phase() == MissionPhase::by_hand;
+  if (is_manual && book_.mode() == OperatingMode::automatic && book_.is_active())
+    say("a person took over: the order is cleared");
+  book_.set_mode(is_manual ? OperatingMode::manual : OperatingMode::automatic);
+}
+
+void FleetSession::take_messages(const NavigationStep& step) {
+  std::optional<Pose2> map_from_base;
+  if (step.estimate) map_from_base = step.estimate->map_from_base;
+  for (const FleetMessage& message : link_.take_messages()) {
+    const std::uint64_t before = book_.revision();
+    book_.take(message, map_from_base);
+    if (book_.revision() == before) continue;
+    if (const auto* order = std::get_if<FleetOrder>(&message)) {
+      const bool is_taken = book_.order_id() == order->id && book_.update_id() == order->update;
+      say(fmt::format("order {} ({}) {}", order->id, order->update,
+                      is_taken ? "accepted" : "rejected: " + book_.errors().back().description));
+    } else if (const auto* actions = std::get_if<InstantActions>(&message)) {
+      for (const FleetAction& action : actions->actions) say("asked for " + action.type);
+    } else {
+      say("a message cannot be read: " + std::get<FleetError>(message).description);
+    }
+  }
+}
+
+/// Pause and cancellation. A person who lets a paused drive go on has the last word.
+void FleetSession::hold(Mission& mission) {
+  const bool is_under_way = is_ours_ && !mission.finished();
+  if (!is_under_way) has_paused_ = false;
+  if (is_under_way && has_paused_ && !mission.paused()) book_.resume();
+  if (is_under_way && book_.is_paused() && !mission.paused()) mission.pause();
+  if (is_under_way && has_paused_ && !book_.is_paused()) mission.resume();
+  has_paused_ = is_under_way && book_.is_paused();
+  if (is_under_way && book_.is_cancelling() && !is_stopped_by_us_) {
+    mission.stop();
+    is_stopped_by_us_ = true;
+  }
+  const bool may_rest = mission.finished() || (mission.paused() && !book_.is_cancelling());
+  if (may_rest && wheels_.holds()) book_.came_to_rest();
+}
+
+void FleetSession::act(Mission& mission) {
+  go_on_waiting();
+  for (const FleetAction& action : book_.start_actions()) begin(action, mission);
+}
+
+void FleetSession::begin(const FleetAction& action, Mission& mission) {
+  constexpr double longest_wait_s = 86400.0;
+  if (action.type == "initPosition") {
+    place(action, mission);
+  } else if (action.type == "stateRequest") {
+    is_state_asked_ = true;
+    book_.action_ended(action.id, true);
+  } else if (action.type == "factsheetRequest") {
+    link_.ask_for_factsheet();
+    book_.action_ended(action.id, true);
+  } else {
+    const std::optional<double> wait_s = number_in(action, "seconds");
+    if (!wait_s || *wait_s < 0.0 || *wait_s > longest_wait_s) {
+      book_.action_ended(action.id, false, "seconds is no number from 0 to 86400");
+    } else {
+      waits_.push_back({action.id, from_seconds(*wait_s)});
+    }
+  }
+}
+
+void FleetSession::place(const FleetAction& action, Mission& mission) {
+  const auto x_m = number_in(action, "x");
+  const auto y_m = number_in(action, "y");
+  const auto yaw_rad = number_in(action, "theta");
+  const auto map = action.parameters.find("mapId");
+  const auto fail = [&](const std::string& why) { book_.action_ended(action.id, false, why); };
+  if (!x_m || !y_m || !yaw_rad || std::abs(*x_m) > far_m || std::abs(*y_m) > far_m)
+    return fail("x, y and theta are wanted");
+  if (map != action.parameters.end() && !map->second.empty() && map->second != options_.book.map)
+    return fail(fmt::format("map {}, the robot has {}", map->second, options_.book.map));
+  if (!mission.finished() || book_.is_active()) return fail("an order is under way");
+  if (!mission.place_robot({{*x_m, *y_m}, wrap_angle(*yaw_rad)})) return fail("no wheel reading yet");
+  const auto node = action.parameters.find("lastNodeId");
+  if (node != action.parameters.end()) book_.set_last_node(node->second);
+  book_.action_ended(action.id, true);
+}
+
+void FleetSession::go_on_waiting() {
+  std::erase_if(waits_, [&](Wait& wait) {
+    if (!book_.is_running(wait.action)) return true;
+    if (book_.is_paused()) return false;
+    wait.left -= elapsed_;
+    if (wait.left > Duration::zero()) return false;
+    book_.action_ended(wait.action, true);
+    return true;
+  });
+}
+
+void FleetSession::drive(Mission& mission) {
+  if (!mission.finished() || book_.mode() == OperatingMode::manual) return;
+  std::vector<DriveTarget> targets = book_.targets();
+  if (targets.empty() || mission.phase() != MissionPhase::idle) return;
+  targets.resize(1);
+  targets_ = std::move(targets);
+  mission.start({goal_of(targets_.front())});
+  is_ours_ = true;
+  is_stopped_by_us_ = false;
+}
+
+/// A reason that lasts: one that comes and goes is not worth a message each time.
+void FleetSession::note_stop(const NavigationStep& step) {
+  constexpr Duration lasts = std::chrono::milliseconds(500);
+  std::string why;
+  if (base_.state == BaseState::fault) {
+    why = "base: " + in_words(base_.state, base_.fault, base_.details);
+  } else if (step.stop) {
+    why = to_string(*step.stop);
+  }
+  if (why != stop_ || !stop_since_) {
+    stop_ = std::move(why);
+    stop_since_ = now_;
+  }
+  if (now_ - *stop_since_ >= lasts) book_.set_stopped(stop_);
+}
+
+bool FleetSession::wants_base(const NavigationStep& step) const {
+  const bool has_horizon = !book_.nodes().empty() && !book_.nodes().back().released;
+  if (!has_horizon || !step.estimate) return false;
+  double left_m = 0.0;
+  Vec2 from_m = step.estimate->map_from_base.position_m;
+  for (const FleetNode& node : book_.nodes()) {
+    if (!node.released) break;
+    left_m += (node.at->position_m - from_m).norm();
+    from_m = node.at->position_m;
+  }
+  return left_m < options_.ask_for_base_m;
+}
+
+void FleetSession::report(const NavigationStep& step, const Mission& mission) {
+  const Visible visible{.revision = book_.revision(),
+                        .connections = link_.connections(),
+                        .driving = !wheels_.holds(),
+                        .paused = book_.is_paused() || (is_ours_ && mission.paused()),
+                        .wants_base = wants_base(step),
+                        .field_violation = step.stop && waits_for_others(*step.stop),
+                        .emergency_stop = base_.fault == BaseFault::emergency_stop ? EmergencyStop::manual
+                                                                                   : EmergencyStop::none};
+  if (node_of_driven_ != book_.last_sequence()) driven_m_ = 0.0;
+  node_of_driven_ = book_.last_sequence();
+  const Duration since = now_ - reported_at_;
+  const bool is_due = !reported_ || since >= options_.most_interval ||
+                      (since >= options_.least_interval && (is_state_asked_ || visible != *reported_));
+  if (!is_due || !link_.publish(report_of(step, visible))) return;
+  reported_ = visible;
+  reported_at_ = now_;
+  is_state_asked_ = false;
+}
+
+FleetReport FleetSession::report_of(const NavigationStep& step, const Visible& visible) const {
+  constexpr double charged_percent = 80.0;  // VDA 5050: 20 for low and 80 for good where no more is known
+  FleetReport report{.order_id = book_.order_id(),
+                     .update_id = book_.update_id(),
+                     .last_node_id = book_.last_node_id(),
+                     .last_sequence = book_.last_sequence(),
+                     .nodes = book_.nodes(),
+                     .edges = book_.edges(),
+                     .actions = book_.actions(),
+                     .errors = book_.errors(),
+                     .map_from_base = {},
+                     .map = options_.book.map,
+                     .velocity = base_.measured.value_or(BodyVelocity{}),
+                     .driving = visible.driving,
+                     .paused = visible.paused,
+                     .wants_base = visible.wants_base,
+                     .since_last_node_m = driven_m_,
+                     .charge_percent = charged_percent,
+                     .battery_v = {},
+                     .mode = book_.mode(),
+                     .emergency_stop = visible.emergency_stop,
+                     .field_violation = visible.field_violation};
+  if (step.estimate) {
+    report.map_from_base = step.estimate->map_from_base;
+    report.deviation_m = std::sqrt(std::max(0.0, step.estimate->covariance.topLeftCorner<2, 2>().trace()));
+  }
+  if (base_.system && base_.system->battery_v > 0.0) {
+    report.battery_v = base_.system->battery_v;
+    if (options_.battery) report.charge_percent = options_.battery->percent_at(*report.battery_v);
+  }
+  return report;
+}
+
+}  // namespace lodestar
