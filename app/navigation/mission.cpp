@@ -62,6 +62,7 @@ MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& st
 void Mission::start(std::vector<Goal> goals) {
   goals_ = std::move(goals);
   current_ = 0;
+  failed_to_ = 0;
   path_ = {};
   state_ = Starting{};
   paused_ = false;
@@ -80,6 +81,11 @@ void Mission::append(std::vector<Goal> goals) {
   if (!std::holds_alternative<Driving>(state_)) return;
   const std::vector<Goal> now = trip();
   if (now.size() > before) navigation_.extend(std::span(now).subspan(before));
+}
+
+void Mission::pass_last() {
+  const bool is_on_way = std::holds_alternative<Starting>(state_) || std::holds_alternative<Driving>(state_);
+  if (!finished() && is_on_way && !goals_.back().heading_rad) goals_.back().passes = true;
 }
 
 std::vector<Goal> Mission::trip() const {
@@ -137,6 +143,7 @@ MissionEvent Mission::advance(Stopping state, const SensorInput& input, const Na
 }
 
 MissionEvent Mission::advance(Starting state, const SensorInput& input, const NavigationStep& step) {
+  if (current_ < failed_to_) return fail(input.now, failure_);
   if (input.base.state == BaseState::fault && options_.hold_on_base_fault) return hold(input);
   if (paused_) {
     navigation_.look_for_markers(false);
@@ -285,8 +292,10 @@ MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   return event;
 }
 
+/// From where it stands, the robot would come to the goals after one on the way by another way than was asked.
 MissionEvent Mission::fail(Stamp now, std::string why) {
   failure_ = std::move(why);
+  failed_to_ = current_ + trip().size();
   navigation_.halt();
   return end_goal(now, MissionEvent::goal_failed);
 }

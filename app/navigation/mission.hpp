@@ -42,7 +42,7 @@ struct MissionStep {
 };
 
 /// Drives to the goals in turn. Goals that are only passed and the next one that is not are one trip, with
-/// one path. Time arrives with the data.
+/// one path; where one of them fails, so do those after it. Time arrives with the data.
 class Mission {
  public:
   Mission(const KnownWorld& world, const NavigationOptions& navigation, std::vector<Goal> goals,
@@ -55,6 +55,9 @@ class Mission {
   /// More goals behind the last one, also while driving: where that one is only passed, the robot does not
   /// brake for it. When finished(), the robot starts for them.
   void append(std::vector<Goal> goals);
+  /// The last goal becomes one that is only passed, where it asks for no heading and the robot does not settle
+  /// there yet. Call before append(), for a goal that was only the last one known.
+  void pass_last();
   /// Brakes to rest within the limits; then the present goal fails, and those after it are dropped.
   void stop();
   /// Brakes to rest within the limits, until resume().
@@ -135,6 +138,7 @@ class Mission {
   State state_ = Starting{};
   std::size_t current_ = 0;
   std::size_t trip_start_ = 0;  ///< the goal with which the present trip began
+  std::size_t failed_to_ = 0;   ///< goals before this one are of a trip that failed
   DriveOptions drive_options_;
   RestDetector rest_;
   int attempt_ = 0;      ///< at the present goal

@@ -9,8 +9,7 @@
 
 namespace lodestar {
 
-/// The places, nodes and edges of a site as a directed graph, over which goals are reached. Refers to the
-/// places, which must live as long.
+/// The places, nodes and edges of a site as a directed graph, over which goals are reached.
 class RouteGraph {
  public:
   /// `max_mps` is the robot's own limit, along edges that have none.

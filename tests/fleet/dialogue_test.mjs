@@ -75,8 +75,24 @@ for (const version of ['2.0.0', '2.1.0']) {
       if (second) await wait('the master knows', () => second.done && !second.done.error);
     });
 
+    test('nodes on the way are passed without a stop, those of an update too, and maxSpeed holds on its edge', async () => {
+      const points = [[3.2, 5.2], [2.6, 5.2], [2.0, 5.2], [1.2, 5.2]];
+      const update = orderOver('flow', 1, points.slice(1), { from: 1 });
+      update.edges[0].maxSpeed = 0.2;
+      const from = witness.all('state').length;
+      witness.send('order', message(serial, version, orderOver('flow', 0, points, { released: 2 })));
+      witness.send('order', message(serial, version, update));
+      await wait('the order is done', () => witness.state().orderUpdateId === 1 && !witness.state().nodeStates.length);
+      const between = (first, last) => witness.all('state').slice(from)
+        .filter((state) => state.orderId === 'flow' && state.lastNodeSequenceId >= first && state.lastNodeSequenceId < last);
+      const passing = between(2, 6);
+      assert.ok(passing.some((state) => state.lastNodeSequenceId === 2) && passing.some((state) => state.lastNodeSequenceId === 4));
+      for (const { velocity, driving } of between(2, 4)) assert.ok(driving && velocity.vx > 0.1 && velocity.vx < 0.22, JSON.stringify(velocity));
+      assert.ok(between(2, 6).slice(0, -1).every((state) => state.driving));
+    });
+
     test('pause, resume, cancel, and a second cancel', async () => {
-      assign(orderOver('far', 0, [[3.2, 5.2], [6.0, 5.6]]));
+      assign(orderOver('far', 0, [[1.2, 5.2], [6.0, 5.6]]));
       await wait('it drives', () => witness.state().orderId === 'far' && witness.state().driving);
       const pause = instant(action('pause', 'startPause'));
       await wait('it stands', () => statusOf('pause') === 'FINISHED' && witness.state().paused && !witness.state().driving);
