@@ -201,7 +201,8 @@ std::unique_ptr<Scanner> scanner_of(const Site& site) {
 }
 
 ExitCode run_command(RunArguments arguments) {
-  const bool is_given_goals = !arguments.goals.empty() || !arguments.mission.empty() || arguments.fleet.is_wanted;
+  const bool is_given_goals =
+      !arguments.goals.empty() || !arguments.mission.empty() || arguments.fleet.is_wanted;
   if (!is_given_goals && !arguments.serve && !arguments.survey)
     throw InputError("found neither --goal, --mission, --serve, --fleet nor --survey");
   if (arguments.runs.empty()) arguments.runs = runs_folder();

@@ -88,8 +88,8 @@ std::optional<FleetError> OrderBook::infeasible(const FleetOrder& order) const {
       return refuse(fmt::format("{} is not supported", edge.demands.front()),
                     {{"edgeId", edge.id}, {"parameter", edge.demands.front()}});
     if (edge.max_mps && *edge.max_mps < options_.slowest_mps)
-      return refuse(fmt::format("maxSpeed {} is below {} m/s, the least at which the robot moves", *edge.max_mps,
-                                options_.slowest_mps),
+      return refuse(fmt::format("maxSpeed {} is below {} m/s, the least at which the robot moves",
+                                *edge.max_mps, options_.slowest_mps),
                     {{"edgeId", edge.id}, {"parameter", "maxSpeed"}});
     if (!edge.actions.empty())
       return refuse("no actions on edges", {{"edgeId", edge.id}, {"actionId", edge.actions.front().id}});

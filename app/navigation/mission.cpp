@@ -292,7 +292,8 @@ MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   return event;
 }
 
-/// From where it stands, the robot would come to the goals after one on the way by another way than was asked.
+/// From where it stands, the robot would come to the goals after one on the way by another way than was
+/// asked.
 MissionEvent Mission::fail(Stamp now, std::string why) {
   failure_ = std::move(why);
   failed_to_ = current_ + trip().size();

@@ -55,8 +55,8 @@ class Mission {
   /// More goals behind the last one, also while driving: where that one is only passed, the robot does not
   /// brake for it. When finished(), the robot starts for them.
   void append(std::vector<Goal> goals);
-  /// The last goal becomes one that is only passed, where it asks for no heading and the robot does not settle
-  /// there yet. Call before append(), for a goal that was only the last one known.
+  /// The last goal becomes one that is only passed, where it asks for no heading and the robot does not
+  /// settle there yet. Call before append(), for a goal that was only the last one known.
   void pass_last();
   /// Brakes to rest within the limits; then the present goal fails, and those after it are dropped.
   void stop();
