@@ -39,7 +39,7 @@ std::vector<std::unique_ptr<FleetService>> services_for(const Site& site,
 ExitCode fleet_demo(const FleetDemoArguments& arguments) {
   const Site site = open_site(arguments.site);
   SimulatedDriveOptions options;
-  options.camera = site.camera;
+  options.camera = site.default_camera;
   options.seed = arguments.seed;
   const std::vector<Pose2> starts = fleet_starts(site, options.camera, arguments.robots, arguments.apart_m);
   const std::vector<std::unique_ptr<FleetService>> services = services_for(site, arguments);

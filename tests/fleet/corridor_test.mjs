@@ -64,12 +64,12 @@ class Trip {
     const edges = this.points.slice(1).map((_, i) => ({
       edgeId: `e${i}`, sequenceId: 2 * i + 1, released: i < this.released, startNodeId: `n${i}`, endNodeId: `n${i + 1}`, actions: [],
     }));
-    const order = { orderId: this.robot.serial, orderUpdateId: this.stages, nodes: nodes.slice(first), edges: edges.slice(first) };
+    const order = { manufacturer: 'lodestar', orderId: this.robot.serial, orderUpdateId: this.stages, nodes: nodes.slice(first), edges: edges.slice(first) };
     this.robot.witness.send('order', message(this.robot.serial, '2.0.0', order));
   }
 }
 
-test('ten robots, one broker, one corridor: no contact and no deadlock', async () => {
+test('ten robots, one broker, one corridor: no contact and no deadlock', async (run) => {
   const folder = mkdtempSync(join(tmpdir(), 'lodestar-corridor-'));
   const port = await freePort();
   const url = `mqtt://127.0.0.1:${port}`;
@@ -78,10 +78,14 @@ test('ten robots, one broker, one corridor: no contact and no deadlock', async (
   let words = '';
   for (const stream of [demo.stdout, demo.stderr]) stream.on('data', (bytes) => { words += bytes; });
   const ended = new Promise((done) => demo.on('exit', done));
-  process.once('exit', () => demo.kill('SIGKILL'));
-  await until('the robots have names', () => words.includes(`lodestar/rooms-${count}\n`), () => words);
+  run.after(() => { demo.kill('SIGKILL'); return broker.kill(); });
+  let isOver = false;
+  void ended.then(() => { isOver = true; });
+  await until('the robots have names', () => isOver || words.includes(`lodestar/rooms-${count}\n`), () => words);
+  assert.ok(!isOver, words);
   const serials = [...words.matchAll(/lodestar\/(\S+)\n/g)].map((one) => one[1]);
   const robots = serials.map((serial) => ({ serial, witness: new Witness(url, serial, '2.0.0', 'lodestar') }));
+  run.after(() => robots.forEach(({ witness }) => witness.end()));
   await until('all know where they are', () => robots.every((robot) => robot.witness.state()?.agvPosition?.positionInitialized), () => words);
 
   const rooms = [null, null, null];
@@ -96,10 +100,9 @@ test('ten robots, one broker, one corridor: no contact and no deadlock', async (
   }
   await until('all are there', () => { trips.forEach((trip) => trip.advance()); return trips.every((trip) => trip.isDone); }, () => words);
   trips.forEach((trip, i) => assert.ok(apart(at(trip.robot), places[i]) < 0.05, trip.robot.serial));
-  for (const { witness } of robots) { assert.deepEqual(witness.faults, []); witness.end(); }
+  for (const { witness } of robots) assert.deepEqual(witness.faults, []);
   demo.kill('SIGINT');
   assert.equal(await ended, 0, words);
   assert.equal([...words.matchAll(/robot \d+: [\d.]+ m driven, 0 contacts/g)].length, count, words);
-  await broker.kill();
   rmSync(folder, { recursive: true, force: true });
 });

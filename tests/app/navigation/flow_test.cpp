@@ -4,7 +4,7 @@
 
 #include "tests/app/navigation/lab.hpp"
 
-// Goals on the way, in the lab: along x in front of the robot's start, which is clear for some metres.
+// Goals on the way, in the lab: along x from a place in front of which the floor is clear for 2.4 m.
 namespace lodestar {
 namespace {
 
@@ -34,13 +34,16 @@ struct Flow {
   }
 };
 
+const Pose2 start{{1.2, 4.05}, 0.0};
+
 Goal ahead(double x_m, bool passes) {
-  return {.position_m = lab().start * Vec2(x_m, 0.0), .passes = passes};
+  return {.position_m = start * Vec2(x_m, 0.0), .passes = passes};
 }
 
 /// `happens` is asked before every step, with the way driven.
 Flow drive(std::vector<Goal> goals, const std::function<void(Mission&, double)>& happens = {}) {
-  const Lab lab;
+  Lab lab;
+  lab.site.start = start;
   Simulation simulation = lab.simulation();
   BaseDriver base(simulation.can());
   Mission mission(lab.known, navigation_options(lab.site.robot), std::move(goals));
@@ -55,7 +58,7 @@ Flow drive(std::vector<Goal> goals, const std::function<void(Mission&, double)>&
     if (event != MissionEvent::none && event != MissionEvent::path_planned) flow.events.push_back(event);
     if (simulation.scorer().track().empty()) continue;
     const Pose2& truth = simulation.scorer().track().back().map_from_base;
-    along_m = (inverse(lab.site.start) * truth.position_m).x();
+    along_m = (inverse(start) * truth.position_m).x();
     before_m.erase(before_m.begin());
     before_m.push_back(along_m);
     flow.moments.push_back({seconds(period) * i, along_m, (before_m.back() - before_m.front()) / 0.1});
@@ -110,6 +113,25 @@ TEST(Flow, goals_appended_to_a_goal_of_rest_come_after_it) {
   });
   EXPECT_EQ(flow.events, std::vector(2, MissionEvent::goal_arrived)) << flow.failure;
   EXPECT_LT(flow.slowest_mps(0.9, 1.1), 0.01);
+}
+
+TEST(Flow, a_last_goal_becomes_one_that_is_passed) {
+  bool is_appended = false;
+  const Flow flow = drive({ahead(1.0, false)}, [&](Mission& mission, double along_m) {
+    if (is_appended || along_m < 0.3) return;
+    is_appended = true;
+    mission.pass_last();
+    mission.append({ahead(2.0, false)});
+  });
+  EXPECT_EQ(flow.events, passed_then_arrived) << flow.failure;
+  EXPECT_GT(flow.slowest_mps(0.5, 1.5), 0.3);
+}
+
+TEST(Flow, a_trip_fails_as_a_whole) {
+  const Goal behind_wall{.position_m = {-50.0, 0.0}, .heading_rad = {}, .passes = true};
+  const Flow flow = drive({ahead(1.0, true), behind_wall, ahead(2.0, false)});
+  EXPECT_EQ(flow.events, std::vector(3, MissionEvent::goal_failed));
+  EXPECT_LT(flow.moments.back().along_m, 0.01);
 }
 
 /// Measured over 0.1 s, in which a step of the wheels' slip shows.

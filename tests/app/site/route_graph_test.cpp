@@ -64,9 +64,7 @@ TEST(RouteGraph, leaves_the_graph_for_a_goal_beside_it) {
 
 TEST(RouteGraph, names_what_no_edges_lead_to) {
   Places places = square();
-  places.edges[1].one_way = true;
-  places.edges[1].from = "D";
-  places.edges[1].to = "B";  // nothing leads to D any more
+  places.edges[1] = {.from = "D", .to = "B", .one_way = true, .max_mps = {}};  // nothing leads to D any more
   const RouteGraph graph(places, 0.6);
   EXPECT_EQ(graph.unreachable_from("A"), (std::vector<std::string>{"D", "C"}));
   EXPECT_FALSE(graph.over_edges({0.0, 0.0}, Goal{{4.0, 4.0}, std::nullopt}));
