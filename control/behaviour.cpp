@@ -231,10 +231,27 @@ BehaviourState next(BehaviourState state, const Circumstances& at) {
                     std::move(state));
 }
 
+/// What a trip under way asks for while it goes on.
+std::optional<PlanRequest> wanted_on_the_way(const Trip& trip) {
+  if (trip.wanted || trip.goals_beyond == 0 || !has_path(trip)) return trip.wanted;
+  return PlanRequest{.kind = PlanKind::extension};
+}
+
+/// Without a way on, the trip ends where it was to end.
+void extend(Trip& trip, const PlanAnswer& answer) {
+  trip.goals_beyond = 0;
+  if (const auto* more = std::get_if<PathExtended>(&answer))
+    trip.drive.extend(more->tail, more->final_heading_rad, more->blend_corridor_m);
+}
+
 /// A review changes nothing unless the path must be replaced.
 template <typename Driving>
 BehaviourState with_review(Driving state, const PlanAnswer& answer) {
   Trip& trip = state.trip;
+  if (!trip.wanted) {
+    extend(trip, answer);
+    return state;
+  }
   if (!std::holds_alternative<PathMustBeReplaced>(answer)) {
     trip.wanted.reset();
     return state;
@@ -261,6 +278,7 @@ BehaviourState with_plan(Asking state, const PlanAnswer& answer, Backtrack& plac
       std::holds_alternative<PathStaysValid>(answer) || state.request.kind == PlanKind::another_way;
   if (const auto* found = std::get_if<PathFound>(&answer)) {
     trip.drive = found->drive;
+    trip.goals_beyond = 0;
   } else if (!holds) {
     return Standing{};
   }
@@ -278,8 +296,8 @@ Behaviour decided(Behaviour before, const Facts& facts, const BehaviourOptions& 
 
 std::optional<PlanRequest> plan_wanted(const BehaviourState& state) {
   if (const auto* asking = std::get_if<Asking>(&state)) return asking->request;
-  if (const auto* following = std::get_if<Following>(&state)) return following->trip.wanted;
-  if (const auto* blocked = std::get_if<Blocked>(&state)) return blocked->trip.wanted;
+  if (const auto* following = std::get_if<Following>(&state)) return wanted_on_the_way(following->trip);
+  if (const auto* blocked = std::get_if<Blocked>(&state)) return wanted_on_the_way(blocked->trip);
   return std::nullopt;
 }
 
@@ -312,9 +330,15 @@ Behaviour sent_to(Behaviour before, const Vec2& goal_m, std::optional<double> go
   Trip trip{RotateThenDrive({}, std::nullopt, options.drive), std::nullopt, false};
   if (trip_in(before.state) != nullptr) trip = moving_trip(std::move(before.state));
   trip.prefers_wide_margins = false;
+  trip.goals_beyond = 0;
   trip.wanted =
       PlanRequest{.kind = PlanKind::new_goal, .goal_m = goal_m, .goal_heading_rad = goal_heading_rad};
   before.state = at_rest_asking(std::move(trip));
+  return before;
+}
+
+Behaviour with_goals_beyond(Behaviour before, std::size_t goals) {
+  if (Trip* const trip = trip_in(before.state)) trip->goals_beyond = goals;
   return before;
 }
 

@@ -77,7 +77,12 @@ struct PathNotFound {};        ///< no path, or no other one
 struct PathFound {
   RotateThenDrive drive;
 };
-using PlanAnswer = std::variant<PathStaysValid, PathMustBeReplaced, PathNotFound, PathFound>;
+struct PathExtended {  ///< only of an extension: from the path's end on
+  Path tail;
+  std::optional<double> final_heading_rad;
+  double blend_corridor_m = 0.0;
+};
+using PlanAnswer = std::variant<PathStaysValid, PathMustBeReplaced, PathNotFound, PathFound, PathExtended>;
 
 /// Applies the answer to the wanted plan.
 Behaviour answered(Behaviour before, const PlanAnswer& answer);
@@ -85,6 +90,9 @@ Behaviour answered(Behaviour before, const PlanAnswer& answer);
 /// Starts a trip to another goal: asks for a plan at once when at rest, else after braking to rest.
 Behaviour sent_to(Behaviour before, const Vec2& goal_m, std::optional<double> goal_heading_rad,
                   const BehaviourOptions& options);
+
+/// So many goals lie beyond the end of the trip's path: asks for the way on, without braking.
+Behaviour with_goals_beyond(Behaviour before, std::size_t goals);
 
 struct Moved {
   BodyVelocity command;

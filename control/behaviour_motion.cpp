@@ -157,8 +157,8 @@ std::string_view to_string(const BehaviourState& state) {
     return names.at(static_cast<std::size_t>(braking->reason));
   }
   if (const auto* asking = std::get_if<Asking>(&state)) {
-    constexpr std::array names{"Asking: review", "Asking: replan", "Asking: another way", "Asking: new goal",
-                               "Asking: way back"};
+    constexpr std::array names{"Asking: extension",   "Asking: review",   "Asking: replan",
+                               "Asking: another way", "Asking: new goal", "Asking: way back"};
     return names.at(static_cast<std::size_t>(asking->request.kind));
   }
   constexpr std::array names{"Standing",  "Arrived", "Following",    "Blocked", "",

@@ -13,6 +13,7 @@ namespace lodestar {
 
 /// Purpose of a plan, in rising urgency.
 enum class PlanKind {
+  extension,    ///< on from the path's end to goals that were added. Asked while driving
   review,       ///< is the path still clear, and no other clearly faster? Asked while driving
   replan,       ///< after a failed review: a path to the same goal, unless the old one is valid after all
   another_way,  ///< with wider margins, and away from where no marker was found
@@ -36,6 +37,7 @@ struct Trip {
   RotateThenDrive drive;              ///< moves the robot along the path, to rest, or on the spot
   std::optional<PlanRequest> wanted;  ///< a plan needed before the robot goes on; a review can wait
   bool prefers_wide_margins = false;  ///< the pose was too uncertain once on the way to this goal
+  std::size_t goals_beyond = 0;       ///< goals that were added, to which the path does not lead yet
 };
 
 /// Follows no path.

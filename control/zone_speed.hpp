@@ -28,6 +28,12 @@ class ZoneSpeed {
   DriveOptions drive_;
 };
 
+/// The speed to command in order to keep to a limit: 3 % below it, and never below the motors' dead band.
+double commanded_mps(double limit_mps, const DriveOptions& drive);
+
+/// The speed from which the robot brakes to this one within the distance.
+double speed_before(double then_mps, double distance_m, const DriveOptions& drive);
+
 /// The limit, lowered to what a zone allows ahead and back.
 SpeedLimit lowered(SpeedLimit limit, const std::optional<double>& zone_mps);
 

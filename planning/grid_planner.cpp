@@ -42,6 +42,8 @@ std::string_view to_string(PlanFailure failure) {
       return "goal occupied";
     case PlanFailure::no_path:
       return "no path to the goal";
+    case PlanFailure::line_blocked:
+      return "the straight line to the goal is blocked";
     case PlanFailure::unsure:
       return "no path on which the pose stays sure enough";
     case PlanFailure::limit_reached:

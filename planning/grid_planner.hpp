@@ -54,6 +54,7 @@ enum class PlanFailure {
   start_occupied,
   goal_occupied,
   no_path,       ///< there is none
+  line_blocked,  ///< the straight line that a goal demands is not clear
   unsure,        ///< paths exist, but none found meets the UncertaintyConstraint
   limit_reached  ///< a sampling planner found none within its limits, though there may be one
 };

@@ -40,6 +40,8 @@ std::string_view to_string(RouteChange change) {
       return "the path was blocked";
     case RouteChange::left_path:
       return "the robot had left the path";
+    case RouteChange::extended:
+      return "goals were added";
     case RouteChange::more_certain:
       return "planned anew after too long a way without a marker";
     case RouteChange::new_goal:
@@ -69,10 +71,17 @@ Path rest_of(const Path& path, const Vec2& position_m) {
 
 RouteUpdate updated(const Route& route, const Pose2& pose, const MarginPlanner& planner,
                     const RouteOptions& options) {
+  const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = route.goal_heading_rad};
+  return updated(route, pose, planner, options,
+                 [&] { return planner.plan(pose.position_m, route.path.waypoints_m.back(), headings); });
+}
+
+RouteUpdate updated(const Route& route, const Pose2& pose, const MarginPlanner& planner,
+                    const RouteOptions& options, const std::function<PlanResult()>& plan_anew) {
   if (route.path.waypoints_m.empty())
     return {.route = route, .change = RouteChange::kept, .failure = std::nullopt};
   const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = route.goal_heading_rad};
-  const PlanResult fresh = planner.plan(pose.position_m, route.path.waypoints_m.back(), headings);
+  const PlanResult fresh = plan_anew();
   if (distance_to_path_m(route.path, pose.position_m) > options.left_path_m) {
     return replaced(route, fresh, RouteChange::left_path);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "planning/margin_planner.hpp"
@@ -19,6 +20,7 @@ enum class RouteChange {
   better,        ///< replaced by a clearly faster path
   blocked,       ///< replaced, as an obstacle blocks it
   left_path,     ///< replaced, as the robot has left it
+  extended,      ///< goes on to goals that were added
   more_certain,  ///< replaced, as the pose became too uncertain on it
   new_goal,      ///< first path to another goal; without one, failure says why
   lost           ///< cannot be followed and there is no other: failure says why
@@ -44,5 +46,9 @@ Path rest_of(const Path& path, const Vec2& position_m);
 /// clearly slower than another. A kept route starts at the robot and keeps the waypoints ahead.
 RouteUpdate updated(const Route& route, const Pose2& pose, const MarginPlanner& planner,
                     const RouteOptions& options = {});
+
+/// The same for a route that leads over more than its end: `plan_anew` plans over all that is to come.
+RouteUpdate updated(const Route& route, const Pose2& pose, const MarginPlanner& planner,
+                    const RouteOptions& options, const std::function<PlanResult()>& plan_anew);
 
 }  // namespace lodestar

@@ -26,6 +26,7 @@ std::vector<Command> calibrate_commands(CLI::App& lodestar);
 std::vector<Command> bench_commands(CLI::App& lodestar);
 Command bench_localize_command(CLI::App& bench);
 Command bench_survey_command(CLI::App& bench);
+std::vector<Command> fleet_commands(CLI::App& lodestar);
 std::vector<Command> run_commands(CLI::App& lodestar);
 std::vector<Command> scenario_commands(CLI::App& lodestar);
 std::vector<Command> survey_commands(CLI::App& lodestar);

@@ -17,8 +17,8 @@ ExitCode replay_in_fleet(const Site& site, SimulatedDriveOptions options, const 
         fleet.session().attend(step, mission);
         return !Interruption::asked();
       });
-  fmt::print("{:.1f} m driven, {} contacts\n", driven.driven_m, driven.contacts);
-  return driven.contacts == 0 ? done : job_failed;
+  fmt::print("{:.1f} m driven, {} contacts\n", driven.driven_m, driven.touches);
+  return driven.touches == 0 ? done : job_failed;
 }
 
 }  // namespace lodestar

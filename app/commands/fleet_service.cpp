@@ -18,6 +18,10 @@ std::string topic_word(std::string name) {
   return name;
 }
 
+std::string named(const std::string& name, const std::string& words) {
+  return name.empty() ? words : name + ": " + words;
+}
+
 }  // namespace
 
 CLI::Option* add_fleet_option(CLI::App& command, FleetArguments& arguments) {
@@ -50,9 +54,12 @@ FleetSettings fleet_settings(const Site& site, const FleetArguments& arguments, 
   return settings;
 }
 
-FleetService::FleetService(const Site& site, const FleetSettings& settings)
-    : session_(link_, fleet_session_options(site, settings), log_info),
+FleetService::FleetService(const Site& site, const FleetSettings& settings, const std::string& name)
+    : session_(link_, fleet_session_options(site, settings),
+               [name](const std::string& words) { log_info(named(name, words)); }),
       transport_(settings, factsheet_of(site.robot), link_,
-                 [](Severity severity, const std::string& words) { program_log().say(severity, words); }) {}
+                 [name](Severity severity, const std::string& words) {
+                   program_log().say(severity, named(name, words));
+                 }) {}
 
 }  // namespace lodestar

@@ -26,7 +26,8 @@ FleetSettings fleet_settings(const Site& site, const FleetArguments& arguments, 
 /// A robot in a fleet: what carries out its orders, and the connection to the broker.
 class FleetService {
  public:
-  FleetService(const Site& site, const FleetSettings& settings);
+  /// `name` goes before what it says, where several robots speak.
+  FleetService(const Site& site, const FleetSettings& settings, const std::string& name = {});
 
   [[nodiscard]] FleetSession& session() { return session_; }
 

@@ -20,10 +20,11 @@ namespace {
 std::vector<Command> all_commands(CLI::App& app) {
   std::vector<Command> all;
   for (const auto make :
-       {replay_commands,    campaign_commands, soak_commands,   localize_commands, detect_commands,
-        plan_commands,      map_commands,      site_commands,   markers_commands,  places_commands,
-        calibrate_commands, survey_commands,   bench_commands,  base_commands,     scanner_commands,
-        run_commands,       scenario_commands, doctor_commands, serve_commands,    command_line_commands}) {
+       {replay_commands,      campaign_commands, soak_commands,     localize_commands, detect_commands,
+        plan_commands,        map_commands,      site_commands,     markers_commands,  places_commands,
+        calibrate_commands,   survey_commands,   bench_commands,    base_commands,     scanner_commands,
+        run_commands,         fleet_commands,    scenario_commands, doctor_commands,   serve_commands,
+        command_line_commands}) {
     for (Command& command : make(app)) all.push_back(std::move(command));
   }
   return all;
@@ -31,8 +32,11 @@ std::vector<Command> all_commands(CLI::App& app) {
 
 /// Of the commands that say something while they run.
 void add_log_option(CLI::App& app) {
-  for (const char* name : {"run", "serve", "replay", "base", "scanner", "soak"}) {
-    app.get_subcommand(name)
+  std::vector<CLI::App*> talkers{app.get_subcommand("fleet")->get_subcommand("demo")};
+  for (const char* name : {"run", "serve", "replay", "base", "scanner", "soak"})
+    talkers.push_back(app.get_subcommand(name));
+  for (CLI::App* command : talkers) {
+    command
         ->add_option_function<std::string>(
             "--log-level",
             [](const std::string& level) { program_log().set_least(severity_named(level).value()); },

@@ -29,6 +29,7 @@
 #include "app/simulate/simulated_drive.hpp"
 #include "app/simulate/simulated_drives.hpp"
 #include "app/site/arguments.hpp"
+#include "app/site/route_graph.hpp"
 #include "app/site/site_folder.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
@@ -45,6 +46,8 @@ struct ReplayArguments {
   std::string camera;
   std::string planner = "fastest";
   std::vector<std::string> goals;
+  std::string mission;
+  bool routes = false;
   std::optional<double> pictures_hz;
   UncertaintyConstraintOptions uncertainty_constraint;
   DisturbanceArguments disturbances;
@@ -88,10 +91,11 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
     if (!file.warning.empty()) fmt::print(stderr, "lodestar: warning: {}\n", file.warning);
     options.learned = std::move(file.state);
   }
-  if (arguments.goals.empty()) return options;
-  options.goals.clear();
-  for (const std::string& text : arguments.goals)
-    options.goals.push_back(parse_goal("--goal", text, site.places));
+  if (!arguments.goals.empty() || !arguments.mission.empty())
+    options.goals = goals_in(arguments.goals, arguments.mission, site.places);
+  if (arguments.routes)
+    options.goals =
+        RouteGraph(site.places, site.robot.max_forward_mps).over_edges(site.start.position_m, options.goals);
   return options;
 }
 
@@ -103,9 +107,11 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
                   options.seed, options.camera, to_string(options.planner));
   command += words_of(arguments.uncertainty_constraint);
   for (const Goal& goal : options.goals) {
+    if (goal.passes) continue;  // a point of the route graph
     command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
   }
+  if (arguments.routes) command += " --routes";
   if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
   return command + words_of(arguments.people) + words_of(arguments.disturbances);
 }
@@ -303,6 +309,12 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
+      ->add_option("--mission", arguments->mission,
+                   "Drive to the places of this mission of places.yaml in turn")
+      ->excludes(command->get_option("--goal"));
+  command->add_flag("--routes", arguments->routes,
+                    "Drive to the goals along the edges of places.yaml: one-way edges and their speeds hold");
+  command
       ->add_option("--pictures", arguments->pictures_hz,
                    "Camera pictures per second to keep in the run folder; default: 2 with --serve, else none")
       ->check(CLI::Range(0.0, 100.0));
@@ -322,8 +334,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
   serve->excludes(command->get_option("--runs"))->excludes(command->get_option("--state"));
   command->add_flag("--survey", arguments->survey,
                     "The drive is a survey: says how to make a registry of it; with --serve one log for all "
-                    "that is driven, "
-                    "by hand or by goals, and the console shows how it stands");
+                    "that is driven, by hand or by goals, and the console shows how it stands");
   command
       ->add_flag("--explore", arguments->explore,
                  "With --survey: the robot knows no marker, and drives by itself until it has surveyed all")

@@ -3,14 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <span>
 
+#include "app/navigation/navigation_setup.hpp"
 #include "app/recording/drive_moment.hpp"
 
 namespace lodestar {
 namespace {
 
 Goal goal_of(const DriveTarget& target) {
-  return {.position_m = target.position_m, .heading_rad = target.heading_rad};
+  return {.position_m = target.position_m,
+          .heading_rad = target.heading_rad,
+          .passes = !target.rests,
+          .max_mps = target.max_mps};
+}
+
+std::vector<Goal> goals_of(std::span<const DriveTarget> targets) {
+  std::vector<Goal> goals;
+  std::ranges::transform(targets, std::back_inserter(goals), goal_of);
+  return goals;
 }
 
 }  // namespace
@@ -27,7 +39,7 @@ FleetSessionOptions fleet_session_options(const Site& site, const FleetSettings&
     book.positions[node.name] = {.position_m = node.position_m, .heading_rad = {}, .map = book.map};
   book.node_actions = {"wait"};
   book.instant_actions = {"initPosition", "stateRequest", "factsheetRequest"};
-  book.fastest_mps = site.robot.max_forward_mps;
+  book.slowest_mps = navigation_options(site.robot).drive.min_forward_mps;
   options.battery = load_battery_curve(site.robot_file);
   const double fastest_mps = site.robot.max_forward_mps;
   options.ask_for_base_m =
@@ -72,22 +84,27 @@ void FleetSession::attend(const MissionStep& step, Mission& mission) {
 }
 
 /// What the drive has come to.
-void FleetSession::follow(const MissionStep& step, const Mission& mission) {
+void FleetSession::follow(const MissionStep& step, Mission& mission) {
   if (!is_ours_) return;
-  const bool has_ended_goal =
-      step.event == MissionEvent::goal_arrived || step.event == MissionEvent::goal_failed;
+  const bool has_ended_goal = step.event != MissionEvent::none && step.event != MissionEvent::path_planned;
   if (has_ended_goal && mission.current() > 0 && mission.current() <= targets_.size()) {
     const DriveTarget& target = targets_[mission.current() - 1];
-    if (step.event == MissionEvent::goal_arrived) {
+    if (step.event != MissionEvent::goal_failed) {
       book_.reached(target.sequence);
-      say("at node " + target.node);
+      say((step.event == MissionEvent::goal_passed ? "past node " : "at node ") + target.node);
     } else if (!is_stopped_by_us_ && mission.failure() != "stopped by the operator") {
       book_.drive_failed(mission.failure());
       say(fmt::format("node {} not reached: {}", target.node, mission.failure()));
+      stop(mission);
     }
   }
-  if (!mission.finished()) return;
-  is_ours_ = false;
+  if (mission.finished()) is_ours_ = false;
+}
+
+/// For the master, or because a node cannot be reached: those after it are not driven to.
+void FleetSession::stop(Mission& mission) {
+  mission.stop();
+  is_stopped_by_us_ = true;
 }
 
 /// A person's stop of the master's drive is seen while it brakes.
@@ -127,10 +144,7 @@ void FleetSession::hold(Mission& mission) {
   if (is_under_way && book_.is_paused() && !mission.paused()) mission.pause();
   if (is_under_way && has_paused_ && !book_.is_paused()) mission.resume();
   has_paused_ = is_under_way && book_.is_paused();
-  if (is_under_way && book_.is_cancelling() && !is_stopped_by_us_) {
-    mission.stop();
-    is_stopped_by_us_ = true;
-  }
+  if (is_under_way && book_.is_cancelling() && !is_stopped_by_us_) stop(mission);
   const bool may_rest = mission.finished() || (mission.paused() && !book_.is_cancelling());
   if (may_rest && wheels_.holds()) book_.came_to_rest();
 }
@@ -188,15 +202,25 @@ void FleetSession::go_on_waiting() {
   });
 }
 
+/// Over the released nodes in one flow; what is released meanwhile is appended to it.
 void FleetSession::drive(Mission& mission) {
-  if (!mission.finished() || book_.mode() == OperatingMode::manual) return;
-  std::vector<DriveTarget> targets = book_.targets();
-  if (targets.empty() || mission.phase() != MissionPhase::idle) return;
-  targets.resize(1);
-  targets_ = std::move(targets);
-  mission.start({goal_of(targets_.front())});
-  is_ours_ = true;
-  is_stopped_by_us_ = false;
+  if (book_.mode() == OperatingMode::manual) return;
+  const std::vector<DriveTarget> targets = book_.targets();
+  if (targets.empty()) return;
+  if (mission.finished()) {
+    if (mission.phase() != MissionPhase::idle) return;
+    targets_ = targets;
+    mission.start(goals_of(targets_));
+    is_ours_ = true;
+    is_stopped_by_us_ = false;
+  } else if (is_ours_ && !is_stopped_by_us_) {
+    const auto is_new = [&](const DriveTarget& target) { return target.sequence > targets_.back().sequence; };
+    const auto more = std::ranges::find_if(targets, is_new);
+    if (more == targets.end()) return;
+    mission.pass_last();  // it was the last because no more was released
+    mission.append(goals_of({more, targets.end()}));
+    targets_.insert(targets_.end(), more, targets.end());
+  }
 }
 
 /// A reason that lasts: one that comes and goes is not worth a message each time.

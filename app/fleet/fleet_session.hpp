@@ -58,7 +58,8 @@ class FleetSession {
     bool operator==(const Visible&) const = default;
   };
 
-  void follow(const MissionStep& step, const Mission& mission);
+  void follow(const MissionStep& step, Mission& mission);
+  void stop(Mission& mission);
   void see_who_drives(const Mission& mission);
   void take_messages(const NavigationStep& step);
   void hold(Mission& mission);

@@ -118,6 +118,11 @@ bool OrderBook::rests_at(const FleetNode& node) const {
          });
 }
 
+std::optional<double> OrderBook::limit_before(const FleetNode& node) const {
+  const auto edge = std::ranges::find(edges_, node.sequence - 1, &FleetEdge::sequence);
+  return edge == edges_.end() ? std::nullopt : edge->max_mps;
+}
+
 std::vector<DriveTarget> OrderBook::targets() const {
   std::vector<DriveTarget> targets;
   if (is_paused_ || is_cancelling_ || drive_error_ || must_stay()) return targets;
@@ -127,6 +132,7 @@ std::vector<DriveTarget> OrderBook::targets() const {
                        .sequence = node.sequence,
                        .position_m = node.at->position_m,
                        .heading_rad = node.at->heading_rad,
+                       .max_mps = limit_before(node),
                        .rests = rests_at(node)};
     targets.push_back(std::move(target));
     if (targets.back().rests) return targets;

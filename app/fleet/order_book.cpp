@@ -87,9 +87,9 @@ std::optional<FleetError> OrderBook::infeasible(const FleetOrder& order) const {
     if (!edge.demands.empty())
       return refuse(fmt::format("{} is not supported", edge.demands.front()),
                     {{"edgeId", edge.id}, {"parameter", edge.demands.front()}});
-    if (edge.max_mps && *edge.max_mps < options_.fastest_mps)
-      return refuse(fmt::format("maxSpeed {} is not kept: the robot drives up to {} m/s", *edge.max_mps,
-                                options_.fastest_mps),
+    if (edge.max_mps && *edge.max_mps < options_.slowest_mps)
+      return refuse(fmt::format("maxSpeed {} is below {} m/s, the least at which the robot moves",
+                                *edge.max_mps, options_.slowest_mps),
                     {{"edgeId", edge.id}, {"parameter", "maxSpeed"}});
     if (!edge.actions.empty())
       return refuse("no actions on edges", {{"edgeId", edge.id}, {"actionId", edge.actions.front().id}});

@@ -17,7 +17,7 @@ struct OrderBookOptions {
   /// onto the node. Chosen by hand: a third of the usual distance between nodes.
   double start_tolerance_m = 0.3;
   double heading_tolerance_rad = radians(5.0);  ///< at the first node, before it turns there
-  double fastest_mps = 0.0;                     ///< the robot's; a limit of an edge below it cannot be kept
+  double slowest_mps = 0.0;                     ///< the robot's; a limit of an edge below it cannot be kept
 };
 
 /// An action and what has come of it.
@@ -40,6 +40,7 @@ struct DriveTarget {
   std::uint32_t sequence = 0;
   Vec2 position_m = Vec2::Zero();
   std::optional<double> heading_rad;
+  std::optional<double> max_mps = std::nullopt;  ///< on the edge that leads there
   bool rests = false;  ///< an action there, or the end of the base, asks the robot to stop
 };
 
@@ -123,6 +124,7 @@ class OrderBook {
   [[nodiscard]] const NodePosition* position_of(const FleetNode& node) const;
   [[nodiscard]] bool must_stay() const;
   [[nodiscard]] bool rests_at(const FleetNode& node) const;
+  [[nodiscard]] std::optional<double> limit_before(const FleetNode& node) const;
 
   OrderBookOptions options_;
   std::string order_id_;

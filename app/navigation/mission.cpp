@@ -1,5 +1,6 @@
 #include "app/navigation/mission.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "control/travel_time.hpp"
@@ -61,10 +62,36 @@ MissionEvent Mission::advance(const SensorInput& input, const NavigationStep& st
 void Mission::start(std::vector<Goal> goals) {
   goals_ = std::move(goals);
   current_ = 0;
+  failed_to_ = 0;
   path_ = {};
   state_ = Starting{};
   paused_ = false;
   steered_until_.reset();
+}
+
+/// The trip under way becomes longer only where its last goal is one that is passed.
+void Mission::append(std::vector<Goal> goals) {
+  if (finished()) {
+    state_ = Starting{};
+    paused_ = false;
+    steered_until_.reset();
+  }
+  const std::size_t before = finished() ? 0 : trip().size();
+  goals_.insert(goals_.end(), goals.begin(), goals.end());
+  if (!std::holds_alternative<Driving>(state_)) return;
+  const std::vector<Goal> now = trip();
+  if (now.size() > before) navigation_.extend(std::span(now).subspan(before));
+}
+
+void Mission::pass_last() {
+  const bool is_on_way = std::holds_alternative<Starting>(state_) || std::holds_alternative<Driving>(state_);
+  if (!finished() && is_on_way && !goals_.back().heading_rad) goals_.back().passes = true;
+}
+
+std::vector<Goal> Mission::trip() const {
+  const auto begin = goals_.begin() + static_cast<std::ptrdiff_t>(current_);
+  const auto rest = std::ranges::find(begin, goals_.end(), false, &Goal::passes);
+  return {begin, rest == goals_.end() ? rest : std::next(rest)};
 }
 
 void Mission::stop() {
@@ -116,6 +143,7 @@ MissionEvent Mission::advance(Stopping state, const SensorInput& input, const Na
 }
 
 MissionEvent Mission::advance(Starting state, const SensorInput& input, const NavigationStep& step) {
+  if (current_ < failed_to_) return fail(input.now, failure_);
   if (input.base.state == BaseState::fault && options_.hold_on_base_fault) return hold(input);
   if (paused_) {
     navigation_.look_for_markers(false);
@@ -127,7 +155,8 @@ MissionEvent Mission::advance(Starting state, const SensorInput& input, const Na
   const bool may_start = !step.stop && input.base.state == BaseState::ready && at_rest();
   if (!may_start) return wait_to_start(state, input, step);
   navigation_.look_for_markers(false);
-  navigation_.go_to(goals_[current_]);
+  navigation_.go_over(trip());
+  trip_start_ = current_;
   state_ = Driving{.ends = input.now + options_.max_time_more, .stopped_since = std::nullopt};
   return MissionEvent::none;
 }
@@ -154,7 +183,7 @@ MissionEvent Mission::apply_route(Driving state, const SensorInput& input, const
                 never_had_one ? std::string(why) : fmt::format("{}: {}", to_string(route.change), why));
   }
   path_ = route.route.path;
-  ideal_s_ = ideal_travel_time_s(path_, step.estimate->map_from_base.yaw_rad, goals_[current_].heading_rad,
+  ideal_s_ = ideal_travel_time_s(path_, step.estimate->map_from_base.yaw_rad, route.route.goal_heading_rad,
                                  drive_options_);
   state.ends = input.now + from_seconds(options_.max_time_factor * ideal_s_) + options_.max_time_more;
   state_ = state;
@@ -164,6 +193,7 @@ MissionEvent Mission::apply_route(Driving state, const SensorInput& input, const
 MissionEvent Mission::advance(Driving state, const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
   if (step.reroute) return apply_route(state, input, step, *step.reroute);
+  if (trip_start_ + navigation_.passed() > current_) return end_pass();
   if (navigation_.arrived()) {
     state_ = Settling{};
     return MissionEvent::none;
@@ -209,9 +239,20 @@ MissionEvent Mission::hold(const SensorInput& input) {
   return MissionEvent::none;
 }
 
+/// The trip goes on, and its deadline with it.
+MissionEvent Mission::end_pass() {
+  ++current_;
+  attempt_ = 0;
+  hindered_ = Duration::zero();
+  return MissionEvent::goal_passed;
+}
+
 /// Wheel odometry alone does not prove arrival: the wheels may have slipped.
 MissionEvent Mission::advance(Settling state, const SensorInput& input, const NavigationStep& step) {
   if (input.base.state == BaseState::fault) return hold(input);
+  if (goals_[current_].passes && step.estimate &&
+      distance_to_goal_m(*step.estimate) <= options_.pass_within_m)
+    return end_goal(input.now, MissionEvent::goal_passed);
   if (!state.since) state.since = input.now;
   if (!state.still_since || !at_rest()) state.still_since = input.now;
   const Duration settled = input.now - *state.still_since;
@@ -226,7 +267,7 @@ MissionEvent Mission::advance(Settling state, const SensorInput& input, const Na
     return fail(input.now, fmt::format("cannot see that it has arrived: {}",
                                        step.stop ? to_string(*step.stop) : "no marker is in view"));
   }
-  const double distance_m = (step.estimate->map_from_base.position_m - goals_[current_].position_m).norm();
+  const double distance_m = distance_to_goal_m(*step.estimate);
   if (distance_m <= drive_options_.arrival_distance_m) return end_goal(input.now, MissionEvent::goal_arrived);
   if (++attempt_ >= options_.attempts) {
     return fail(
@@ -238,6 +279,10 @@ MissionEvent Mission::advance(Settling state, const SensorInput& input, const Na
   return MissionEvent::none;
 }
 
+double Mission::distance_to_goal_m(const PoseEstimate& estimate) const {
+  return (estimate.map_from_base.position_m - goals_[current_].position_m).norm();
+}
+
 MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   ++current_;
   paused_ = false;
@@ -247,8 +292,11 @@ MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   return event;
 }
 
+/// From where it stands, the robot would come to the goals after one on the way by another way than was
+/// asked.
 MissionEvent Mission::fail(Stamp now, std::string why) {
   failure_ = std::move(why);
+  failed_to_ = current_ + trip().size();
   navigation_.halt();
   return end_goal(now, MissionEvent::goal_failed);
 }

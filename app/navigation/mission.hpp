@@ -18,6 +18,8 @@ struct MissionOptions {
   /// Arrival needs a frame that confirmed the estimate within this travel, and the robot's own epsilon of
   /// Eq. (19).
   double max_rolled_unseen_m = 0.2;
+  /// Of a passed goal where the trip ends: so near it counts as passed; as RouteOptions::left_path_m.
+  double pass_within_m = 0.2;
   Duration max_wait = std::chrono::seconds(60);  ///< the same for people and things that may go away
   /// Slowed by them for so long on the way to one goal, in all, it fails; the time is not counted below.
   Duration max_hindered = std::chrono::minutes(5);
@@ -32,14 +34,15 @@ enum class MissionPhase { idle, by_hand, starting, driving, settling, waiting_fo
 /// Text for the operator.
 std::string_view to_string(MissionPhase phase);
 
-enum class MissionEvent { none, path_planned, goal_arrived, goal_failed };
+enum class MissionEvent { none, path_planned, goal_passed, goal_arrived, goal_failed };
 
 struct MissionStep {
   NavigationStep navigation;
   MissionEvent event = MissionEvent::none;
 };
 
-/// Drives to the goals in turn. Time arrives with the data.
+/// Drives to the goals in turn. Goals that are only passed and the next one that is not are one trip, with
+/// one path; where one of them fails, so do those after it. Time arrives with the data.
 class Mission {
  public:
   Mission(const KnownWorld& world, const NavigationOptions& navigation, std::vector<Goal> goals,
@@ -49,6 +52,12 @@ class Mission {
 
   /// Starts new goals; call only when finished().
   void start(std::vector<Goal> goals);
+  /// More goals behind the last one, also while driving: where that one is only passed, the robot does not
+  /// brake for it. When finished(), the robot starts for them.
+  void append(std::vector<Goal> goals);
+  /// The last goal becomes one that is only passed, where it asks for no heading and the robot does not
+  /// settle there yet. Call before append(), for a goal that was only the last one known.
+  void pass_last();
   /// Brakes to rest within the limits; then the present goal fails, and those after it are dropped.
   void stop();
   /// Brakes to rest within the limits, until resume().
@@ -113,6 +122,10 @@ class Mission {
   MissionEvent advance(Held state, const SensorInput& input, const NavigationStep& step);
   MissionEvent advance(Stopping state, const SensorInput& input, const NavigationStep& step);
   MissionEvent wait_to_start(const Starting& state, const SensorInput& input, const NavigationStep& step);
+  /// The goals from the present one to the next that is not only passed.
+  [[nodiscard]] std::vector<Goal> trip() const;
+  MissionEvent end_pass();
+  [[nodiscard]] double distance_to_goal_m(const PoseEstimate& estimate) const;
   MissionEvent hold(const SensorInput& input);
   MissionEvent apply_route(Driving state, const SensorInput& input, const NavigationStep& step,
                            const RouteUpdate& route);
@@ -124,6 +137,8 @@ class Mission {
   MissionOptions options_;
   State state_ = Starting{};
   std::size_t current_ = 0;
+  std::size_t trip_start_ = 0;  ///< the goal with which the present trip began
+  std::size_t failed_to_ = 0;   ///< goals before this one are of a trip that failed
   DriveOptions drive_options_;
   RestDetector rest_;
   int attempt_ = 0;      ///< at the present goal

@@ -76,7 +76,7 @@ NavigationStep Navigation::step(const SensorInput& input) {
     if (std::optional<FixAttempt> used = localizer_.see(frame, input.now, known))
       step.fixes.push_back(std::move(*used));
   step.estimate = known.filter.estimate();
-  if (step.estimate) step.zone_mps = zone_speed_.limit_mps(*step.estimate);
+  if (step.estimate) step.zone_mps = speed_limit(*step.estimate);
 
   // Judge.
   const bool map_changed = planner_.begin_step(behaviour_.places.blind_places_m());
@@ -217,22 +217,50 @@ Behaviour Navigation::planned(Behaviour behaviour, const std::optional<PoseEstim
       planner_.ask({.request = *request,
                     .trip = *trip_of(behaviour.state),
                     .map_from_base = estimate->map_from_base,
-                    .blind_m = {blind_m.begin(), blind_m.end()}});
+                    .blind_m = {blind_m.begin(), blind_m.end()},
+                    .goals = {goals_.ahead().begin(), goals_.ahead().end()}});
     }
     std::optional<TripPlan> plan = planner_.take();
     if (!plan) return behaviour;
     if (plan->update) update = std::move(plan->update);
+    const bool is_found =
+        std::holds_alternative<PathFound>(plan->answer) || std::holds_alternative<PathExtended>(plan->answer);
+    if (is_found && request->kind != PlanKind::way_back) goals_.path_leads_to_all();
     behaviour = answered(std::move(behaviour), plan->answer);
   }
 }
 
 /// A plan that is on its way is of the goal before, even where the two are equal.
-void Navigation::go_to(const Goal& goal) {
+void Navigation::go_over(std::vector<Goal> goals) {
   wish_ = Wish::go_on;
   steering_.reset();
   planner_.drop();
   has_new_goal_ = surroundings_.has_value();
-  behaviour_ = sent_to(std::move(behaviour_), goal.position_m, goal.heading_rad, behaviour_options_);
+  const Goal& last = goals.back();
+  behaviour_ = sent_to(std::move(behaviour_), last.position_m, last.passes ? std::nullopt : last.heading_rad,
+                       behaviour_options_);
+  goals_ = TripGoals(std::move(goals));
+}
+
+/// A plan that is on its way does not lead to them: it is asked for again.
+void Navigation::extend(std::span<const Goal> goals) {
+  planner_.drop();
+  goals_.append(goals);
+  behaviour_ = with_goals_beyond(std::move(behaviour_), goals_.beyond());
+}
+
+/// Of the zones here, and of the trip's legs while there is one. Follows the robot past the trip's goals.
+std::optional<double> Navigation::speed_limit(const PoseEstimate& estimate) {
+  std::optional<double> limit_mps = zone_speed_.limit_mps(estimate);
+  if (!is_under_way(behaviour_.state)) return limit_mps;
+  if (std::holds_alternative<Backtracking>(behaviour_.state)) {
+    goals_.turn_back();
+  } else {
+    goals_.see(estimate.map_from_base.position_m);
+  }
+  const std::optional<double> leg_mps = goals_.limit_mps(estimate, options_.drive);
+  if (!limit_mps || (leg_mps && *leg_mps < *limit_mps)) limit_mps = leg_mps;
+  return limit_mps;
 }
 
 bool Navigation::place_robot(const Pose2& map_from_base, const PlacingSigma& sigma) {

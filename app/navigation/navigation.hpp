@@ -2,12 +2,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "app/navigation/background_planner.hpp"
 #include "app/navigation/learned_state.hpp"
 #include "app/navigation/marker_localizer.hpp"
 #include "app/navigation/surroundings.hpp"
+#include "app/navigation/trip_goals.hpp"
 #include "app/site/goal.hpp"
 #include "control/behaviour.hpp"
 #include "control/zone_speed.hpp"
@@ -72,7 +74,7 @@ struct NavigationStep {
   bool backtracks = false;         ///< lost, the robot drives back to where it saw a marker
   BodyVelocity command;
   bool is_slowed = false;                    ///< by the protective field
-  std::optional<double> zone_mps;            ///< what a speed zone allows, where less than the robot can
+  std::optional<double> zone_mps;            ///< what a zone or the leg allows, where less than the robot can
   std::optional<StopReason> slowed_by;       ///< why the field allows less than is wanted
   std::optional<RouteUpdate> reroute;        ///< the path is replaced, or lost
   std::optional<CameraFault> camera;         ///< present fault of the camera
@@ -92,7 +94,18 @@ class Navigation {
 
   /// Plans a path from the robot to the goal and follows it; with no path, the robot stands. A later step's
   /// `reroute` has the result: the robot comes to rest and localizes first, and a plan takes some steps.
-  void go_to(const Goal& goal);
+  void go_to(const Goal& goal) { go_over({goal}); }
+
+  /// The same over goals in turn, in one path: the robot passes all but the last without settling, and
+  /// without a stop where the way goes straight on.
+  void go_over(std::vector<Goal> goals);
+
+  /// More goals behind the last one of the trip, which is passed then. While the robot drives it does not
+  /// brake for that: a later step's `reroute` has the longer path. Only of a trip under way.
+  void extend(std::span<const Goal> goals);
+
+  /// Goals passed on this trip; at its end all but the last to which the path leads.
+  [[nodiscard]] std::size_t passed() const { return arrived() ? goals_.before_end() : goals_.passed(); }
 
   /// Sets a new map, in use some steps later, with the same zones. When it blocks the path or makes another
   /// clearly faster, the robot brakes to rest and replans from there.
@@ -134,6 +147,7 @@ class Navigation {
   void use_zones(const Zones& zones);
   [[nodiscard]] Facts judge(const SensorInput& input, const NavigationStep& step,
                             const LocalizationState& known, bool map_changed) const;
+  std::optional<double> speed_limit(const PoseEstimate& estimate);
   void judge_room(Facts& facts, bool is_contradicted) const;
   [[nodiscard]] MappedPose mapped_pose(const Facts& facts) const;
   void look_around(const SensorInput& input, const PoseFilter& filter, Facts& facts);
@@ -148,6 +162,7 @@ class Navigation {
   MarkerLocalizer localizer_;
   BackgroundPlanner planner_;
   std::optional<Surroundings> surroundings_;
+  TripGoals goals_;
   bool has_new_goal_ = false;  ///< whose first path must go around what is known to stand about
   LocalizationState known_;
   Behaviour behaviour_;

@@ -1,10 +1,84 @@
 #include "app/navigation/trip_planner.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "control/corner.hpp"
 #include "maps/map_overlay.hpp"
 
 namespace lodestar {
+namespace {
+
+std::optional<double> end_heading(const Goal& goal) {
+  return goal.passes ? std::nullopt : goal.heading_rad;
+}
+
+/// Those of the trip, the last where the path ends, maybe beside an obstacle that it touches; or the one that
+/// the request or the trip's path has.
+std::vector<Goal> goals_of(const TripQuery& query) {
+  const std::vector<Vec2> path_m = query.trip.drive.path_ahead().waypoints_m;
+  if (!query.goals.empty()) {
+    std::vector<Goal> goals = query.goals;
+    const bool has_way = query.request.kind != PlanKind::new_goal && query.trip.goals_beyond == 0;
+    if (has_way && !path_m.empty()) goals.back().position_m = path_m.back();
+    return goals;
+  }
+  if (query.request.kind == PlanKind::new_goal)
+    return {{.position_m = query.request.goal_m, .heading_rad = query.request.goal_heading_rad}};
+  return {{.position_m = path_m.back(), .heading_rad = query.trip.drive.final_heading_rad()}};
+}
+
+std::optional<double> final_heading(const TripQuery& query) {
+  return end_heading(goals_of(query).back());
+}
+
+/// The way to one goal.
+PlanResult leg_to(const Goal& goal, const Vec2& from_m, const PlanHeadings& headings,
+                  const MarginPlanner& planner) {
+  if (!goal.on_line) return planner.plan(from_m, goal.position_m, headings);
+  if (!planner.is_clear(from_m, goal.position_m)) return PlanFailure::line_blocked;
+  Plan straight;
+  straight.path = {{from_m, goal.position_m}};
+  return straight;
+}
+
+/// Without the waypoints that are straight on.
+Path straightened(const Path& path) {
+  Path few;
+  for (std::size_t i = 0; i < path.waypoints_m.size(); ++i) {
+    std::vector<Vec2>& kept_m = few.waypoints_m;
+    if (kept_m.size() > 1 && is_straight_on(kept_m[kept_m.size() - 2], kept_m.back(), path.waypoints_m[i]))
+      kept_m.pop_back();
+    kept_m.push_back(path.waypoints_m[i]);
+  }
+  return few;
+}
+
+/// One path over all goals in turn. Each leg begins with the heading in which the one before ends.
+PlanResult plan_over(std::span<const Goal> goals, const Pose2& start,
+                     const std::optional<double>& final_heading_rad, const MarginPlanner& planner) {
+  PlanResult all = PlanFailure::no_path;
+  PlanHeadings headings{.start_rad = start.yaw_rad, .goal_rad = std::nullopt};
+  Vec2 from_m = start.position_m;
+  for (const Goal& goal : goals) {
+    if (&goal == &goals.back()) headings.goal_rad = final_heading_rad;
+    PlanResult leg = leg_to(goal, from_m, headings, planner);
+    if (std::holds_alternative<PlanFailure>(leg)) return leg;
+    if (goals.size() == 1) return leg;
+    const std::vector<Vec2>& more_m = std::get<Plan>(leg).path.waypoints_m;
+    from_m = more_m.back();
+    if (more_m.size() > 1) headings.start_rad = heading_between(more_m[more_m.size() - 2], from_m);
+    if (auto* plan = std::get_if<Plan>(&all)) {
+      plan->path.waypoints_m.insert(plan->path.waypoints_m.end(), more_m.begin() + 1, more_m.end());
+    } else {
+      all = std::move(leg);
+    }
+  }
+  if (auto* plan = std::get_if<Plan>(&all)) plan->path = straightened(plan->path);
+  return all;
+}
+
+}  // namespace
 
 TripPlanner::TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options)
     : options_(options) {
@@ -40,7 +114,7 @@ PlanningContext TripPlanner::context_on(std::shared_ptr<const ObstacleField> fie
 }
 
 TripPlan TripPlanner::plan(const TripQuery& query) {
-  const auto& [request, trip, pose, blind_m] = query;
+  const auto& [request, trip, pose, blind_m, goals] = query;
   const bool needs_other_context = trip.prefers_wide_margins != prefers_wide_margins_;
   const bool begins_anew = request.kind == PlanKind::new_goal && needs_other_context;
   if (begins_anew || request.kind == PlanKind::another_way) {
@@ -48,16 +122,18 @@ TripPlan TripPlanner::plan(const TripQuery& query) {
     plan_around(blind_m);
   }
   switch (request.kind) {
+    case PlanKind::extension:
+      return extension(query);
     case PlanKind::review:
       // Sampling planners are too slow to run while the robot drives: it brakes and replans at rest.
       if (sampling_method(options_.planner.kind)) return {PathMustBeReplaced{}, std::nullopt};
-      return review(route_from(request, trip, pose));
+      return review(route_from(query));
     case PlanKind::replan:
-      return replan(route_from(request, trip, pose));
+      return replan(route_from(query));
     case PlanKind::another_way:
-      return another_way(trip, pose);
+      return another_way(query);
     case PlanKind::new_goal:
-      return to_goal(request, pose);
+      return to_goal(query);
     case PlanKind::way_back:
       break;
   }
@@ -75,30 +151,50 @@ TripPlan TripPlanner::replan(const RouteUpdate& update) const {
   return {along(update.route), update};
 }
 
-TripPlan TripPlanner::another_way(const Trip& trip, const Pose2& pose) const {
-  const std::optional<double>& goal_heading_rad = trip.drive.final_heading_rad();
-  const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = goal_heading_rad};
-  const Vec2 goal_m = trip.drive.path_ahead().waypoints_m.back();
-  const PlanResult result = context_->planner.plan(pose.position_m, goal_m, headings);
+TripPlan TripPlanner::another_way(const TripQuery& query) const {
+  const std::optional<double> heading_rad = final_heading(query);
+  const PlanResult result = plan_over(goals_of(query), query.map_from_base, heading_rad, context_->planner);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return {PathNotFound{}, std::nullopt};
-  const Route route{plan->path, goal_heading_rad};
+  const Route route{plan->path, heading_rad};
   return {along(route),
           RouteUpdate{.route = route, .change = RouteChange::more_certain, .failure = std::nullopt}};
 }
 
-TripPlan TripPlanner::to_goal(const PlanRequest& request, const Pose2& pose) const {
-  const PlanHeadings headings{.start_rad = pose.yaw_rad, .goal_rad = request.goal_heading_rad};
-  PlanResult result = context_->planner.plan(pose.position_m, request.goal_m, headings);
+TripPlan TripPlanner::to_goal(const TripQuery& query) const {
+  const std::vector<Goal> goals = goals_of(query);
+  const std::optional<double> heading_rad = final_heading(query);
+  PlanResult result = plan_over(goals, query.map_from_base, heading_rad, context_->planner);
   if (map_alone_ && std::holds_alternative<PlanFailure>(result))
-    result = map_alone_->planner.plan(pose.position_m, request.goal_m, headings);
-  RouteUpdate update{.route = {{}, request.goal_heading_rad}, .change = RouteChange::new_goal, .failure = {}};
+    result = plan_over(goals, query.map_from_base, heading_rad, map_alone_->planner);
+  RouteUpdate update{.route = {{}, heading_rad}, .change = RouteChange::new_goal, .failure = {}};
   if (const auto* failure = std::get_if<PlanFailure>(&result)) {
     update.failure = *failure;
     return {PathNotFound{}, update};
   }
   update.route.path = std::get<Plan>(result).path;
   return {along(update.route), update};
+}
+
+/// From the end of the present path, which the robot reaches with the heading of its last leg.
+TripPlan TripPlanner::extension(const TripQuery& query) const {
+  Path path = query.trip.drive.path_ahead();
+  const std::size_t count = std::min(query.trip.goals_beyond, query.goals.size());
+  const std::span<const Goal> goals = std::span(query.goals).last(count);
+  if (goals.empty() || path.waypoints_m.size() < 2) return {PathNotFound{}, std::nullopt};
+  const Vec2 end_m = path.waypoints_m.back();
+  const Pose2 end{end_m, heading_between(path.waypoints_m[path.waypoints_m.size() - 2], end_m)};
+  const std::optional<double> heading_rad = end_heading(goals.back());
+  PlanResult result = plan_over(goals, end, heading_rad, context_->planner);
+  if (map_alone_ && std::holds_alternative<PlanFailure>(result))
+    result = plan_over(goals, end, heading_rad, map_alone_->planner);
+  const auto* plan = std::get_if<Plan>(&result);
+  if (plan == nullptr) return {PathNotFound{}, std::nullopt};
+  const std::vector<Vec2>& tail = plan->path.waypoints_m;
+  path.waypoints_m.insert(path.waypoints_m.end(), tail.begin() + 1, tail.end());
+  const double blend_corridor_m = context_->drive_options(path, options_.drive).blend_corridor_m;
+  return {PathExtended{plan->path, heading_rad, blend_corridor_m},
+          RouteUpdate{.route = {path, heading_rad}, .change = RouteChange::extended, .failure = {}}};
 }
 
 /// Goes back along the present leg first: every other way may be narrower.
@@ -122,11 +218,16 @@ TripPlan TripPlanner::way_back(const Vec2& place_m, const Trip& trip, const Pose
   return along_way(std::move(path));
 }
 
-RouteUpdate TripPlanner::route_from(const PlanRequest& request, const Trip& trip, const Pose2& pose) const {
-  Route route{trip.drive.path_ahead(), trip.drive.final_heading_rad()};
-  if (request.leg_from_here) route.path.waypoints_m.front() = pose.position_m;
-  RouteUpdate update = updated(route, pose, context_->planner, options_.route);
-  if (map_alone_ && update.failure) update = updated(route, pose, map_alone_->planner, options_.route);
+RouteUpdate TripPlanner::route_from(const TripQuery& query) const {
+  Route route{query.trip.drive.path_ahead(), final_heading(query)};
+  const Pose2& pose = query.map_from_base;
+  if (query.request.leg_from_here) route.path.waypoints_m.front() = pose.position_m;
+  const auto update_on = [&](const MarginPlanner& planner) {
+    return updated(route, pose, planner, options_.route,
+                   [&] { return plan_over(goals_of(query), pose, route.goal_heading_rad, planner); });
+  };
+  RouteUpdate update = update_on(context_->planner);
+  if (map_alone_ && update.failure) update = update_on(map_alone_->planner);
   return update;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/navigation/planning_context.hpp"
+#include "app/site/goal.hpp"
 #include "control/behaviour.hpp"
 #include "planning/route.hpp"
 
@@ -23,6 +24,7 @@ struct TripQuery {
   Trip trip;
   Pose2 map_from_base;        ///< of the robot when it asks
   std::vector<Vec2> blind_m;  ///< where it has found no marker
+  std::vector<Goal> goals;    ///< to come on this trip; none: the one of the request, or of the trip's path
 };
 
 struct TripPlan {
@@ -48,10 +50,11 @@ class TripPlanner {
   void plan_around(std::span<const Vec2> blind_m);
   [[nodiscard]] TripPlan review(const RouteUpdate& update) const;
   [[nodiscard]] TripPlan replan(const RouteUpdate& update) const;
-  [[nodiscard]] TripPlan another_way(const Trip& trip, const Pose2& pose) const;
-  [[nodiscard]] TripPlan to_goal(const PlanRequest& request, const Pose2& pose) const;
+  [[nodiscard]] TripPlan another_way(const TripQuery& query) const;
+  [[nodiscard]] TripPlan to_goal(const TripQuery& query) const;
+  [[nodiscard]] TripPlan extension(const TripQuery& query) const;
   [[nodiscard]] TripPlan way_back(const Vec2& place_m, const Trip& trip, const Pose2& pose) const;
-  [[nodiscard]] RouteUpdate route_from(const PlanRequest& request, const Trip& trip, const Pose2& pose) const;
+  [[nodiscard]] RouteUpdate route_from(const TripQuery& query) const;
   [[nodiscard]] PathFound along(const Route& route) const;
 
   TripPlannerOptions options_;

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "app/navigation/navigation_setup.hpp"
+#include "app/site/route_graph.hpp"
 #include "planning/collision_checker.hpp"
 #include "planning/margin_planner.hpp"
 
@@ -142,6 +143,21 @@ void find_lonely_nodes(const Places& places, std::vector<PlacesIssue>& issues) {
   }
 }
 
+/// One-way edges may lead from a place, but not back.
+void find_unreachable_by_edges(const Site& site, std::vector<PlacesIssue>& issues) {
+  const Places& places = site.places;
+  const RouteGraph graph(places, site.robot.max_forward_mps);
+  for (const Place& from : places.places) {
+    if (!graph.has_edge(from.name)) continue;
+    for (const std::string& name : graph.unreachable_from(from.name))
+      issues.push_back({PlacesIssueKind::unreachable_by_edges,
+                        false,
+                        fmt::format("no edges lead from '{}' to '{}'", from.name, name),
+                        {places.position_m(name).value()}});
+    return;
+  }
+}
+
 /// Zones drawn for another map.
 void find_zones_off_map(const Site& site, std::vector<PlacesIssue>& issues) {
   OccupancyMap nothing = site.map.map;
@@ -174,6 +190,8 @@ std::string_view to_string(PlacesIssueKind kind) {
       return "blocked-edge";
     case PlacesIssueKind::lonely_node:
       return "lonely-node";
+    case PlacesIssueKind::unreachable_by_edges:
+      return "unreachable-by-edges";
     case PlacesIssueKind::zone_off_map:
       return "zone-off-map";
   }
@@ -194,6 +212,7 @@ std::vector<PlacesIssue> check_places(const Site& site) {
   const MarginPlanner planner(drivable_map(site), navigation_options(site.robot).planner);
   find_unreachable(standing(site, issues), planner, issues);
   find_blocked_edges(site, planner, issues);
+  find_unreachable_by_edges(site, issues);
   find_lonely_nodes(site.places, issues);
   find_zones_off_map(site, issues);
   return issues;

@@ -14,7 +14,8 @@ enum class PlacesIssueKind {
   in_keep_out,
   unreachable,  ///< from the other places
   blocked_edge,
-  lonely_node,  ///< no edge leads there
+  unreachable_by_edges,  ///< from the first place on an edge
+  lonely_node,           ///< no edge leads there
   zone_off_map
 };
 

@@ -11,7 +11,7 @@ std::string path_in_words(const Mission& mission) {
   const Vec2& goal_m = mission.goals()[mission.current()].position_m;
   const double short_by_m = (path.waypoints_m.back() - goal_m).norm();
   std::string words = fmt::format("goal {}: a path of {:.2f} m", mission.current() + 1, length_m(path));
-  if (short_by_m > 1e-6)
+  if (!mission.goals()[mission.current()].passes && short_by_m > 1e-6)
     words += fmt::format(", to {:.0f} mm beside the goal, which touches an obstacle", 1e3 * short_by_m);
   return words;
 }
@@ -24,6 +24,8 @@ std::string in_words(const Mission& mission, MissionEvent event) {
       return "";
     case MissionEvent::path_planned:
       return path_in_words(mission);
+    case MissionEvent::goal_passed:
+      return fmt::format("goal {}: passed", mission.current());
     case MissionEvent::goal_arrived:
       return fmt::format("goal {}: arrived", mission.current());
     case MissionEvent::goal_failed:

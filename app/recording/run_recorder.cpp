@@ -37,6 +37,13 @@ void record_step(DriveRecord& record, const SensorInput& input, const Navigation
                           .wheel_scales = step.wheel_scales});
 }
 
+/// A goal whose way began where another was passed, on the same path.
+void begin_after(const GoalRecord& passed, GoalRecord& next, Stamp now) {
+  next.planned = passed.planned;
+  next.ideal_s = passed.ideal_s;
+  next.travel_time = -now.time_since_epoch();
+}
+
 void record_event(DriveRecord& record, const Mission& mission, MissionEvent event, Stamp now) {
   if (event == MissionEvent::none) return;
   if (event == MissionEvent::path_planned) {
@@ -51,8 +58,10 @@ void record_event(DriveRecord& record, const Mission& mission, MissionEvent even
   GoalRecord& goal = record.goals.at(mission.current() - 1);
   if (!goal.planned.waypoints_m.empty()) goal.travel_time += now.time_since_epoch();
   goal.ended = now;
-  goal.arrived = event == MissionEvent::goal_arrived;
+  goal.arrived = event != MissionEvent::goal_failed;
   if (!goal.arrived) goal.failure = mission.failure();
+  if (event == MissionEvent::goal_passed && !mission.finished())
+    begin_after(goal, record.goals.at(mission.current()), now);
 }
 
 }  // namespace
@@ -86,6 +95,8 @@ void RunRecorder::take(const SensorInput& input, const MissionStep& step, const 
   if (!is_on_) return;
   record_step(record_, input, step.navigation);
   const std::optional<KeptPicture> picture = pictures_.keep(record_, input.frames);
+  for (std::size_t i = record_.goals.size(); i < mission.goals().size(); ++i)
+    record_.goals.push_back({.goal = mission.goals()[i]});
   record_event(record_, mission, step.event, input.now);
   if (options_.watch.step)
     options_.watch.step({.input = input, .step = step, .mission = mission, .picture = picture});

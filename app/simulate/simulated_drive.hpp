@@ -34,6 +34,7 @@ struct SimulatedDriveOptions {
   std::optional<SimulatedScannerOptions> scanner;  ///< without it: the robot's own, if it has one
   PeopleOptions people;                            ///< who walk about
   std::vector<MovingDisc> discs;                   ///< that no map has
+  std::vector<DiscState> others;                   ///< robots in the same world, as at the start
   bool is_placed_at_start = false;                 ///< a person says where it starts, to 2 cm and 1 degree
   /// Asked after each step what the judge of the simulated world says; true ends the drive where it is.
   std::function<bool(const Scorer&)> is_over;
@@ -52,7 +53,9 @@ RunRecord simulate_drive(const Site& site, const SimulatedDriveOptions& options)
 
 /// A drive whose mission is decided on as it goes.
 struct ConductedDrive {
-  int contacts = 0;
+  int contacts = 0;  ///< with the map, one a record of the true pose
+  int touches =
+      0;  ///< by the moving robot, of the map, of people and of other robots, one from touch to release
   double driven_m = 0.0;
   Duration driven{};
 };

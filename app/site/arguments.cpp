@@ -88,4 +88,21 @@ Goal parse_goal(const std::string& option, const std::string& text, const Places
                   text, nearest_names(text, places)));
 }
 
+std::vector<Goal> goals_in(const std::vector<std::string>& goals, const std::string& mission,
+                           const Places& places) {
+  std::vector<Goal> all;
+  for (const std::string& text : goals) all.push_back(parse_goal("--goal", text, places));
+  if (mission.empty()) return all;
+  const auto named = std::ranges::find(places.missions, mission, &NamedMission::name);
+  if (named == places.missions.end()) {
+    std::string names;
+    for (const NamedMission& known : places.missions)
+      names += fmt::format("{}'{}'", names.empty() ? "" : ", ", known.name);
+    throw InputError(fmt::format("--mission: found '{}', wanted a mission of places.yaml: {}", mission,
+                                 names.empty() ? "it has none" : names));
+  }
+  for (const std::string& place : named->places) all.push_back(parse_goal("--mission", place, places));
+  return all;
+}
+
 }  // namespace lodestar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/site/goal.hpp"
 #include "maps/places.hpp"
@@ -15,5 +16,10 @@ Goal parse_goal(const std::string& option, const std::string& text);
 
 /// The same, or the name of a place. The error names the places that are spelt most like an unknown name.
 Goal parse_goal(const std::string& option, const std::string& text, const Places& places);
+
+/// Of --goal, in turn, or the places of the mission of places.yaml that --mission names, in driving order.
+/// Throws InputError naming the missions that there are for an unknown name.
+std::vector<Goal> goals_in(const std::vector<std::string>& goals, const std::string& mission,
+                           const Places& places);
 
 }  // namespace lodestar

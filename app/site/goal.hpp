@@ -13,6 +13,13 @@ inline constexpr double far_m = 1e5;
 struct Goal {
   Vec2 position_m = Vec2::Zero();
   std::optional<double> heading_rad;
+  /// A point on the way: the robot neither settles there nor turns to a heading, and goes on without a stop
+  /// where the way goes on straight.
+  bool passes = false;
+  /// The speed limit on the way to it, from the goal before; nothing: the robot's own.
+  std::optional<double> max_mps = std::nullopt;
+  /// The way to it is the straight line from the goal before; where that is not clear, the goal fails.
+  bool on_line = false;
 };
 
 }  // namespace lodestar

@@ -98,7 +98,7 @@ struct Simulation::World {
   }
 
   void move_discs() {
-    if (!scanner && trajectories.empty() && !people) return;
+    if (!scanner && trajectories.empty() && !people && options.others.empty()) return;
     next_discs += disc_period;
     discs.clear();
     for (FollowedTrajectory& trajectory : trajectories) discs.push_back(trajectory.at(now));
@@ -106,6 +106,7 @@ struct Simulation::World {
       people->step(disc_period, motion.true_map_from_base());
       for (const Walker& walker : people->walkers()) discs.push_back(walker.disc);
     }
+    discs.insert(discs.end(), options.others.begin(), options.others.end());
     if (scanner) scanner->observe(now, motion.true_map_from_base(), discs);
     scorer.record_discs({now, motion.true_map_from_base()}, discs);
   }
@@ -194,6 +195,13 @@ const std::vector<DiscState>& Simulation::discs() const {
 
 SimulatedBase& Simulation::base() {
   return world_->base;
+}
+
+void Simulation::move_others(std::span<const DiscState> others) {
+  if (others.size() != world_->options.others.size())
+    throw InputError(
+        fmt::format("others: found {}, wanted {}", others.size(), world_->options.others.size()));
+  world_->options.others.assign(others.begin(), others.end());
 }
 
 void Simulation::push(const Pose2& by) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "drivers/camera/camera.hpp"
@@ -41,6 +42,7 @@ struct SimulationOptions {
   std::optional<SimulatedScannerOptions> scanner;
   PeopleOptions people;           ///< besides the discs; they walk about on the true map
   std::vector<MovingDisc> discs;  ///< not on any map; they do not block the robot
+  std::vector<DiscState> others;  ///< moved from outside, such as other robots; as they are at the start
   /// What the judge goes by; the scanner's place, range and times are taken from `scanner` if there is one.
   ContactJudgeOptions contacts;
 };
@@ -73,6 +75,9 @@ class Simulation {
 
   /// Displaces the robot by `by` in its own frame without turning the wheels.
   void push(const Pose2& by);
+
+  /// Where the `others` are now, in the same order; they stay there until the next call.
+  void move_others(std::span<const DiscState> others);
 
   /// Replaces the true map of obstacles (moved furniture).
   void change_map(const OccupancyMap& map);

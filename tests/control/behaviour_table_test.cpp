@@ -14,7 +14,7 @@ namespace lodestar {
 namespace {
 
 std::string_view words(PlanKind kind) {
-  constexpr std::array names{"review", "replan", "another way", "new goal", "way back"};
+  constexpr std::array names{"extension", "review", "replan", "another way", "new goal", "way back"};
   return names.at(static_cast<std::size_t>(kind));
 }
 

@@ -50,16 +50,16 @@ for (const version of ['2.0.0', '2.1.0']) {
     after(async () => { await master?.stop(); witness?.end(); await robot?.kill(); await broker?.kill(); });
 
     test('an order is driven to its end', async () => {
-      const seen = assign(orderOver('first', 0, [start, [1.7, 5.2], [2.2, 5.2]], { actions: { n2: [action('w1', 'wait', { seconds: 0.5 })] } }));
+      const seen = assign(orderOver('first', 0, [start, [1.7, 5.28], [2.2, 5.28]], { actions: { n2: [action('w1', 'wait', { seconds: 0.5 })] } }));
       await wait('the order is done', () => witness.state().orderId === 'first' && !witness.state().nodeStates.length && statusOf('w1') === 'FINISHED');
       assert.equal(witness.state().lastNodeId, 'n2');
       assert.equal(witness.state().lastNodeSequenceId, 4);
-      assert.ok(Math.hypot(witness.state().agvPosition.x - 2.2, witness.state().agvPosition.y - 5.2) < 0.03);
+      assert.ok(Math.hypot(witness.state().agvPosition.x - 2.2, witness.state().agvPosition.y - 5.28) < 0.03);
       if (seen) await wait('the master knows', () => seen.done && !seen.done.error && !seen.done.active);
     });
 
     test('a horizon waits for its release, and an update is stitched on', async () => {
-      const points = [[2.2, 5.2], [2.7, 5.2], [3.2, 5.2]];
+      const points = [[2.2, 5.28], [2.7, 5.28], [3.2, 5.28]];
       const first = assign(orderOver('long', 0, points, { released: 2 }));
       await wait('the end of the base', () => witness.state().orderId === 'long' && witness.state().lastNodeSequenceId === 2);
       await wait('it stands and asks for more', () => !witness.state().driving && witness.state().newBaseRequest);
@@ -75,8 +75,24 @@ for (const version of ['2.0.0', '2.1.0']) {
       if (second) await wait('the master knows', () => second.done && !second.done.error);
     });
 
+    test('nodes on the way are passed without a stop, those of an update too, and maxSpeed holds on its edge', async () => {
+      const points = [[3.2, 5.28], [2.6, 5.28], [2.0, 5.28], [1.2, 5.28]];
+      const update = orderOver('flow', 1, points.slice(1), { from: 1 });
+      update.edges[0].maxSpeed = 0.2;
+      const from = witness.all('state').length;
+      witness.send('order', message(serial, version, orderOver('flow', 0, points, { released: 2 })));
+      witness.send('order', message(serial, version, update));
+      await wait('the order is done', () => witness.state().orderUpdateId === 1 && !witness.state().nodeStates.length);
+      const between = (first, last) => witness.all('state').slice(from)
+        .filter((state) => state.orderId === 'flow' && state.lastNodeSequenceId >= first && state.lastNodeSequenceId < last);
+      const passing = between(2, 6);
+      assert.ok(passing.some((state) => state.lastNodeSequenceId === 2) && passing.some((state) => state.lastNodeSequenceId === 4));
+      for (const { velocity, driving } of between(2, 4)) assert.ok(driving && velocity.vx > 0.1 && velocity.vx < 0.22, JSON.stringify(velocity));
+      assert.ok(between(2, 6).slice(0, -1).every((state) => state.driving));
+    });
+
     test('pause, resume, cancel, and a second cancel', async () => {
-      assign(orderOver('far', 0, [[3.2, 5.2], [6.0, 5.6]]));
+      assign(orderOver('far', 0, [[1.2, 5.28], [6.0, 5.6]]));
       await wait('it drives', () => witness.state().orderId === 'far' && witness.state().driving);
       const pause = instant(action('pause', 'startPause'));
       await wait('it stands', () => statusOf('pause') === 'FINISHED' && witness.state().paused && !witness.state().driving);

@@ -118,7 +118,7 @@ TEST(OrderBook, names_what_it_cannot_obey) {
   book.take(order, at_start);
   EXPECT_EQ(book.errors().size(), 3U);
   order = order_over("d", 0, 0, 2, 2);
-  order.edges[0].max_mps = 0.3;
+  order.edges[0].max_mps = 0.03;
   book.take(order, at_start);
   EXPECT_THAT(book.errors()[3].references, Contains(ErrorReference{"parameter", "maxSpeed"}));
   EXPECT_EQ(book.order_id(), "");

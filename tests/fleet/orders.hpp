@@ -11,7 +11,7 @@ inline OrderBookOptions lab_options() {
           .positions = {{"dock", {.position_m = {1.0, 1.0}, .heading_rad = {}, .map = "lab"}}},
           .node_actions = {"wait"},
           .instant_actions = {"initPosition", "stateRequest", "factsheetRequest"},
-          .fastest_mps = 0.6};
+          .slowest_mps = 0.05};
 }
 
 inline FleetAction action(const std::string& id, const std::string& type = "wait",

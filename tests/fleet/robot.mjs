@@ -12,7 +12,7 @@ export const mqtt = packages('mqtt');
 const { default: Ajv } = packages('ajv/dist/2020');
 const { default: addFormats } = packages('ajv-formats');
 const source = resolve(process.env.LODESTAR_SOURCE_DIR ?? '../..');
-const binary = process.env.LODESTAR_BINARY ?? join(source, 'build/release/lodestar');
+export const binary = process.env.LODESTAR_BINARY ?? join(source, 'build/release/lodestar');
 const schemas = process.env.LODESTAR_VDA_SCHEMAS ?? join(source, '../shared/data/vda5050');
 
 export const hasSchemas = existsSync(schemas);
@@ -71,10 +71,10 @@ export function startRobot(url, serial, version) {
 
 /** All that the robot says, validated against the standard's schemas where they are there. */
 export class Witness {
-  constructor(url, serial, version) {
+  constructor(url, serial, version, manufacturer = 'ACME') {
     this.messages = [];
     this.faults = [];
-    this.base = `uagv/v2/ACME/${serial}`;
+    this.base = `uagv/v2/${manufacturer}/${serial}`;
     this.checks = {};
     if (hasSchemas) {
       const ajv = new Ajv({ strict: false, allErrors: true });
