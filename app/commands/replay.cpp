@@ -13,6 +13,7 @@
 #include "app/commands/explored_replay.hpp"
 #include "app/commands/fleet_replay.hpp"
 #include "app/commands/goal_lines.hpp"
+#include "app/commands/goal_options.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/commands/people_options.hpp"
 #include "app/commands/planner_options.hpp"
@@ -45,8 +46,7 @@ struct ReplayArguments {
   int runs = 1;
   std::string camera;
   std::string planner = "fastest";
-  std::vector<std::string> goals;
-  std::string mission;
+  GoalArguments goals;
   bool routes = false;
   std::optional<double> pictures_hz;
   UncertaintyConstraintOptions uncertainty_constraint;
@@ -91,8 +91,7 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
     if (!file.warning.empty()) fmt::print(stderr, "lodestar: warning: {}\n", file.warning);
     options.learned = std::move(file.state);
   }
-  if (!arguments.goals.empty() || !arguments.mission.empty())
-    options.goals = goals_in(arguments.goals, arguments.mission, site.places);
+  if (!arguments.goals.empty()) options.goals = goals_in(arguments.goals, site.places);
   if (arguments.routes)
     options.goals =
         RouteGraph(site.places, site.robot.max_forward_mps).over_edges(site.start.position_m, options.goals);
@@ -302,16 +301,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
                    "fastest, anyangle, astar, rrtstar, informedrrtstar, bitstar, abitstar, prmstar")
       ->check(CLI::IsMember(planner_names()))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--goal", arguments->goals,
-          "X,Y[,DEG] in metres and degrees, or the name of a place; repeat for more; default: the site's")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command
-      ->add_option("--mission", arguments->mission,
-                   "Drive to the places of this mission of places.yaml in turn")
-      ->excludes(command->get_option("--goal"));
+  add_goal_options(*command, arguments->goals, "; default: the site's");
   command->add_flag("--routes", arguments->routes,
                     "Drive to the goals along the edges of places.yaml: one-way edges and their speeds hold");
   command
@@ -341,9 +331,10 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->needs(command->get_option("--survey"))
       ->excludes(serve)
       ->excludes(command->get_option("--runs"))
-      ->excludes(command->get_option("--goal"));
+      ->excludes(command->get_option("--goal"))
+      ->excludes(command->get_option("--mission"));
   CLI::Option* fleet = add_fleet_option(*command, arguments->fleet);
-  for (const char* other : {"--runs", "--goal", "--serve", "--survey", "--state"})
+  for (const char* other : {"--runs", "--goal", "--mission", "--routes", "--serve", "--survey", "--state"})
     fleet->excludes(command->get_option(other));
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);

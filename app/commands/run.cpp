@@ -12,6 +12,7 @@
 #include "app/commands/driven_survey.hpp"
 #include "app/commands/fleet_service.hpp"
 #include "app/commands/goal_lines.hpp"
+#include "app/commands/goal_options.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/log.hpp"
@@ -35,8 +36,7 @@ namespace fs = std::filesystem;
 
 struct RunArguments {
   std::string site;
-  std::vector<std::string> goals;
-  std::string mission;
+  GoalArguments goals;
   std::string interface;
   std::uint64_t seed = 1;
   std::string output;
@@ -145,7 +145,7 @@ ExitCode drive_surveying(const DriveParts& parts, std::unique_ptr<BaseProtocol> 
     served.keep(run(parts.site, parts.bus, std::move(protocol), parts.camera, options));
     all_arrived = served.succeeded();
   } else {
-    options.until_stopped = arguments.goals.empty() && arguments.mission.empty() && !exploration;
+    options.until_stopped = arguments.goals.empty() && !exploration;
     const RunRecord record = run(parts.site, parts.bus, std::move(protocol), parts.camera, options);
     print_goals(record);
     all_arrived = record.goals.empty() || record.arrived();
@@ -201,8 +201,7 @@ std::unique_ptr<Scanner> scanner_of(const Site& site) {
 }
 
 ExitCode run_command(RunArguments arguments) {
-  const bool is_given_goals =
-      !arguments.goals.empty() || !arguments.mission.empty() || arguments.fleet.is_wanted;
+  const bool is_given_goals = !arguments.goals.empty() || arguments.fleet.is_wanted;
   if (!is_given_goals && !arguments.serve && !arguments.survey)
     throw InputError("found neither --goal, --mission, --serve, --fleet nor --survey");
   if (arguments.runs.empty()) arguments.runs = runs_folder();
@@ -225,7 +224,7 @@ ExitCode run_command(RunArguments arguments) {
                      .on_end = [&manager] { manager.stop(); },
                      .on_step = [&manager](Stamp now) { manager.step(now); },
                      .state = arguments.state};
-  options.goals = goals_in(arguments.goals, arguments.mission, site.places);
+  options.goals = goals_in(arguments.goals, site.places);
   (void)input.poll();
   options.hold_on_base_fault = input.is_there();
 
@@ -254,14 +253,7 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
       ->add_option("site", arguments->site,
                    "Site folder, or the name of a site in /etc/lodestar or /srv/lodestar")
       ->required();
-  command
-      ->add_option("--goal", arguments->goals,
-                   "X,Y[,DEG] in metres and degrees, or the name of a place; repeat for more")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  CLI::Option* mission = command->add_option("--mission", arguments->mission,
-                                             "Drive to the places of this mission of places.yaml in turn");
-  mission->excludes(command->get_option("--goal"));
+  add_goal_options(*command, arguments->goals);
   command->add_flag("--serve", arguments->serve,
                     "Serve the console in a browser, and wait for goals from it until stopped");
   command->add_flag(
@@ -274,12 +266,13 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
           "With --survey: put at the site's start, under a marker, the robot drives by itself over the free "
           "floor of the map until it has surveyed every marker there")
       ->needs(command->get_option("--survey"))
-      ->excludes(mission)
+      ->excludes(command->get_option("--mission"))
       ->excludes(command->get_option("--goal"));
   command->add_option("--runs", arguments->runs,
                       "With --serve: folder for run folders, unless -o names one; default: runs");
   add_fleet_option(*command, arguments->fleet)
       ->excludes(command->get_option("--goal"))
+      ->excludes(command->get_option("--mission"))
       ->excludes(command->get_option("--survey"));
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
