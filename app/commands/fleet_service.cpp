@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <unistd.h>
 
 #include "app/common/log.hpp"
 #include "maps/input_error.hpp"
@@ -51,13 +52,17 @@ FleetSettings fleet_settings(const Site& site, const FleetArguments& arguments, 
   if (!arguments.broker.empty()) settings.broker = arguments.broker;
   if (settings.broker.empty()) throw InputError("--fleet: found no broker, wanted mqtts://HOST[:PORT]");
   (void)broker_address(settings.broker);
+  for (const ActionHook& action : settings.actions)
+    if (access(action.command.front().c_str(), X_OK) != 0)
+      throw InputError(site.folder / "site.yaml", 0, "'" + action.command.front() + "'",
+                       "a program that can be run for action " + action.type);
   return settings;
 }
 
 FleetService::FleetService(const Site& site, const FleetSettings& settings, const std::string& name)
     : session_(link_, fleet_session_options(site, settings),
                [name](const std::string& words) { log_info(named(name, words)); }),
-      transport_(settings, factsheet_of(site.robot), link_,
+      transport_(settings, factsheet_of(site.robot, settings), link_,
                  [name](Severity severity, const std::string& words) {
                    program_log().say(severity, named(name, words));
                  }) {}

@@ -38,6 +38,9 @@ FleetSessionOptions fleet_session_options(const Site& site, const FleetSettings&
   for (const RouteNode& node : site.places.nodes)
     book.positions[node.name] = {.position_m = node.position_m, .heading_rad = {}, .map = book.map};
   book.node_actions = {"wait"};
+  for (const ActionHook& hook : settings.actions) book.node_actions.insert(hook.type);
+  options.hooks = settings.actions;
+  options.folder = site.folder;
   book.instant_actions = {"initPosition", "stateRequest", "factsheetRequest"};
   book.slowest_mps = navigation_options(site.robot).drive.min_forward_mps;
   options.battery = load_battery_curve(site.robot_file);
@@ -49,7 +52,11 @@ FleetSessionOptions fleet_session_options(const Site& site, const FleetSettings&
 
 FleetSession::FleetSession(FleetLink& link, FleetSessionOptions options,
                            std::function<void(const std::string&)> tell)
-    : link_(link), options_(std::move(options)), tell_(std::move(tell)), book_(options_.book) {}
+    : link_(link),
+      options_(std::move(options)),
+      tell_(std::move(tell)),
+      book_(options_.book),
+      hooks_(options_.hooks, options_.folder) {}
 
 void FleetSession::say(const std::string& words) const {
   if (tell_) tell_("fleet: " + words);
@@ -151,6 +158,11 @@ void FleetSession::hold(Mission& mission) {
 
 void FleetSession::act(Mission& mission) {
   go_on_waiting();
+  hooks_.keep([this](const std::string& id) { return book_.is_running(id); });
+  for (const HookResult& result : hooks_.take_ended()) {
+    if (!result.succeeded) say(fmt::format("action {}: {}", result.action_id, result.words));
+    book_.action_ended(result.action_id, result.succeeded, result.words);
+  }
   for (const FleetAction& action : book_.start_actions()) begin(action, mission);
 }
 
@@ -164,6 +176,8 @@ void FleetSession::begin(const FleetAction& action, Mission& mission) {
   } else if (action.type == "factsheetRequest") {
     link_.ask_for_factsheet();
     book_.action_ended(action.id, true);
+  } else if (hooks_.carries_out(action.type)) {
+    hooks_.start(action);
   } else {
     const std::optional<double> wait_s = number_in(action, "seconds");
     if (!wait_s || *wait_s < 0.0 || *wait_s > longest_wait_s) {

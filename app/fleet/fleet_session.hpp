@@ -1,9 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "app/fleet/action_hooks.hpp"
 #include "app/fleet/fleet_link.hpp"
 #include "app/fleet/order_book.hpp"
 #include "app/navigation/mission.hpp"
@@ -16,6 +18,8 @@ namespace lodestar {
 struct FleetSessionOptions {
   OrderBookOptions book;
   std::optional<BatteryCurve> battery;
+  std::vector<ActionHook> hooks;
+  std::filesystem::path folder;  ///< of the site, in which their programs run
   /// The master is asked for more base when this much of it is left: three seconds at full speed, and the
   /// braking distance.
   double ask_for_base_m = 2.0;
@@ -90,6 +94,7 @@ class FleetSession {
   bool is_stopped_by_us_ = false;
   bool has_paused_ = false;  ///< the present drive
   std::vector<Wait> waits_;
+  ActionHooks hooks_;
   std::string stop_;  ///< why the robot may not move, and since when
   std::optional<Stamp> stop_since_;
   bool is_state_asked_ = false;

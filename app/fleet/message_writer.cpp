@@ -82,8 +82,8 @@ OrderedJson parameter(const char* key, const char* type, bool is_optional = fals
   return {{"key", key}, {"valueDataType", type}, {"isOptional", is_optional}};
 }
 
-OrderedJson actions_offered() {
-  return OrderedJson::array(
+OrderedJson actions_offered(const std::vector<std::string>& more) {
+  OrderedJson actions = OrderedJson::array(
       {offered("startPause", {"INSTANT"}), offered("stopPause", {"INSTANT"}),
        offered("cancelOrder", {"INSTANT"}),
        offered("initPosition", {"INSTANT"},
@@ -92,6 +92,8 @@ OrderedJson actions_offered() {
                                    parameter("lastNodeId", "STRING", true)})),
        offered("stateRequest", {"INSTANT"}), offered("factsheetRequest", {"INSTANT"}),
        offered("wait", {"NODE"}, OrderedJson::array({parameter("seconds", "NUMBER")}))});
+  for (const std::string& type : more) actions.push_back(offered(type.c_str(), {"NODE"}));
+  return actions;
 }
 
 OrderedJson limits_kept() {
@@ -161,7 +163,7 @@ std::string connection_text(const MessageHeader& header, ConnectionState state) 
   return text_of(json);
 }
 
-Factsheet factsheet_of(const Robot& robot) {
+Factsheet factsheet_of(const Robot& robot, const FleetSettings& settings) {
   Factsheet facts{.series = robot.name,
                   .slowest_mps = robot.dead_band_mps.value_or(0.0),
                   .fastest_mps = robot.max_forward_mps,
@@ -170,7 +172,9 @@ Factsheet factsheet_of(const Robot& robot) {
                   .width_m = 2.0 * robot.radius_m,
                   .length_m = 2.0 * robot.radius_m,
                   .radius_m = robot.radius_m,
-                  .outline_m = {}};
+                  .outline_m = {},
+                  .node_actions = {}};
+  for (const ActionHook& hook : settings.actions) facts.node_actions.push_back(hook.type);
   if (!robot.footprint) return facts;
   const auto& corners_m = robot.footprint->corners_m();
   facts.outline_m.assign(corners_m.begin(), corners_m.end());
@@ -202,9 +206,10 @@ std::string factsheet_text(const MessageHeader& header, const Factsheet& facts) 
   json["protocolLimits"] = limits_kept();
   OrderedJson obeyed = OrderedJson::array();
   for (const char* name : {"order.nodes.nodePosition.theta", "order.nodes.nodePosition.allowedDeviationXY",
-                           "order.nodes.nodePosition.allowedDeviationTheta"})
+                           "order.nodes.nodePosition.allowedDeviationTheta", "order.edges.maxSpeed"})
     obeyed.push_back({{"parameter", name}, {"support", "SUPPORTED"}});
-  json["protocolFeatures"] = {{"optionalParameters", std::move(obeyed)}, {"agvActions", actions_offered()}};
+  json["protocolFeatures"] = {{"optionalParameters", std::move(obeyed)},
+                              {"agvActions", actions_offered(facts.node_actions)}};
   const std::vector<Vec2> outline_m = facts.outline_m.empty() ? around_disc(facts.radius_m) : facts.outline_m;
   json["agvGeometry"] = {
       {"envelopes2d",

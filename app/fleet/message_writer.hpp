@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fleet/fleet_report.hpp"
+#include "app/site/fleet_settings.hpp"
 #include "app/site/site.hpp"
 
 namespace lodestar {
@@ -33,9 +34,10 @@ struct Factsheet {
   double width_m = 0.0;
   double length_m = 0.0;
   double radius_m = 0.0;
-  std::vector<Vec2> outline_m;  ///< of the base frame; empty: the disc of that radius
+  std::vector<Vec2> outline_m;            ///< of the base frame; empty: the disc of that radius
+  std::vector<std::string> node_actions;  ///< types of the site's own
 };
-Factsheet factsheet_of(const Robot& robot);
+Factsheet factsheet_of(const Robot& robot, const FleetSettings& settings);
 std::string factsheet_text(const MessageHeader& header, const Factsheet& facts);
 
 }  // namespace lodestar

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 #include "maps/input_error.hpp"
 
@@ -43,6 +44,32 @@ std::vector<double> read_numbers(StrictYaml& yaml, const std::string& key) {
   if (!list.IsSequence() || list.size() < 2)
     yaml.refuse(key, "something else", "a list of two numbers or more");
   return yaml.numbers_at(key, list, list.size());
+}
+
+std::vector<std::string> read_command(StrictYaml& yaml, const std::filesystem::path& folder) {
+  const YAML::Node list = yaml.node("run");
+  std::vector<std::string> command;
+  if (list.IsSequence())
+    for (const YAML::Node& word : list)
+      if (word.IsScalar()) command.push_back(word.as<std::string>());
+  if (command.empty() || command.size() != list.size())
+    yaml.refuse("run", "something else", "a list: the program and its arguments");
+  command.front() = std::filesystem::absolute(folder / command.front()).string();
+  return command;
+}
+
+ActionHook read_action_hook(StrictYaml yaml, const std::filesystem::path& folder) {
+  constexpr double longest_s = 86400.0;
+  const std::set<std::string> own{"wait",         "startPause",   "stopPause",       "cancelOrder",
+                                  "initPosition", "stateRequest", "factsheetRequest"};
+  ActionHook hook;
+  hook.type = read_topic_word(yaml, "type");
+  if (own.contains(hook.type))
+    yaml.refuse("type", "'" + hook.type + "'", "a type that the robot does not carry out itself");
+  hook.command = read_command(yaml, folder);
+  hook.timeout = from_seconds(yaml.number("timeout_s", 0.1, longest_s));
+  yaml.finish();
+  return hook;
 }
 
 }  // namespace
@@ -97,6 +124,9 @@ FleetSettings read_fleet_settings(StrictYaml yaml, const std::filesystem::path& 
   if (settings.certificate_file.empty() != settings.key_file.empty())
     yaml.refuse(settings.key_file.empty() ? "certificate_file" : "key_file", "it alone",
                 "certificate_file and key_file together");
+  if (yaml.has("actions"))
+    for (StrictYaml& action : yaml.list_of_mappings("actions"))
+      settings.actions.push_back(read_action_hook(std::move(action), folder));
   yaml.finish();
   return settings;
 }

@@ -5,9 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "maps/stamp.hpp"
 #include "maps/strict_yaml.hpp"
 
 namespace lodestar {
+
+/// A type of action that a program of the site carries out: an item of `actions`.
+struct ActionHook {
+  std::string type;
+  std::vector<std::string>
+      command;  ///< the program, an absolute path or one below the site, and its arguments
+  Duration timeout{};
+};
 
 /// How a fleet manager reaches the robot by VDA 5050: `fleet` of site.yaml.
 struct FleetSettings {
@@ -22,6 +31,7 @@ struct FleetSettings {
   std::filesystem::path ca_file;  ///< that the broker's certificate is checked by; empty: the system's
   std::filesystem::path certificate_file;  ///< of this client, with its key
   std::filesystem::path key_file;
+  std::vector<ActionHook> actions;
 };
 
 /// Of a site folder; nothing where its site.yaml has no `fleet`. load_site() has checked it before.

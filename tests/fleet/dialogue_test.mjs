@@ -50,8 +50,12 @@ for (const version of ['2.0.0', '2.1.0']) {
     after(async () => { await master?.stop(); witness?.end(); await robot?.kill(); await broker?.kill(); });
 
     test('an order is driven to its end', async () => {
-      const seen = assign(orderOver('first', 0, [start, [1.7, 5.28], [2.2, 5.28]], { actions: { n2: [action('w1', 'wait', { seconds: 0.5 })] } }));
+      const seen = assign(orderOver('first', 0, [start, [1.7, 5.28], [2.2, 5.28]], {
+        actions: { n1: [action('p1', 'pick', { side: 'left' })], n2: [action('w1', 'wait', { seconds: 0.5 })] },
+      }));
       await wait('the order is done', () => witness.state().orderId === 'first' && !witness.state().nodeStates.length && statusOf('w1') === 'FINISHED');
+      const picked = witness.state().actionStates.find((one) => one.actionId === 'p1');
+      assert.deepEqual([picked.actionStatus, picked.resultDescription], ['FINISHED', 'box 7']);
       assert.equal(witness.state().lastNodeId, 'n2');
       assert.equal(witness.state().lastNodeSequenceId, 4);
       assert.ok(Math.hypot(witness.state().agvPosition.x - 2.2, witness.state().agvPosition.y - 5.28) < 0.03);

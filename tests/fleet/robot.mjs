@@ -49,7 +49,8 @@ function fleetSite(serial, version) {
   const site = join(folder, 'lab');
   cpSync(join(source, 'sites/lab'), site, { recursive: true });
   const file = join(site, 'site.yaml');
-  writeFileSync(file, `${readFileSync(file, 'utf8')}fleet: {broker: "mqtts://nowhere.invalid", interface: uagv, manufacturer: ACME, serial: ${serial}, version: ${version}}\n`);
+  writeFileSync(file, `${readFileSync(file, 'utf8')}fleet: {broker: "mqtts://nowhere.invalid", interface: uagv, manufacturer: ACME, serial: ${serial}, version: ${version},
+  actions: [{type: pick, run: [/bin/sh, -c, "read action; echo box 7"], timeout_s: 60}]}\n`);
   return { folder, site };
 }
 
