@@ -241,7 +241,7 @@ std::optional<PlanRequest> wanted_on_the_way(const Trip& trip) {
 void extend(Trip& trip, const PlanAnswer& answer) {
   trip.goals_beyond = 0;
   if (const auto* more = std::get_if<PathExtended>(&answer))
-    trip.drive.extend(more->tail, more->final_heading_rad, more->blend_corridor_m);
+    trip.drive.extend(more->tail, more->passes_end, more->final_heading_rad, more->blend_corridor_m);
 }
 
 /// A review changes nothing unless the path must be replaced.

@@ -79,6 +79,7 @@ struct PathFound {
 };
 struct PathExtended {  ///< only of an extension: from the path's end on
   Path tail;
+  bool passes_end = false;  ///< that end is so straight on the way that the robot drives past it
   std::optional<double> final_heading_rad;
   double blend_corridor_m = 0.0;
 };

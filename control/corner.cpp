@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "maps/motion.hpp"
-
 namespace lodestar {
 namespace {
 
@@ -55,11 +53,6 @@ std::optional<Corner> corner_at(const Vec2& before_m, const Vec2& waypoint_m, co
       waypoint_m - corner.cut_m * in.normalized() + side * corner.radius_m * left_of(corner.heading_rad);
   if (corner.speed_mps < options.min_forward_mps) return std::nullopt;
   return corner;
-}
-
-bool is_straight_on(const Vec2& before_m, const Vec2& waypoint_m, const Vec2& after_m) {
-  constexpr double beside_m = 0.005;
-  return distance_to_path_m({{before_m, after_m}}, waypoint_m) <= beside_m;
 }
 
 OnCorner on_corner(const Corner& corner, const Vec2& point_m) {

@@ -23,10 +23,6 @@ struct Corner {
 std::optional<Corner> corner_at(const Vec2& before_m, const Vec2& waypoint_m, const Vec2& after_m,
                                 const DriveOptions& options);
 
-/// Is the waypoint so near to the line from before it to after it (5 mm: half of the clearance that every
-/// path keeps) that the robot need neither stop nor turn there?
-bool is_straight_on(const Vec2& before_m, const Vec2& waypoint_m, const Vec2& after_m);
-
 /// A point's progress along the arc, and its cross-track error.
 struct OnCorner {
   double turned_rad = 0.0;  ///< 0 at the arc's beginning, positive towards its end

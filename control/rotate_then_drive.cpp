@@ -122,11 +122,10 @@ void RotateThenDrive::take_over_from(const RotateThenDrive& other) {
 }
 
 /// A corner that is near already is not cut: the robot has slowed down to stop there.
-void RotateThenDrive::extend(const Path& tail, std::optional<double> final_heading_rad,
+void RotateThenDrive::extend(const Path& tail, bool passes_end, std::optional<double> final_heading_rad,
                              double blend_corridor_m) {
   if (tail.waypoints_m.size() < 2) return;
-  const Vec2 before_m = on_last_leg() ? leg_start_m_ : path_.waypoints_m[path_.waypoints_m.size() - 2];
-  if (is_straight_on(before_m, path_.waypoints_m.back(), tail.waypoints_m[1])) path_.waypoints_m.pop_back();
+  if (passes_end) path_.waypoints_m.pop_back();
   path_.waypoints_m.insert(path_.waypoints_m.end(), tail.waypoints_m.begin() + 1, tail.waypoints_m.end());
   final_heading_rad_ = final_heading_rad;
   approaches_ = 0;

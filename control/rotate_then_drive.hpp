@@ -39,9 +39,10 @@ class RotateThenDrive {
   /// from there.
   void was_sent(const BodyVelocity& sent, Duration elapsed);
 
-  /// Goes on along these waypoints, the first of which is the present end, and to this final heading. An end
-  /// that is straight on the way is passed without a stop. Call before arrived().
-  void extend(const Path& tail, std::optional<double> final_heading_rad, double blend_corridor_m);
+  /// Goes on along these waypoints, the first of which is the present end, and to this final heading. With
+  /// `passes_end` the leg to that end goes straight on to the second. Call before arrived().
+  void extend(const Path& tail, bool passes_end, std::optional<double> final_heading_rad,
+              double blend_corridor_m);
 
   /// Takes over the other's last command and pending motion, so that the speed does not jump.
   void take_over_from(const RotateThenDrive& other);

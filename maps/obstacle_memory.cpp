@@ -80,7 +80,7 @@ void ObstacleMemory::hit(Place place, Stamp stamp) {
 }
 
 void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
-  for (const std::size_t i : leg_pairs(scan)) {
+  for (const std::size_t i : rays_at_legs(scan)) {
     const Place place = place_of(scan.rays[i].end_m);
     if (const std::int32_t index = index_[wrapped(place.column, place.row)]; index >= 0)
       seen_[static_cast<std::size_t>(index)].legs = true;

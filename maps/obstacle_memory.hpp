@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "maps/geometry.hpp"
-#include "maps/leg_pairs.hpp"
+#include "maps/legs.hpp"
 #include "maps/ray_fan.hpp"
 #include "maps/scan_rays.hpp"
 #include "maps/stamp.hpp"
@@ -62,7 +62,7 @@ class ObstacleMemory {
   /// good part must stand: the flank of someone who walks across stays in the same cells for a while.
   [[nodiscard]] std::vector<bool> standing(const DeskewedScan& scan) const;
 
-  /// Is there, here or in a cell beside it, one of a pair of legs?
+  /// Is there, here or in a cell beside it, what may be a leg?
   [[nodiscard]] bool has_legs(const Vec2& point_m) const;
 
   /// Centres of the cells in which something stands, also where it has not been seen for a while.
@@ -88,7 +88,7 @@ class ObstacleMemory {
     bool hit_now = false;
     /// The floor here was seen free just before then, or beside here.
     std::optional<Stamp> came_at;
-    bool legs = false;  ///< hit as one of a pair of legs
+    bool legs = false;  ///< what may be a leg was hit
   };
 
   [[nodiscard]] Place place_of(const Vec2& point_m) const;

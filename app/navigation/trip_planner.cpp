@@ -1,10 +1,11 @@
 #include "app/navigation/trip_planner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
-#include "control/corner.hpp"
 #include "maps/map_overlay.hpp"
+#include "maps/motion.hpp"
 
 namespace lodestar {
 namespace {
@@ -42,14 +43,24 @@ PlanResult leg_to(const Goal& goal, const Vec2& from_m, const PlanHeadings& head
   return straight;
 }
 
+/// Are the points between its ends so near to the straight line between these, and is it clear, that the
+/// robot need neither stop nor turn there? Twice as far as it may be from a goal at which it arrives.
+bool is_straight(std::span<const Vec2> points_m, const MarginPlanner& planner) {
+  constexpr double beside_m = 0.02;
+  const Path line{{points_m.front(), points_m.back()}};
+  const auto is_near = [&](const Vec2& point_m) { return distance_to_path_m(line, point_m) <= beside_m; };
+  return std::ranges::all_of(points_m, is_near) && planner.is_clear(points_m.front(), points_m.back());
+}
+
 /// Without the waypoints that are straight on.
-Path straightened(const Path& path) {
-  Path few;
-  for (std::size_t i = 0; i < path.waypoints_m.size(); ++i) {
-    std::vector<Vec2>& kept_m = few.waypoints_m;
-    if (kept_m.size() > 1 && is_straight_on(kept_m[kept_m.size() - 2], kept_m.back(), path.waypoints_m[i]))
-      kept_m.pop_back();
-    kept_m.push_back(path.waypoints_m[i]);
+Path straightened(const Path& path, const MarginPlanner& planner) {
+  const std::span<const Vec2> points_m = path.waypoints_m;
+  Path few{{points_m.front()}};
+  for (std::size_t from = 0; from + 1 < points_m.size();) {
+    std::size_t to = from + 1;
+    while (to + 1 < points_m.size() && is_straight(points_m.subspan(from, to + 2 - from), planner)) ++to;
+    few.waypoints_m.push_back(points_m[to]);
+    from = to;
   }
   return few;
 }
@@ -74,7 +85,7 @@ PlanResult plan_over(std::span<const Goal> goals, const Pose2& start,
       all = std::move(leg);
     }
   }
-  if (auto* plan = std::get_if<Plan>(&all)) plan->path = straightened(plan->path);
+  if (auto* plan = std::get_if<Plan>(&all)) plan->path = straightened(plan->path, planner);
   return all;
 }
 
@@ -191,9 +202,12 @@ TripPlan TripPlanner::extension(const TripQuery& query) const {
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return {PathNotFound{}, std::nullopt};
   const std::vector<Vec2>& tail = plan->path.waypoints_m;
+  const std::array leg{path.waypoints_m[path.waypoints_m.size() - 2], end_m,
+                       tail[std::min<std::size_t>(1, tail.size() - 1)]};
+  const bool passes_end = is_straight(leg, context_->planner);
   path.waypoints_m.insert(path.waypoints_m.end(), tail.begin() + 1, tail.end());
   const double blend_corridor_m = context_->drive_options(path, options_.drive).blend_corridor_m;
-  return {PathExtended{plan->path, heading_rad, blend_corridor_m},
+  return {PathExtended{plan->path, passes_end, heading_rad, blend_corridor_m},
           RouteUpdate{.route = {path, heading_rad}, .change = RouteChange::extended, .failure = {}}};
 }
 
