@@ -202,11 +202,8 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
     state_ = Driving{.ends = state.ends + (input.now - last_step_), .stopped_since = std::nullopt};
     return MissionEvent::none;
   }
-  if (step.is_slowed) {  // by others, who are not its fault
-    state.ends += input.now - last_step_;
-    hindered_ += input.now - last_step_;
-  }
-  if (hindered_ > options_.max_hindered) return fail(input.now, "people or things in the way for too long");
+  if (step.is_slowed) state.ends += input.now - last_step_;  // by others, who are not its fault
+  if (is_hindered_too_long(input, step)) return fail(input.now, "people or things in the way for too long");
   if (step.zone_mps)
     state.ends += time_lost(input.now - last_step_, *step.zone_mps / drive_options_.max_forward_mps);
   if (input.now > state.ends) return fail(input.now, "no progress: the robot is stuck");
@@ -237,6 +234,17 @@ MissionEvent Mission::hold(const SensorInput& input) {
   navigation_.halt();
   state_ = input.base.state == BaseState::ready ? State(Starting{}) : State(Held{});
   return MissionEvent::none;
+}
+
+bool Mission::is_hindered_too_long(const SensorInput& input, const NavigationStep& step) {
+  if (!step.is_slowed || !step.estimate) return false;
+  const double left_m = length_m(rest_of(path_, step.estimate->map_from_base.position_m));
+  if (!left_m_ || left_m < *left_m_ - options_.progress_m) {
+    left_m_ = left_m;
+    hindered_ = Duration::zero();
+  }
+  hindered_ += input.now - last_step_;
+  return hindered_ > options_.max_hindered;
 }
 
 /// The trip goes on, and its deadline with it.
@@ -288,6 +296,7 @@ MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   paused_ = false;
   attempt_ = 0;
   hindered_ = Duration::zero();
+  left_m_.reset();
   state_ = Starting{.since = now};
   return event;
 }

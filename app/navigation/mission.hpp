@@ -21,8 +21,11 @@ struct MissionOptions {
   /// Of a passed goal where the trip ends: so near it counts as passed; as RouteOptions::left_path_m.
   double pass_within_m = 0.2;
   Duration max_wait = std::chrono::seconds(60);  ///< the same for people and things that may go away
-  /// Slowed by them for so long on the way to one goal, in all, it fails; the time is not counted below.
+  /// Slowed by them for so long while it comes no `progress_m` nearer to the goal along its path, it fails;
+  /// the time is not counted below. Five minutes a metre are chosen by hand: someone who waits looks after it
+  /// then.
   Duration max_hindered = std::chrono::minutes(5);
+  double progress_m = 1.0;
   int attempts = 3;                 ///< to come within epsilon
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
   /// A drive longer than max_time_factor times the ideal time plus max_time_more fails: the robot is stuck.
@@ -125,6 +128,7 @@ class Mission {
   /// The goals from the present one to the next that is not only passed.
   [[nodiscard]] std::vector<Goal> trip() const;
   MissionEvent end_pass();
+  [[nodiscard]] bool is_hindered_too_long(const SensorInput& input, const NavigationStep& step);
   [[nodiscard]] double distance_to_goal_m(const PoseEstimate& estimate) const;
   MissionEvent hold(const SensorInput& input);
   MissionEvent apply_route(Driving state, const SensorInput& input, const NavigationStep& step,
@@ -141,9 +145,10 @@ class Mission {
   std::size_t failed_to_ = 0;   ///< goals before this one are of a trip that failed
   DriveOptions drive_options_;
   RestDetector rest_;
-  int attempt_ = 0;      ///< at the present goal
-  Duration hindered_{};  ///< on the way to the present goal
-  bool paused_ = false;  ///< by the operator, in any of these states
+  int attempt_ = 0;               ///< at the present goal
+  Duration hindered_{};           ///< since the last progress on the way to the present goal
+  std::optional<double> left_m_;  ///< to it at the last progress
+  bool paused_ = false;           ///< by the operator, in any of these states
   WheelRest wheels_;
   Stamp last_step_;
   std::optional<Stamp> steered_until_;
