@@ -102,11 +102,11 @@ struct Simulation::World {
     next_discs += disc_period;
     discs.clear();
     for (FollowedTrajectory& trajectory : trajectories) discs.push_back(trajectory.at(now));
+    discs.insert(discs.end(), options.others.begin(), options.others.end());
     if (people) {
-      people->step(disc_period, motion.true_map_from_base());
+      people->step(disc_period, motion.true_map_from_base(), discs);
       for (const Walker& walker : people->walkers()) discs.push_back(walker.disc);
     }
-    discs.insert(discs.end(), options.others.begin(), options.others.end());
     if (scanner) scanner->observe(now, motion.true_map_from_base(), discs);
     scorer.record_discs({now, motion.true_map_from_base()}, discs);
   }

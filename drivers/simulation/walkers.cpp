@@ -132,7 +132,7 @@ void Walkers::notice(Walker& walker, const Robot& robot) {
   walker.goal_time = in_the_way;
 }
 
-void Walkers::step(Duration by, const Pose2& map_from_base) {
+void Walkers::step(Duration by, const Pose2& map_from_base, std::span<const DiscState> things) {
   const double by_s = seconds(by);
   const Pose2 before = last_robot_.value_or(map_from_base);
   const Robot robot{map_from_base.position_m, (map_from_base.position_m - before.position_m) / by_s,
@@ -146,9 +146,9 @@ void Walkers::step(Duration by, const Pose2& map_from_base) {
     const bool is_there = (walker.goal_m - walker.disc.position_m).norm() <= arrived_m;
     const bool stays = walker.waits || (walker.kind == PersonKind::threatening && is_there);
     if (!walker.waits && (walker.goal_time <= Duration::zero() || (is_there && !stays))) choose_goal(walker);
-    forces_mps2.push_back(force_mps2(i, robot));
+    forces_mps2.push_back(force_mps2(i, robot, things));
   }
-  for (std::size_t i = 0; i < walkers_.size(); ++i) move(walkers_[i], forces_mps2[i], by_s);
+  for (std::size_t i = 0; i < walkers_.size(); ++i) move(walkers_[i], forces_mps2[i], by_s, things);
 }
 
 Vec2 Walkers::wall_force_mps2(const Vec2& position_m) const {
@@ -165,7 +165,7 @@ Vec2 Walkers::wall_force_mps2(const Vec2& position_m) const {
   return wall_strength_mps2 * std::exp(-room_m / wall_range_m) * away;
 }
 
-Vec2 Walkers::force_mps2(std::size_t index, const Robot& robot) const {
+Vec2 Walkers::force_mps2(std::size_t index, const Robot& robot, std::span<const DiscState> things) const {
   const Walker& walker = walkers_[index];
   const DiscState& self = walker.disc;
   Vec2 force_mps2 = goal_force_mps2(walker) + wall_force_mps2(self.position_m);
@@ -175,13 +175,26 @@ Vec2 Walkers::force_mps2(std::size_t index, const Robot& robot) const {
       force_mps2 +=
           social_force_mps2(self.position_m, self.velocity_mps, other.position_m, other.velocity_mps);
   }
+  for (const DiscState& thing : things)
+    force_mps2 += social_force_mps2(self.position_m, self.velocity_mps, thing.position_m, thing.velocity_mps);
   if (walker.kind == PersonKind::ordinary)
     force_mps2 += social_force_mps2(self.position_m, self.velocity_mps, robot.position_m, robot.velocity_mps);
   return force_mps2;
 }
 
+/// Does the step lead neither into a wall nor farther into a thing?
+bool Walkers::is_passable(const DiscState& self, const Vec2& place_m,
+                          std::span<const DiscState> things) const {
+  const auto leads_into = [&](const DiscState& thing) {
+    const double then_m = (place_m - thing.position_m).norm();
+    return then_m < self.radius_m + thing.radius_m && then_m < (self.position_m - thing.position_m).norm();
+  };
+  return is_free(place_m) && std::ranges::none_of(things, leads_into);
+}
+
 /// Nobody walks through a wall: where the way ends at one, the part along it is left.
-void Walkers::move(Walker& walker, const Vec2& force_mps2, double by_s) const {
+void Walkers::move(Walker& walker, const Vec2& force_mps2, double by_s,
+                   std::span<const DiscState> things) const {
   DiscState& disc = walker.disc;
   const double size_mps2 = force_mps2.norm();
   const double share =
@@ -193,7 +206,7 @@ void Walkers::move(Walker& walker, const Vec2& force_mps2, double by_s) const {
   for (const Vec2& part :
        {velocity_mps, Vec2(velocity_mps.x(), 0.0), Vec2(0.0, velocity_mps.y()), Vec2(Vec2::Zero())}) {
     velocity_mps = part;
-    if (is_free(disc.position_m + by_s * part)) break;
+    if (is_passable(disc, disc.position_m + by_s * part, things)) break;
   }
   disc.velocity_mps = velocity_mps;
   disc.position_m += by_s * velocity_mps;

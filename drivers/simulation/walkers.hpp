@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drivers/simulation/moving_disc.hpp"
@@ -61,7 +62,9 @@ class Walkers {
   Walkers(const OccupancyMap& map, const PeopleOptions& options, const Pose2& map_from_base,
           std::uint64_t seed);
 
-  void step(Duration by, const Pose2& map_from_base);
+  /// `things` are discs that move by themselves, such as boxes that are pushed: people go around these, and
+  /// walk through none.
+  void step(Duration by, const Pose2& map_from_base, std::span<const DiscState> things = {});
 
   [[nodiscard]] const std::vector<Walker>& walkers() const { return walkers_; }
 
@@ -77,8 +80,11 @@ class Walkers {
   void choose_goal(Walker& walker);
   void notice(Walker& walker, const Robot& robot);
   [[nodiscard]] Vec2 wall_force_mps2(const Vec2& position_m) const;
-  [[nodiscard]] Vec2 force_mps2(std::size_t walker, const Robot& robot) const;
-  void move(Walker& walker, const Vec2& force_mps2, double by_s) const;
+  [[nodiscard]] Vec2 force_mps2(std::size_t walker, const Robot& robot,
+                                std::span<const DiscState> things) const;
+  [[nodiscard]] bool is_passable(const DiscState& self, const Vec2& place_m,
+                                 std::span<const DiscState> things) const;
+  void move(Walker& walker, const Vec2& force_mps2, double by_s, std::span<const DiscState> things) const;
 
   OccupancyMap map_;
   DistanceField field_;

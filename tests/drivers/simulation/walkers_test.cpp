@@ -47,6 +47,24 @@ TEST(Walkers, walk_about_within_their_limits) {
   for (const Walker& walker : before) EXPECT_GT(walker.disc.walked_m, 15.0) << "of some 80 m in a minute";
 }
 
+/// A box in the door, and one in the middle of each room.
+TEST(Walkers, go_around_things_and_never_through_them) {
+  const OccupancyMap map = two_rooms();
+  const PeopleOptions options{.count = 6, .threatening_share = 0.0};
+  Walkers people(map, options, robot, 3);
+  std::vector<DiscState> things;
+  for (const Vec2& place_m : {Vec2(6.0, 3.8), Vec2(3.0, 4.0), Vec2(9.0, 4.0)})
+    things.push_back({.radius_m = 0.3, .position_m = place_m});
+  const double apart_m = options.radius_m + 0.3 - 0.02;
+  for (int i = 0; i < 6000; ++i) {
+    people.step(step, robot, things);
+    if (i < 200) continue;  // who began in one has left it
+    for (const Walker& walker : people.walkers())
+      for (const DiscState& thing : things)
+        ASSERT_GT((walker.disc.position_m - thing.position_m).norm(), apart_m) << i;
+  }
+}
+
 TEST(Walkers, repeat_by_their_seed) {
   const auto end_of = [](std::uint64_t seed) {
     Walkers people(two_rooms(), {.count = 3}, robot, seed);
