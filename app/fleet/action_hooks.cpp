@@ -60,8 +60,8 @@ class MemoryFile {
 };
 
 /// In a process group of its own, with default signals and ordinary priority, however the control loop runs.
-std::optional<pid_t> spawned(const std::vector<std::string>& command, const std::filesystem::path& folder,
-                             int in, int out) {
+std::optional<pid_t> spawned(std::vector<std::string> command, const std::filesystem::path& folder, int in,
+                             int out) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
@@ -81,7 +81,7 @@ std::optional<pid_t> spawned(const std::vector<std::string>& command, const std:
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF |
                                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSCHEDULER);
   std::vector<char*> words;
-  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+  for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
   pid_t pid = 0;
   const int error = posix_spawn(&pid, words.front(), &files, &attributes, words.data(), environ);
@@ -131,9 +131,12 @@ std::optional<HookResult> run_program(const std::stop_token& unwanted, const Act
       kill(-*pid, SIGKILL);  // whatever it has left behind
       return result_of(action.id, status, out);
     }
-    if (unwanted.stop_requested()) return end_group(*pid), std::nullopt;
-    if (Clock::now() >= until)
-      return end_group(*pid), failed(fmt::format("not done after {:.3g} s", seconds(hook.timeout)));
+    const bool is_late = Clock::now() >= until;
+    if (is_late || unwanted.stop_requested()) {
+      end_group(*pid);
+      if (!is_late) return std::nullopt;
+      return failed(fmt::format("not done after {:.3g} s", seconds(hook.timeout)));
+    }
     std::this_thread::sleep_for(look_every);
   }
 }
