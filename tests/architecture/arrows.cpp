@@ -60,6 +60,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"app/recording", {"app/navigation", "app/common", "localization/survey"}},
       {"app/live", {"app/recording", "app/net"}},
       {"app/fleet", {"app/navigation", "app/live", "app/site", "app/common"}},
+      {"app/ros2", {"app/recording", "app/navigation", "app/site", "app/common"}},
       {"app/report", {"app/recording", "app/placement", judge}},
       {"app/simulate", {"app/report", "app/live", "app/navigation", "app/frames", judge}},
       {"app/drive",
@@ -71,8 +72,8 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"app/campaign", {"app/simulate", judge}},
       {"app/hosting", {"app/site", "app/common", "drivers/scanner", judge}},
       {"app/commands",
-       {"app/bench", "app/campaign", "app/console", "app/drive", "app/fleet", "app/hosting", "app/simulate",
-        "app/viewers"}},
+       {"app/bench", "app/campaign", "app/console", "app/drive", "app/fleet", "app/hosting", "app/ros2",
+        "app/simulate", "app/viewers"}},
       {"app", {"app/commands"}},  // main.cpp alone
   };
   return drawn;

@@ -1,0 +1,84 @@
+#include "app/ros2/ros2_session.hpp"
+
+#include <fmt/format.h>
+
+namespace lodestar {
+
+Ros2Session::Ros2Session(Ros2Link& link, const Ros2Options& options, double track_width_m,
+                         std::function<void(const std::string&)> tell)
+    : link_(link), options_(options), tell_(std::move(tell)), track_({.track_width_m = track_width_m}) {}
+
+void Ros2Session::say(const std::string& words) const {
+  if (tell_) tell_("ros2: " + words);
+}
+
+void Ros2Session::attend(const SensorInput& input, const MissionStep& step, Mission& mission) {
+  remember(input, step, mission);
+  if (mission.finished()) is_ours_ = false;
+  for (const Ros2Command& command : link_.take_commands())
+    std::visit([&](const auto& wanted) { take(wanted, mission); }, command);
+  drive(mission);
+  link_.publish(report_of(input, step));
+}
+
+void Ros2Session::take(const Ros2Place& place, Mission& mission) const {
+  const Pose2& pose = place.map_from_base;
+  const bool done = mission.finished() && mission.place_robot(pose, place.sigma);
+  say(fmt::format("initialpose ({:.2f}, {:.2f}, {:.0f} deg){}", pose.position_m.x(), pose.position_m.y(),
+                  degrees(pose.yaw_rad), done ? "" : ": not now, the robot drives or moves"));
+}
+
+void Ros2Session::take(const Ros2Goal& goal, Mission& mission) {
+  const Pose2& pose = goal.map_from_base;
+  const bool is_free = mission.finished() && mission.phase() != MissionPhase::by_hand;
+  say(fmt::format("goal_pose ({:.2f}, {:.2f}, {:.0f} deg){}", pose.position_m.x(), pose.position_m.y(),
+                  degrees(pose.yaw_rad),
+                  is_free || is_ours_ ? "" : ": refused, the robot is driven by another"));
+  if (!is_free && !is_ours_) return;
+  if (is_ours_) mission.stop();
+  next_ = Goal{.position_m = pose.position_m, .heading_rad = pose.yaw_rad};
+}
+
+void Ros2Session::drive(Mission& mission) {
+  if (!next_ || !mission.finished()) return;
+  mission.start({*next_});
+  next_.reset();
+  is_ours_ = true;
+}
+
+void Ros2Session::remember(const SensorInput& input, const MissionStep& step, const Mission& mission) {
+  for (const WheelTravel& reading : input.base.travel) {
+    track_.add(reading);
+    newest_ = reading;
+  }
+  if (input.base.system && input.base.system->battery_v > 0.0) battery_v_ = input.base.system->battery_v;
+  if (!step.navigation.fixes.empty()) markers_ = step.navigation.fixes.back().fix.ids;
+  if (mission.finished()) {
+    path_.reset();
+  } else if (!path_ || path_->waypoints_m != mission.path().waypoints_m) {
+    path_ = std::make_shared<const Path>(mission.path());
+  }
+}
+
+Ros2Report Ros2Session::report_of(const SensorInput& input, const MissionStep& step) const {
+  const NavigationStep& navigation = step.navigation;
+  Ros2Report report{.now = input.now,
+                    .estimate = navigation.estimate,
+                    .odometry_stamp = newest_ ? newest_->stamp : input.now,
+                    .velocity = track_.velocity(),
+                    .scans = input.scans,
+                    .path = path_,
+                    .stop = navigation.stop,
+                    .slowed_by = navigation.slowed_by,
+                    .base = input.base.state,
+                    .fault = input.base.fault,
+                    .fault_details = input.base.details,
+                    .battery_v = battery_v_,
+                    .markers = markers_};
+  if (navigation.estimate) report.odometry_stamp = navigation.estimate->stamp;
+  report.odom_from_base = track_.pose_at(report.odometry_stamp);
+  for (const DistrustedMarker& marker : navigation.distrusted) report.distrusted.push_back(marker.id);
+  return report;
+}
+
+}  // namespace lodestar
