@@ -3,21 +3,22 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/conducted_replay.hpp"
 #include "app/commands/console_options.hpp"
 #include "app/commands/console_service.hpp"
 #include "app/commands/disturbance_options.hpp"
 #include "app/commands/driven_survey.hpp"
 #include "app/commands/explored_replay.hpp"
-#include "app/commands/fleet_replay.hpp"
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/goal_options.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/commands/people_options.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/commands/recorded_run.hpp"
+#include "app/commands/ros2_service.hpp"
+#include "app/commands/run_summary_json.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/log.hpp"
 #include "app/common/program_data.hpp"
@@ -63,6 +64,7 @@ struct ReplayArguments {
   bool explore = false;
   ConsoleServiceOptions console;
   FleetArguments fleet;
+  Ros2Arguments ros2;
 };
 
 SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Site& site) {
@@ -113,30 +115,6 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
   if (arguments.routes) command += " --routes";
   if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
   return command + words_of(arguments.people) + words_of(arguments.disturbances);
-}
-
-nlohmann::ordered_json as_json(const RunSummary& run) {
-  const auto optional = [](const std::optional<double>& value, double scale) {
-    return value ? nlohmann::ordered_json(scale * *value) : nlohmann::ordered_json(nullptr);
-  };
-  nlohmann::ordered_json json{{"seed", run.seed},
-                              {"goals", run.goals},
-                              {"arrivals", run.arrivals},
-                              {"worst_position_m", optional(run.worst_position_m, 1.0)},
-                              {"worst_heading_deg", optional(run.worst_heading_rad, degrees(1.0))},
-                              {"path_p95_m", run.path_p95_m},
-                              {"contacts", run.contacts},
-                              {"drive_s", run.drive_s},
-                              {"travel_s", run.travel_s},
-                              {"ideal_s", run.ideal_s},
-                              {"nees", run.nees},
-                              {"failure", run.failure}};
-  if (run.people) {
-    json["contacts_moving"] = run.people->moving;
-    json["contacts_excused"] = run.people->excused;
-    json["contacts_at_rest"] = run.people->at_rest;
-  }
-  return json;
 }
 
 bool succeeded(const RunSummary& run) {
@@ -272,10 +250,19 @@ ExitCode replay_command(const ReplayArguments& arguments) {
   Site site = open_site(arguments.site);
   if (needs_scanner(arguments) && !site.robot.scanner) site.robot.scanner.emplace();
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
-  const SimulatedDriveOptions options = replay_options(arguments, site);
+  SimulatedDriveOptions options = replay_options(arguments, site);
+  std::optional<Ros2Service> ros2;
+  if (arguments.ros2.is_wanted) {
+    ros2.emplace(site, ros2_options(arguments.ros2, true));
+    options.realtime = true;  // tools of ROS look at it as it goes
+    options.attend = [&ros2](const SensorInput& heard, const MissionStep& step, Mission& mission) {
+      ros2->session().attend(heard, step, mission);
+    };
+  }
   if (arguments.explore) return replay_exploring(site, options, output_folder(site, arguments));
   if (arguments.fleet.is_wanted) return replay_in_fleet(site, options, arguments.fleet);
   if (arguments.serve) return replay_served(site, options, arguments);
+  if (arguments.ros2.takes_commands && arguments.goals.empty()) return replay_waiting(site, options);
   return arguments.runs > 1 ? replay_many(site, options, arguments) : replay_once(site, options, arguments);
 }
 
@@ -336,6 +323,8 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
   CLI::Option* fleet = add_fleet_option(*command, arguments->fleet);
   for (const char* other : {"--runs", "--goal", "--mission", "--routes", "--serve", "--survey", "--state"})
     fleet->excludes(command->get_option(other));
+  add_ros2_options(*command, arguments->ros2);
+  command->get_option("--ros2")->excludes(command->get_option("--runs"));
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
   command->add_flag("--quiet", arguments->quiet, "No progress bar");

@@ -14,6 +14,8 @@
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/goal_options.hpp"
 #include "app/commands/kept_runs.hpp"
+#include "app/commands/localizing_run.hpp"
+#include "app/commands/ros2_service.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/log.hpp"
 #include "app/common/program_data.hpp"
@@ -25,7 +27,6 @@
 #include "app/site/base_setup.hpp"
 #include "app/site/site_folder.hpp"
 #include "drivers/base/guard.hpp"
-#include "drivers/scanner/scanner_driver.hpp"
 #include "drivers/system/service_manager.hpp"
 #include "maps/input_error.hpp"
 
@@ -48,6 +49,9 @@ struct RunArguments {
   std::string state;
   ConsoleServiceOptions console;
   FleetArguments fleet;
+  Ros2Arguments ros2;
+  bool localize_only = false;
+  std::string odometry = "base";
 };
 
 GuardOptions guard_options(const BaseProtocol& protocol) {
@@ -191,25 +195,31 @@ ExitCode drive_in_fleet(const DriveParts& parts, std::unique_ptr<BaseProtocol> p
   return done;
 }
 
-/// A robot that has a scanner does not drive without it.
-std::unique_ptr<Scanner> scanner_of(const Site& site) {
-  if (!site.robot.scanner) return nullptr;
-  if (site.scanner.empty())
-    throw InputError(site.folder / "site.yaml", 0, "no scanner, but a robot that has one",
-                     "scanner: with its address, such as ld19:/dev/ttyUSB0");
-  return open_scanner(site.scanner);
+void check_purpose(const RunArguments& arguments) {
+  const bool is_given_goals =
+      !arguments.goals.empty() || arguments.fleet.is_wanted || arguments.ros2.takes_commands;
+  if (!is_given_goals && !arguments.serve && !arguments.survey && !arguments.localize_only)
+    throw InputError(
+        "found neither --goal, --mission, --serve, --fleet, --ros2-commands, --localize-only nor --survey");
+  if (arguments.localize_only && !arguments.ros2.is_wanted)
+    throw InputError("--localize-only: found no --ros2, wanted it: the pose has nowhere to go");
 }
 
 ExitCode run_command(RunArguments arguments) {
-  const bool is_given_goals = !arguments.goals.empty() || arguments.fleet.is_wanted;
-  if (!is_given_goals && !arguments.serve && !arguments.survey)
-    throw InputError("found neither --goal, --mission, --serve, --fleet nor --survey");
+  check_purpose(arguments);
   if (arguments.runs.empty()) arguments.runs = runs_folder();
   Site site = open_site(arguments.site);
   if (arguments.explore) site.registry = {};
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
-  const BaseConnection connection = connection_of(site, arguments.interface);
   OperatorInput input;
+  if (arguments.localize_only)
+    return run_localizing(site,
+                          {.ros2 = arguments.ros2,
+                           .reads_odometry = arguments.odometry == "ros2",
+                           .interface = arguments.interface,
+                           .seed = arguments.seed},
+                          [&input] { return wish_of(input); });
+  const BaseConnection connection = connection_of(site, arguments.interface);
   ServiceManager manager(service_environment());
   RunOptions options{.camera = site.default_camera,
                      .goals = {},
@@ -233,6 +243,14 @@ ExitCode run_command(RunArguments arguments) {
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   const std::unique_ptr<Scanner> scanner = scanner_of(site);
   options.scanner = scanner.get();
+  std::optional<Ros2Service> ros2;
+  if (arguments.ros2.is_wanted) {
+    ros2.emplace(site, ros2_options(arguments.ros2, false));
+    options.attend = [&ros2](const SensorInput& heard, const MissionStep& step, Mission& mission) {
+      ros2->session().attend(heard, step, mission);
+    };
+    options.until_stopped = arguments.ros2.takes_commands;
+  }
   const Interruption interruption;
   const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};
   if (arguments.fleet.is_wanted) return drive_in_fleet(parts, std::move(protocol), options, arguments);
@@ -274,6 +292,18 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
       ->excludes(command->get_option("--goal"))
       ->excludes(command->get_option("--mission"))
       ->excludes(command->get_option("--survey"));
+  add_ros2_options(*command, arguments->ros2);
+  CLI::Option* only =
+      command->add_flag("--localize-only", arguments->localize_only,
+                        "Publish where the robot is, for another program that drives it: commands "
+                        "nothing, and sends nothing to the base");
+  for (const char* other : {"--goal", "--mission", "--serve", "--survey", "--fleet", "--ros2-commands"})
+    only->excludes(command->get_option(other));
+  command
+      ->add_option("--odom", arguments->odometry, "Of --localize-only: base (its CAN) or ros2 (topic odom)")
+      ->needs(only)
+      ->check(CLI::IsMember({"base", "ros2"}))
+      ->capture_default_str();
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
   command->add_option(

@@ -2,6 +2,7 @@
 
 #include "app/frames/video_camera.hpp"
 #include "drivers/camera/pluggable_camera.hpp"
+#include "drivers/scanner/scanner_driver.hpp"
 #include "drivers/stand_in/camera_stand_in.hpp"
 #include "maps/input_error.hpp"
 
@@ -37,6 +38,14 @@ std::unique_ptr<Camera> open_camera(const Site& site, const BaseConnection& base
   throw InputError(site.folder / "site.yaml", 0,
                    site.camera.empty() ? "no key camera" : "camera: '" + site.camera + "'",
                    "camera: v4l2:/dev/video0, video: and a file, or simulated");
+}
+
+std::unique_ptr<Scanner> scanner_of(const Site& site) {
+  if (!site.robot.scanner) return nullptr;
+  if (site.scanner.empty())
+    throw InputError(site.folder / "site.yaml", 0, "no scanner, but a robot that has one",
+                     "scanner: with its address, such as ld19:/dev/ttyUSB0");
+  return open_scanner(site.scanner);
 }
 
 }  // namespace lodestar

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/drive/sensing.hpp"
 #include "app/drive/state_keeper.hpp"
 #include "app/live/operator_session.hpp"
 #include "app/navigation/mission.hpp"
@@ -74,24 +75,6 @@ class CameraWatcher {
   std::string said_;
 };
 
-/// At most two frames a control period; further ones wait for the next, so that catching up does not delay
-/// commands.
-SensorInput sense(Camera& camera, Scanner* scanner, BaseDriver& base) {
-  constexpr std::size_t most_frames = 2;
-  const Stamp now = monotonic_now();
-  SensorInput input{.now = now, .frames = {}, .base = base.poll(now)};
-  while (input.frames.size() < most_frames) {
-    std::optional<Frame> frame = camera.poll();
-    if (!frame) break;
-    input.frames.push_back(std::move(*frame));
-  }
-  if (scanner != nullptr) {
-    while (std::optional<Scan> scan = scanner->poll()) input.scans.push_back(std::move(*scan));
-    input.packets = scanner->packets();
-  }
-  return input;
-}
-
 /// False when the run is to end.
 bool apply(OperatorWish wish, BaseDriver& base, const RunOptions& options) {
   if (wish == OperatorWish::stop) return false;
@@ -142,7 +125,8 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     attend(options, mission, base, recorder);
     next = std::max(next + control_period, monotonic_now());
     sleep_until(next);
-    SensorInput input = sense(camera, options.scanner, base);
+    const Stamp now = monotonic_now();
+    SensorInput input = sensed(now, base.poll(now), camera, options.scanner);
     if (options.session != nullptr) input.zones = options.session->take_zones();
     if (options.on_input) options.on_input(input);
     const MissionStep step = mission.step(input);
@@ -153,6 +137,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     camera_watcher.see(input, step.navigation.camera);
     recorder.take(input, step, mission);
     if (options.conduct && !options.conduct(step, mission)) break;
+    if (options.attend) options.attend(input, step, mission);
     keeper.step(input.now, [&] { return mission.learned(); });
     if (options.session != nullptr) options.session->publish(input, step, mission);
     if (const std::string words = in_words(mission, step.event); !words.empty())

@@ -35,6 +35,8 @@ struct RunOptions {
   std::filesystem::path state;         ///< file of what the robot learns; empty: the site's
   /// Decides after each step what the mission does next; false ends the run.
   std::function<bool(const MissionStep&, Mission&)> conduct;
+  /// Takes part after each step, like `conduct`, and decides nothing about the end.
+  std::function<void(const SensorInput&, const MissionStep&, Mission&)> attend;
   bool until_stopped = false;  ///< goes on after the goals until told to stop
   /// The console's operator session, if any: after the goals the robot waits for more from it, until
   /// `operator_wish` says stop.

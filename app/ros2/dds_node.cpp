@@ -1,6 +1,7 @@
 #include "app/ros2/dds_node.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
@@ -30,24 +31,40 @@ void set_user_data(const Qos& qos, const std::string& text) {
   dds_qset_userdata(qos.get(), text.data(), text.size());
 }
 
-/// The library's configuration; a user's own, in CYCLONEDDS_URI, takes its place.
+/// The library's configuration; a user's own, in CYCLONEDDS_URI, takes its place. The loopback interface has
+/// no multicast: there, participants are looked for at their ports.
 std::string configuration(const std::string& interface) {
   if (std::getenv("CYCLONEDDS_URI") != nullptr) return {};
-  const std::string interfaces =
-      interface.empty()
-          ? std::string{}
-          : fmt::format("<General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces></General>",
-                        interface);
-  // Warnings and traces would go to the program's standard error; what matters is told by results.
-  return fmt::format(
-      "<CycloneDDS><Domain Id=\"any\">{}<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>",
-      interfaces);
+  std::string settings;
+  if (!interface.empty())
+    settings = fmt::format(R"(<General><Interfaces><NetworkInterface name="{}"/></Interfaces></General>)",
+                           interface);
+  if (interface == "lo")
+    settings +=
+        "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</"
+        "MaxAutoParticipantIndex>"
+        R"(<Peers><Peer address="127.0.0.1"/></Peers></Discovery>)";
+  // What it would print goes nowhere: what matters is told by results.
+  settings += "<Tracing><Verbosity>none</Verbosity></Tracing>";
+  return R"(<CycloneDDS><Domain Id="any">)" + settings + "</Domain></CycloneDDS>";
 }
 
-dds_entity_t checked(dds_entity_t made, const char* what) {
-  if (made < 0)
-    throw InputError(fmt::format("ros2: found no {} ({}), wanted one", what, dds_strretcode(-made)));
-  return made;
+/// What the library said last of what it could not do.
+std::string& said_by_library() {
+  static std::string said;
+  return said;
+}
+
+void listen_to_library(void* /*unused*/, const dds_log_data_t* words) {
+  std::string said(words->message, words->size);
+  while (!said.empty() && std::isspace(static_cast<unsigned char>(said.back())) != 0) said.pop_back();
+  said_by_library() = std::move(said);
+}
+
+dds_entity_t checked(dds_entity_t made, const std::string& what) {
+  if (made >= 0) return made;
+  const std::string why = said_by_library().empty() ? dds_strretcode(-made) : said_by_library();
+  throw InputError(fmt::format("ros2: found no {} ({}), wanted one", what, why));
 }
 
 template <typename Gid>
@@ -91,7 +108,10 @@ void write_entities(dds_entity_t writer, dds_entity_t participant, const std::st
 DdsNode::DdsNode(const std::string& name, const Ros2Options& options) : name_(name), distro_(options.distro) {
   const auto domain = static_cast<dds_domainid_t>(options.domain);
   const std::string config = configuration(options.interface);
-  if (!config.empty()) domain_ = checked(dds_create_domain(domain, config.c_str()), "network interface");
+  dds_set_log_sink(listen_to_library, nullptr);
+  const std::string network =
+      options.interface.empty() ? "usable network" : "network interface " + options.interface;
+  if (!config.empty()) domain_ = checked(dds_create_domain(domain, config.c_str()), network);
   const Qos qos(dds_create_qos());
   set_user_data(qos, "enclave=/;");
   participant_ = dds_create_participant(domain, qos.get(), nullptr);

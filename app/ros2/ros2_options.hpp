@@ -7,9 +7,6 @@ namespace lodestar {
 /// ROS 2 distributions, by what differs on the wire.
 enum class RosDistro { humble, jazzy };
 
-/// Where the odometry comes from that the pose is followed with.
-enum class OdometrySource { base, ros2 };
-
 struct Ros2Options {
   int domain = 0;         ///< ROS_DOMAIN_ID
   std::string interface;  ///< network interface; empty: the one that the system prefers

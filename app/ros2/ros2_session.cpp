@@ -1,12 +1,18 @@
 #include "app/ros2/ros2_session.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace lodestar {
 
 Ros2Session::Ros2Session(Ros2Link& link, const Ros2Options& options, double track_width_m,
                          std::function<void(const std::string&)> tell)
-    : link_(link), options_(options), tell_(std::move(tell)), track_({.track_width_m = track_width_m}) {}
+    : link_(link),
+      options_(options),
+      track_width_m_(track_width_m),
+      tell_(std::move(tell)),
+      track_({.track_width_m = track_width_m}) {}
 
 void Ros2Session::say(const std::string& words) const {
   if (tell_) tell_("ros2: " + words);
@@ -60,6 +66,36 @@ void Ros2Session::remember(const SensorInput& input, const MissionStep& step, co
   }
 }
 
+/// Where another program has the odometry, the pose must be the one that it said.
+std::optional<Pose2> Ros2Session::odometry_at(Stamp stamp) const {
+  if (!options_.reads_odometry) return track_.pose_at(stamp);
+  const auto before = std::ranges::find_if(readings_.rbegin(), readings_.rend(),
+                                           [&](const OdometryReading& said) { return said.stamp <= stamp; });
+  if (before == readings_.rend()) return std::nullopt;
+  return before->odom_from_base;
+}
+
+std::vector<WheelTravel> Ros2Session::wheel_travel() {
+  constexpr std::size_t most_kept = 256;  // some seconds
+  std::vector<WheelTravel> travel;
+  for (const OdometryReading& reading : link_.take_odometry()) {
+    if (!readings_.empty() && reading.stamp <= readings_.back().stamp) continue;
+    if (!readings_.empty()) {
+      const Pose2 rolled = inverse(readings_.back().odom_from_base) * reading.odom_from_base;
+      const double half_rad = 0.5 * rolled.yaw_rad;
+      const double stretch = std::abs(half_rad) < 1e-6 ? 1.0 : half_rad / std::sin(half_rad);
+      const double arc_m = stretch * std::copysign(rolled.position_m.norm(), rolled.position_m.x());
+      rolled_.left_m += arc_m - half_rad * track_width_m_;
+      rolled_.right_m += arc_m + half_rad * track_width_m_;
+    }
+    rolled_.stamp = reading.stamp;
+    travel.push_back(rolled_);
+    readings_.push_back(reading);
+    if (readings_.size() > most_kept) readings_.pop_front();
+  }
+  return travel;
+}
+
 Ros2Report Ros2Session::report_of(const SensorInput& input, const MissionStep& step) const {
   const NavigationStep& navigation = step.navigation;
   Ros2Report report{.now = input.now,
@@ -76,7 +112,7 @@ Ros2Report Ros2Session::report_of(const SensorInput& input, const MissionStep& s
                     .battery_v = battery_v_,
                     .markers = markers_};
   if (navigation.estimate) report.odometry_stamp = navigation.estimate->stamp;
-  report.odom_from_base = track_.pose_at(report.odometry_stamp);
+  report.odom_from_base = odometry_at(report.odometry_stamp);
   for (const DistrustedMarker& marker : navigation.distrusted) report.distrusted.push_back(marker.id);
   return report;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,6 +23,9 @@ class Ros2Session {
   Ros2Session(Ros2Link& link, const Ros2Options& options, double track_width_m,
               std::function<void(const std::string&)> tell = {});
 
+  /// What the odometry of topic odom comes to for wheels on this track, since the last call: arcs of which
+  /// the wheels roll their ends' shares.
+  [[nodiscard]] std::vector<WheelTravel> wheel_travel();
   /// Call after each step.
   void attend(const SensorInput& input, const MissionStep& step, Mission& mission);
 
@@ -30,13 +34,17 @@ class Ros2Session {
   void take(const Ros2Goal& goal, Mission& mission);
   void drive(Mission& mission);
   void remember(const SensorInput& input, const MissionStep& step, const Mission& mission);
+  [[nodiscard]] std::optional<Pose2> odometry_at(Stamp stamp) const;
   [[nodiscard]] Ros2Report report_of(const SensorInput& input, const MissionStep& step) const;
   void say(const std::string& words) const;
 
   Ros2Link& link_;
   Ros2Options options_;
+  double track_width_m_;
   std::function<void(const std::string&)> tell_;
   WheelTrack track_;
+  std::deque<OdometryReading> readings_;  ///< of topic odom, the latest
+  WheelTravel rolled_;                    ///< what they come to
   std::optional<WheelTravel> newest_;
   bool is_ours_ = false;      ///< the present drive came by goal_pose
   std::optional<Goal> next_;  ///< to drive to once the robot has come to rest

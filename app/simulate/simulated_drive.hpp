@@ -46,6 +46,8 @@ struct SimulatedDriveOptions {
   std::function<void(double)> progress;              ///< called repeatedly with the completed share, 0..1
   DriveWatcher watch;                                ///< called during the drive
   std::function<void(const SensorInput&)> on_input;  ///< hears of all input, in drives and between
+  /// Takes part after each step, in drives and between.
+  std::function<void(const SensorInput&, const MissionStep&, Mission&)> attend;
 };
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.

@@ -117,9 +117,11 @@ MissionStep SimulatedRobot::step(OperatorSession* session) {
   if (session != nullptr) session->publish(input, step, mission_, [&] { return error_of(step.navigation); });
   if (!recorder_.is_on()) {
     forget();
+    if (options_.attend) options_.attend(input, step, mission_);
     return step;
   }
   recorder_.take(input, step, mission_);
+  if (options_.attend) options_.attend(input, step, mission_);
   score(step.event);
   score_backtrack(step.navigation.backtracks);
   if (options_.progress)
