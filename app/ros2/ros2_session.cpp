@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "app/recording/drive_moment.hpp"
+
 namespace lodestar {
 
 Ros2Session::Ros2Session(Ros2Link& link, const Ros2Options& options, double track_width_m,
@@ -20,6 +22,7 @@ void Ros2Session::say(const std::string& words) const {
 
 void Ros2Session::attend(const SensorInput& input, const MissionStep& step, Mission& mission) {
   remember(input, step, mission);
+  if (const std::string words = in_words(mission, step.event); is_ours_ && !words.empty()) say(words);
   if (mission.finished()) is_ours_ = false;
   for (const Ros2Command& command : link_.take_commands())
     std::visit([&](const auto& wanted) { take(wanted, mission); }, command);

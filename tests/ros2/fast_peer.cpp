@@ -3,8 +3,8 @@
 //   read TOPIC TYPE kept|passing [unread]     subscribe; kept: transient local; unread: takes nothing
 //   write TOPIC TYPE HEX                      publish these bytes, header of the CDR included
 //
-// Only over the loopback interface. It prints a line of JSON for each message (`topic`, `hex`), and for each writer that it discovers (`writer`, `type`,
-// `reliable`, `kept`, `user_data`). Ends with its input.
+// Only over the loopback interface. It prints a line of JSON for each message (`topic`, `hex`), and for each
+// writer that it discovers (`writer`, `type`, `reliable`, `kept`, `user_data`). Ends with its input.
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -92,10 +92,10 @@ class Discovery : public DomainParticipantListener {
     const auto& qos = found.info.m_qos;
     const auto& user = qos.m_userData;
     std::ostringstream line;
-    line << R"({"writer":")" << found.info.topicName() << R"(","type":")" << found.info.typeName() << R"(","reliable":)"
-         << (qos.m_reliability.kind == RELIABLE_RELIABILITY_QOS ? "true" : "false") << R"(,"kept":)"
-         << (qos.m_durability.kind == TRANSIENT_LOCAL_DURABILITY_QOS ? "true" : "false") << R"(,"user_data":")"
-         << std::string(user.begin(), user.end()) << "\"}";
+    line << R"({"writer":")" << found.info.topicName() << R"(","type":")" << found.info.typeName()
+         << R"(","reliable":)" << (qos.m_reliability.kind == RELIABLE_RELIABILITY_QOS ? "true" : "false")
+         << R"(,"kept":)" << (qos.m_durability.kind == TRANSIENT_LOCAL_DURABILITY_QOS ? "true" : "false")
+         << R"(,"user_data":")" << std::string(user.begin(), user.end()) << "\"}";
     print(line.str());
   }
 };
@@ -151,17 +151,22 @@ class Peer {
       qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
       qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
       writer = publisher_->create_datawriter(topic(name, type), qos);
-    }
-    PublicationMatchedStatus matched;
-    for (int tries = 0; tries < 1000; ++tries) {  // until somebody listens
-      writer->get_publication_matched_status(matched);
-      if (matched.current_count > 0) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      await_reader(*writer);
     }
     writer->write(&bytes);
   }
 
  private:
+  /// Until somebody listens, and has had time to know this writer too: what comes before that is lost.
+  static void await_reader(DataWriter& writer) {
+    PublicationMatchedStatus matched;
+    for (int tries = 0; tries < 1000 && matched.current_count == 0; ++tries) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      writer.get_publication_matched_status(matched);
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+
   Topic* topic(const std::string& name, const std::string& type) {
     if (topics_.count(name) == 0) {
       const TypeSupport raw(new RawType(type));
