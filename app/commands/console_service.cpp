@@ -5,6 +5,7 @@
 
 #include "app/common/log.hpp"
 #include "app/common/low_priority.hpp"
+#include "app/console/rosbridge_view.hpp"
 #include "app/viewers/foxglove_view.hpp"
 #include "drivers/system/clock.hpp"
 
@@ -24,7 +25,10 @@ std::vector<SocketProtocol> protocols_of(const std::vector<std::unique_ptr<LiveC
 
 ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* link, const LiveSurvey* survey)
     : documents_(options.site, options.runs), link_(link) {
-  channels_.push_back(std::make_unique<LiveView>(documents_.site(), link, survey, options.live));
+  auto page = std::make_unique<LiveView>(documents_.site(), link, survey, options.live);
+  if (link != nullptr)
+    channels_.push_back(std::make_unique<RosbridgeView>(documents_.site(), *link, page->lease()));
+  channels_.push_back(std::move(page));
   channels_.push_back(std::make_unique<FoxgloveView>(documents_.site()));
   documents_.on_saved_markers([this](const MarkerRegistry& saved) {
     log_info(fmt::format("{} markers were saved through the console", saved.markers.size()));

@@ -108,6 +108,10 @@ ordered_json seen_json(const RobotState& state) {
   return out;
 }
 
+SocketMessage message_of(const ordered_json& content) {
+  return text_message(content.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
 ordered_json state_json(const RobotState& state) {
   ordered_json out{{"type", "state"},
                    {"time_s", short_number(seconds(state.now))},

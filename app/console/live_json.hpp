@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "app/live/robot_state.hpp"
+#include "app/net/socket.hpp"
 
 // JSON of the page's protocol: the robot's state to the page, goals from it, in metres, degrees and seconds.
 namespace lodestar {
+
+/// As it is sent; what is no UTF-8 is replaced.
+SocketMessage message_of(const nlohmann::ordered_json& content);
 
 nlohmann::ordered_json state_json(const RobotState& state);
 

@@ -18,10 +18,6 @@ constexpr std::size_t most_previews = 8;  ///< that wait; later ones wait in the
 
 enum Slot : int { state_slot, path_slot, picture_slot, preview_slot, survey_slot, seen_slot };
 
-SocketMessage message_of(const ordered_json& content) {
-  return text_message(content.dump(-1, ' ', false, json::error_handler_t::replace));
-}
-
 /// "client 2", or "client 2 (Ada)".
 std::string in_words(int client, const std::string& name) {
   return name.empty() ? fmt::format("client {}", client) : fmt::format("client {} ({})", client, name);
@@ -164,7 +160,8 @@ LiveView::Client* LiveView::find(int number) const {
 std::string LiveView::driver_in_words(Stamp now) const {
   const std::optional<int> driver = lease_.holder(now);
   const Client* const client = driver ? find(*driver) : nullptr;
-  return client == nullptr ? "nobody" : in_words(client->number, client->name);
+  if (client != nullptr) return in_words(client->number, client->name);
+  return driver ? "a program of ROS" : "nobody";
 }
 
 /// Asks the driver on behalf of a client. A free lease is the client's at once.
@@ -232,7 +229,8 @@ void LiveView::show(const RobotState& state, Stamp now) {
   const std::optional<int> driver = lease_.holder(now);
   content["driver"] = driver ? ordered_json(*driver) : ordered_json(nullptr);
   const Client* const driving = driver ? find(*driver) : nullptr;
-  content["driver_name"] = driving != nullptr ? driving->name : "";
+  const bool is_program = driver && driving == nullptr;
+  content["driver_name"] = is_program ? "a program of ROS" : driving != nullptr ? driving->name : "";
   content["viewers"] = clients_.size();
   state_ = message_of(content);
   for (const Client* const client : clients_) client->outbox->offer(state_slot, state_);

@@ -56,6 +56,10 @@ class LiveView : public LiveChannel {
   /// Previews go by them soon after.
   void take_places(const Places& saved) override;
 
+  /// The one lease of the robot, for other channels by which it can be driven; their clients have numbers
+  /// below 0.
+  [[nodiscard]] Lease& lease() { return lease_; }
+
  private:
   class Session;
   struct Client {

@@ -41,10 +41,14 @@ void OperatorSession::say(Stamp now, const std::string& words) {
 }
 
 void OperatorSession::apply_orders(Mission& mission, BaseDriver& base, Stamp now, Stamp clock) {
-  if (mission.finished()) by_console_ = false;  // the next drive may be another's
+  if (mission.finished()) {  // the next drive may be another's
+    by_console_ = false;
+    ticket_ = 0;
+  }
   for (const Order& order : link_.take_orders()) take(order, mission, base, now);
   if (link_.take_stop()) {
     next_goals_.clear();
+    end_drive(std::exchange(next_ticket_, 0), "stopped before it began");
     mission.stop();
     say(now, "stop");
   }
@@ -54,13 +58,24 @@ void OperatorSession::apply_orders(Mission& mission, BaseDriver& base, Stamp now
   }
   if (next_goals_.empty() || !mission.finished()) return;
   mission.start(std::exchange(next_goals_, {}));
+  ticket_ = std::exchange(next_ticket_, 0);
   by_console_ = true;
+}
+
+/// `why` is empty for one that arrived.
+void OperatorSession::end_drive(std::uint64_t ticket, const std::string& why) {
+  constexpr std::size_t most_kept = 16;
+  if (ticket == 0) return;
+  ended_.push_back({.ticket = ticket, .arrived = why.empty(), .why = why});
+  if (ended_.size() > most_kept) ended_.pop_front();
 }
 
 void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& base, Stamp now) {
   const auto say_by = [&](const std::string& words) { say(now, order.by + ": " + words); };
   if (const auto* go = std::get_if<GoOrder>(&order.what)) {
+    end_drive(next_ticket_, "another goal came before it began");
     next_goals_ = go->goals;
+    next_ticket_ = go->ticket;
     mission.stop();
     say_by("go to " + in_words(go->goals));
   } else if (std::holds_alternative<PauseOrder>(order.what)) {
@@ -95,6 +110,11 @@ void OperatorSession::remember(const SensorInput& input, const MissionStep& step
   if (!step.navigation.fixes.empty()) last_fix_ = step.navigation.fixes.back();
   if (!input.frames.empty()) last_frame_ = input.frames.back();
   if (const std::string words = in_words(mission, step.event); !words.empty()) say(input.now, words);
+  if (step.event == MissionEvent::goal_failed) {
+    end_drive(std::exchange(ticket_, 0), mission.failure());
+  } else if (step.event == MissionEvent::goal_arrived && mission.finished()) {
+    end_drive(std::exchange(ticket_, 0), {});
+  }
   if (std::string words = condition_of(input, step.navigation); words != condition_) {
     say(input.now, words);
     condition_ = std::move(words);
@@ -127,7 +147,8 @@ void OperatorSession::publish(const SensorInput& input, const MissionStep& step,
                    .distrusted = navigation.distrusted,
                    .frame = last_frame_,
                    .error_m = error_m ? error_m() : std::nullopt,
-                   .events = {events_.begin(), events_.end()}};
+                   .events = {events_.begin(), events_.end()},
+                   .ended = {ended_.begin(), ended_.end()}};
   if (input.base.system && input.base.system->battery_v > 0.0) state.battery_v = input.base.system->battery_v;
   if (auto seen = mission.seen(input.now))
     state.seen = std::make_shared<const SeenSurroundings>(std::move(*seen));

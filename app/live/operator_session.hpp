@@ -33,12 +33,16 @@ class OperatorSession {
   void say(Stamp now, const std::string& words);
 
  private:
+  void end_drive(std::uint64_t ticket, const std::string& why);
   void take(const Order& order, Mission& mission, BaseDriver& base, Stamp now);
   void remember(const SensorInput& input, const MissionStep& step, const Mission& mission);
 
   LiveLink& link_;
   std::function<void(const std::string&)> tell_;
   std::vector<Goal> next_goals_;  ///< to start when the robot has come to rest
+  std::uint64_t next_ticket_ = 0;
+  std::uint64_t ticket_ = 0;      ///< of the present drive
+  std::deque<EndedDrive> ended_;  ///< of those with a ticket
   bool by_console_ = false;       ///< the present drive was ordered from the console
   std::shared_ptr<const Zones> zones_;
   std::deque<DriveEvent> events_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,6 +14,7 @@ namespace lodestar {
 
 struct GoOrder {
   std::vector<Goal> goals;
+  std::uint64_t ticket = 0;  ///< by which the end of the drive is told; 0: nobody asks
 };
 struct PauseOrder {};
 struct ResumeOrder {};

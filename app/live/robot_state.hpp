@@ -22,6 +22,13 @@ struct DriveEvent {
   std::string words;
 };
 
+/// How a drive ended that came with a ticket.
+struct EndedDrive {
+  std::uint64_t ticket = 0;
+  bool arrived = false;
+  std::string why;  ///< it did not arrive
+};
+
 /// The robot's state at one step: everything that the console shows.
 struct RobotState {
   Stamp now;
@@ -49,6 +56,7 @@ struct RobotState {
 
   std::optional<double> error_m;   ///< true position error; in simulation only
   std::vector<DriveEvent> events;  ///< the latest, oldest first
+  std::vector<EndedDrive> ended;   ///< likewise
 };
 
 }  // namespace lodestar

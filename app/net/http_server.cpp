@@ -230,7 +230,7 @@ class HttpServer::Impl {
         .handshake_timeout = options_.patience, .idle_timeout = options_.patience, .keep_alive_pings = true});
     client->stream.set_option(
         websocket::stream_base::decorator([name = protocol.name](websocket::response_type& response) {
-          response.set(http::field::sec_websocket_protocol, name);
+          if (!name.empty()) response.set(http::field::sec_websocket_protocol, name);
         }));
     client->stream.read_message_max(options_.max_socket_message_bytes);
     client->stream.auto_fragment(false);  // one write per message

@@ -46,6 +46,7 @@ const SocketProtocol* chosen_protocol(const std::vector<SocketProtocol>& protoco
     const std::size_t first = std::min(name.find_first_not_of(" \t"), name.size());
     names.insert(name.substr(first, name.find_last_not_of(" \t") + 1 - first));
   }
+  if (names.empty()) names.insert("");
   const auto found = std::ranges::find_if(
       protocols, [&](const SocketProtocol& protocol) { return names.contains(protocol.name); });
   return found == protocols.end() ? nullptr : &*found;

@@ -79,7 +79,7 @@ class SocketSession {
 };
 
 struct SocketProtocol {
-  std::string name;  ///< as offered in Sec-WebSocket-Protocol
+  std::string name;  ///< as offered in Sec-WebSocket-Protocol; empty: for clients that offer none
   /// Called for each client that offers it and has passed the access rules. The outbox outlives the session.
   std::function<std::unique_ptr<SocketSession>(Role role, Outbox& outbox)> open;
 };

@@ -67,7 +67,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
        {"app/report", "app/live", "app/navigation", "app/frames", "drivers/stand_in", "drivers/scanner"}},
       {"app/viewers", {"app/report", "app/recording", "app/live", "app/net"}},
       {"app/web", {}},
-      {"app/console", {"app/placement", "app/live", "app/net", "app/web"}},
+      {"app/console", {"app/placement", "app/live", "app/ros2", "app/net", "app/web"}},
       {"app/bench", {"app/report", judge}},
       {"app/campaign", {"app/simulate", judge}},
       {"app/hosting", {"app/site", "app/common", "drivers/scanner", judge}},
