@@ -1,6 +1,6 @@
 // A robot that speaks ROS 2, a DDS participant of another vendor, and a reader of CDR that nobody here wrote. All over
 // the loopback interface.
-import { spawn } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
@@ -116,6 +116,26 @@ export class Robot {
     rmSync(this.folder, { recursive: true, force: true });
     return code;
   }
+}
+
+/** Wireshark's dissector listens on the loopback interface, where this user may capture; else nothing. */
+export async function startCapture(file) {
+  const { child, ended } = start('tshark', ['-i', 'lo', '-f', 'udp', '-w', file, '-q']);
+  let said = '';
+  const ready = await new Promise((done) => {
+    child.stderr.on('data', (bytes) => { said += bytes; if (said.includes('Capture started')) done(true); });
+    child.on('error', () => done(false));
+    child.on('exit', () => done(false));
+  });
+  if (!ready) return undefined;
+  return { end: async () => { child.kill('SIGINT'); await ended; } };
+}
+
+/** What it makes of the packets that match: a line for each, of these fields. */
+export function dissected(file, filter, ...fields) {
+  const columns = fields.flatMap((field) => ['-e', field]);
+  return execFileSync('tshark', ['-r', file, '-Y', filter, '-T', 'fields', '-E', 'separator=/t', ...columns], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 28 })
+    .split('\n').filter((line) => line);
 }
 
 /** The messages of a topic in a run's record. */

@@ -1,8 +1,10 @@
 // What a robot publishes as a ROS 2 node, as software of others receives it.
 import assert from 'node:assert/strict';
-import { rmSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { Peer, Robot, freeDomain, recorded, stampOf, yawOf } from './peer.mjs';
+import { Peer, Robot, dissected, freeDomain, recorded, stampOf, startCapture, yawOf } from './peer.mjs';
 
 const type = (library, name) => `${library}::msg::dds_::${name}_`;
 const tfType = type('tf2_msgs', 'TFMessage');
@@ -39,7 +41,11 @@ describe('a driving robot as a ROS 2 node', () => {
   const domain = freeDomain();
   let robot;
   let peer;
+  let capture;
+  const folder = mkdtempSync(join(tmpdir(), 'lodestar-ros2-capture-'));
+  const packets = join(folder, 'packets.pcapng');
   before(async () => {
+    capture = await startCapture(packets);
     robot = new Robot(domain, '--goal', '2.4,5.5', '--people', '1');
     await new Promise((done) => setTimeout(done, 3000));  // late: map and mounts were sent before
     peer = new Peer(domain);
@@ -47,8 +53,9 @@ describe('a driving robot as a ROS 2 node', () => {
     await robot.ended;
     await peer.heard('rt/amcl_pose', 10);
     await peer.end();
+    await capture?.end();
   });
-  after(() => rmSync(robot.folder, { recursive: true, force: true }));
+  after(() => { for (const used of [robot.folder, folder]) rmSync(used, { recursive: true, force: true }); });
 
   test('offers each topic with its type, QoS and type hash', () => {
     for (const [topic, wanted] of Object.entries(published)) {
@@ -154,6 +161,14 @@ describe('a driving robot as a ROS 2 node', () => {
     assert.deepEqual(newest.status.map(({ name, level }) => `${name} ${level}`).slice(0, 2),
       ['lodestar: localization 0', 'lodestar: base 0']);
     assert.ok(peer.messages['rt/battery_state'].every(({ voltage, present }) => voltage > 10 && present));
+  });
+
+  test('is dissected by Wireshark: every topic is named, nothing is malformed', (t) => {
+    if (!capture) return t.skip('tshark may not capture here');
+    const names = dissected(packets, 'rtps.param.topicName', 'rtps.param.topicName').flatMap((line) => line.split(','));
+    for (const topic of Object.keys(published)) assert.ok(names.includes(topic), `Wireshark saw no ${topic}`);
+    assert.ok(dissected(packets, 'rtps.sm.id == 0x15', 'frame.number').length > 100);
+    assert.deepEqual(dissected(packets, 'rtps && _ws.malformed', 'frame.number'), []);
   });
 
   test('tells simulated time, forward', () => {
