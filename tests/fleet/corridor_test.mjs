@@ -84,7 +84,7 @@ test('ten robots, one broker, one corridor: no contact and no deadlock', async (
   await until('the robots have names', () => isOver || words.includes(`lodestar/rooms-${count}\n`), () => words);
   assert.ok(!isOver, words);
   const serials = Array.from({ length: count }, (_, i) => `rooms-${i + 1}`);
-  const robots = serials.map((serial) => ({ serial, witness: new Witness(url, serial, '2.0.0', 'lodestar') }));
+  const robots = serials.map((serial) => ({ serial, witness: new Witness(url, serial, '2.0.0', { manufacturer: 'lodestar' }) }));
   run.after(() => robots.forEach(({ witness }) => witness.end()));
   await until('all know where they are', () => robots.every((robot) => robot.witness.state()?.agvPosition?.positionInitialized), () => words);
 

@@ -26,10 +26,10 @@ export async function freePort() {
   return port;
 }
 
-/** mosquitto on loopback. */
-export async function startBroker(port) {
+/** mosquitto on loopback. `security`: lines of its configuration. */
+export async function startBroker(port, security = 'allow_anonymous true') {
   const folder = mkdtempSync(join(tmpdir(), 'lodestar-broker-'));
-  writeFileSync(join(folder, 'conf'), `listener ${port} 127.0.0.1\nallow_anonymous true\npersistence false\n`);
+  writeFileSync(join(folder, 'conf'), `listener ${port} 127.0.0.1\n${security}\npersistence false\n`);
   const child = spawn('mosquitto', ['-c', join(folder, 'conf')], {
     stdio: ['ignore', 'ignore', 'pipe'], env: { ...process.env, PATH: `${process.env.PATH}:/usr/sbin` },
   });
@@ -44,19 +44,19 @@ export async function startBroker(port) {
 }
 
 /** A copy of the lab whose robot is in a fleet. */
-function fleetSite(serial, version) {
+function fleetSite(serial, version, identity) {
   const folder = mkdtempSync(join(tmpdir(), 'lodestar-fleet-'));
   const site = join(folder, 'lab');
   cpSync(join(source, 'sites/lab'), site, { recursive: true });
   const file = join(site, 'site.yaml');
-  writeFileSync(file, `${readFileSync(file, 'utf8')}fleet: {broker: "mqtts://nowhere.invalid", interface: uagv, manufacturer: ACME, serial: ${serial}, version: ${version},
+  writeFileSync(file, `${readFileSync(file, 'utf8')}fleet: {broker: "mqtts://nowhere.invalid", interface: uagv, manufacturer: ACME, serial: ${serial}, version: ${version}, ${identity}
   actions: [{type: pick, run: [/bin/sh, -c, "read action; echo box 7"], timeout_s: 60}]}\n`);
   return { folder, site };
 }
 
-/** A simulated robot in real time. */
-export function startRobot(url, serial, version) {
-  const { folder, site } = fleetSite(serial, version);
+/** A simulated robot in real time. `identity`: further keys of `fleet`, each with a comma behind it. */
+export function startRobot(url, serial, version, identity = '') {
+  const { folder, site } = fleetSite(serial, version, identity);
   const child = spawn(binary, ['replay', site, '--fleet', url], { stdio: ['ignore', 'pipe', 'pipe'] });
   let words = '';
   child.stdout.on('data', (bytes) => { words += bytes; });
@@ -72,7 +72,7 @@ export function startRobot(url, serial, version) {
 
 /** All that the robot says, validated against the standard's schemas where they are there. */
 export class Witness {
-  constructor(url, serial, version, manufacturer = 'ACME') {
+  constructor(url, serial, version, { manufacturer = 'ACME', ...identity } = {}) {
     this.messages = [];
     this.faults = [];
     this.base = `uagv/v2/${manufacturer}/${serial}`;
@@ -83,7 +83,7 @@ export class Witness {
       for (const topic of ['state', 'connection', 'factsheet'])
         this.checks[topic] = ajv.compile(JSON.parse(readFileSync(join(schemas, version, `${topic}.schema`), 'utf8')));
     }
-    this.client = mqtt.connect(url, { reconnectPeriod: 200 });
+    this.client = mqtt.connect(url, { reconnectPeriod: 200, ...identity });
     this.client.on('connect', () => this.client.subscribe(`${this.base}/#`));
     this.client.on('message', (topic, payload, packet) => this.take(topic.slice(this.base.length + 1), payload, packet));
   }
