@@ -68,6 +68,9 @@ class FleetTransport::Client {
                                    [](mosquitto*, void* self, const mosquitto_message* message) {
                                      static_cast<Client*>(self)->has_received(*message);
                                    });
+    mosquitto_log_callback_set(mosquitto_.get(), [](mosquitto*, void* self, int level, const char* words) {
+      if (level == MOSQ_LOG_ERR) static_cast<Client*>(self)->log_ = words;
+    });
     identify();
   }
 
@@ -148,8 +151,16 @@ class FleetTransport::Client {
     }
   }
 
-  void wait_for_broker(const std::string& why) {
+  /// What OpenSSL said of the last connection, such as "certificate verify failed"; empty for nothing.
+  [[nodiscard]] std::string words_of_openssl() const {
+    const std::size_t reason = log_.rfind("::");
+    return reason == std::string::npos ? "" : fmt::format(" ({})", log_.substr(reason + 2));
+  }
+
+  void wait_for_broker(const std::string& result) {
     constexpr Clock::duration longest = std::chrono::seconds(5);
+    const std::string why = result + words_of_openssl();
+    log_.clear();
     if (said_ != why)
       tell_(Severity::warning, fmt::format("fleet: no connection to {}: {}", settings_.broker, why));
     said_ = why;
@@ -228,6 +239,7 @@ class FleetTransport::Client {
   SteadyTime give_up_;
   Clock::duration pause_ = first_pause;
   std::string said_;
+  std::string log_;  ///< the library's newest error
   std::uint32_t connection_count_ = 0;
   std::uint32_t state_count_ = 0;
   std::uint32_t factsheet_count_ = 0;

@@ -52,19 +52,19 @@ describe('TLS with certificates of both sides', () => {
   });
 
   const refused = [
-    ['without a certificate of its own', 'broker', identity('site')],
-    ['with one of another authority', 'broker', identity('site', 'intruder')],
-    ['by a broker of another authority', 'broker', identity('stranger', 'robot')],
-    ['by a broker with another host\'s certificate', 'elsewhere', identity('site', 'robot')],
+    ['without a certificate of its own', 'broker', identity('site'), /certificate required/],
+    ['with one of another authority', 'broker', identity('site', 'intruder'), /unknown ca/],
+    ['by a broker of another authority', 'broker', identity('stranger', 'robot'), /certificate verify failed/],
+    ['by a broker with another host\'s certificate', 'elsewhere', identity('site', 'robot'), /certificate verify failed/],
   ];
-  for (const [how, name, its] of refused) {
+  for (const [how, name, its, words] of refused) {
     test(`${how} nothing is said, and it goes on trying`, async () => {
       const port = await freePort();
       const server = await broker(port, name);
       const url = `mqtts://localhost:${port}`;
       const robot = startRobot(url, 'outside', '2.1.0', its);
       const witness = new Witness(url, 'outside', '2.1.0', { ca: readFileSync(file('site.pem')), cert: readFileSync(file('robot.pem')), key: readFileSync(file('robot.key')), checkServerIdentity: () => undefined });
-      await until('it says that it is not let in', () => /no connection|lost|refused|TLS|SSL|certificate/i.test(robot.words()), robot.words);
+      await until('it says that it is not let in', () => words.test(robot.words()), robot.words);
       await new Promise((done) => setTimeout(done, 3000));
       assert.equal(witness.messages.length, 0, robot.words());
       witness.end();
