@@ -62,6 +62,7 @@ LiveView::LiveView(const Site& site, LiveLink* link, const LiveSurvey* survey, c
       link_(link),
       survey_(survey),
       registry_(site.registry),
+      routes_(site.places, site.robot.max_forward_mps),
       options_(options),
       preview_(std::make_unique<const PathPreview>(site, site.places)),
       camera_(site.registry),
@@ -123,7 +124,7 @@ std::optional<std::string> LiveView::handle(Client& client, const std::string& t
     }
     if (client.role < Role::drive) return "this needs the token to drive";
     if (type == "preview") {
-      client.preview = goals_from_json(message.at("goals"));
+      client.preview = wish_from(message);
       return std::nullopt;
     }
     return handle_control(client, type, message, now);
@@ -197,7 +198,7 @@ std::optional<std::string> LiveView::give_order(const Client& client, const std:
   Order order{.by = in_words(client.number, client.name), .what = PauseOrder{}};
   if (type == "hold") return std::nullopt;
   if (type == "go") {
-    order.what = GoOrder{goals_from_json(message.at("goals"))};
+    order.what = GoOrder{goals_of(wish_from(message))};
   } else if (type == "resume") {
     order.what = ResumeOrder{};
   } else if (type == "clear_fault") {
@@ -211,6 +212,17 @@ std::optional<std::string> LiveView::give_order(const Client& client, const std:
   }
   if (link_->give(std::move(order))) return std::nullopt;
   return "too many orders are still waiting for the robot";
+}
+
+LiveView::Wish LiveView::wish_from(const json& message) {
+  return {.goals = goals_from_json(message.at("goals")), .along_routes = message.value("routes", false)};
+}
+
+/// Throws InputError where no edges lead there.
+std::vector<Goal> LiveView::goals_of(const Wish& wish) const {
+  if (!wish.along_routes) return wish.goals;
+  if (!estimate_) throw InputError("the robot does not know where it is");
+  return routes_.over_edges(estimate_->map_from_base.position_m, wish.goals);
 }
 
 void LiveView::pump(Stamp now, const RobotState* fresh) {
@@ -280,6 +292,7 @@ void LiveView::take_markers(const MarkerRegistry& saved) {
 
 void LiveView::take_places(const Places& saved) {
   saved_places_ = saved;
+  routes_ = RouteGraph(saved, site_.robot.max_forward_mps);
   tell_saved("places");
 }
 
@@ -298,8 +311,8 @@ void LiveView::begin_previews() {
   for (Client* const client : clients_) {
     if (!client->preview || client->answer.valid()) continue;
     const auto answer = std::make_shared<std::promise<ordered_json>>();
-    const auto plan = [this, answer, goals = *client->preview, robot = estimate_](const std::stop_token&) {
-      answer->set_value(preview_of(goals, robot));
+    const auto plan = [this, answer, wish = *client->preview, robot = estimate_](const std::stop_token&) {
+      answer->set_value(preview_of(wish, robot));
     };
     if (!planner_.give(plan)) return;
     client->answer = answer->get_future();
@@ -317,11 +330,12 @@ void LiveView::show_previews() {
   }
 }
 
-ordered_json LiveView::preview_of(const std::vector<Goal>& goals,
-                                  const std::optional<PoseEstimate>& robot) const {
+ordered_json LiveView::preview_of(const Wish& wish, const std::optional<PoseEstimate>& robot) const {
   if (!robot) return {{"why", "the robot does not know where it is"}};
   try {
-    return preview_->plan(robot->map_from_base, goals);
+    const Pose2& start = robot->map_from_base;
+    return wish.along_routes ? preview_->plan_over_edges(start, wish.goals)
+                             : preview_->plan(start, wish.goals);
   } catch (const std::exception& error) {
     return {{"why", error.what()}};
   }

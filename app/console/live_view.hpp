@@ -14,6 +14,7 @@
 #include "app/live/live_channel.hpp"
 #include "app/live/live_link.hpp"
 #include "app/placement/live_survey.hpp"
+#include "app/site/route_graph.hpp"
 
 namespace lodestar {
 
@@ -34,13 +35,14 @@ struct LiveViewOptions {
 ///   stop                                  from anyone who may view
 ///   camera   {on}                         pictures on or off
 ///   name     {name}                       what others are to call this client
-///   preview  {goals}                      plans without driving; needs the role drive, as do all below
+///   preview  {goals, routes}              plans without driving; needs the role drive, as do all below
 ///   take, hold, release                   the control lease: one driver at a time, who must keep renewing it
 ///   ask                                   asks the driver for it
 ///   hand_over {client}, keep {client}     the driver's answer
 ///   clear_fault, place {pose}             while no other client has the lease; they take none
-///   go {goals}, pause, resume, steer {forward_mps, turn_degps}        only from the client that has the
-///   lease
+///   go {goals, routes}, pause, resume, steer {forward_mps, turn_degps}        only from the client that has
+///   the lease
+/// `routes`, which may be left out: true for a way along the edges of the site's places.
 class LiveView : public LiveChannel {
  public:
   /// `link`: null when no robot is connected. `survey`: the one under way; null when there is none. All must
@@ -62,13 +64,18 @@ class LiveView : public LiveChannel {
 
  private:
   class Session;
+  /// Where a client wants the robot to drive.
+  struct Wish {
+    std::vector<Goal> goals;
+    bool along_routes = false;
+  };
   struct Client {
     int number = 0;
     std::string name;  ///< as its user gave it; may be empty
     Role role = Role::view;
     Outbox* outbox = nullptr;
     bool wants_camera = false;
-    std::optional<std::vector<Goal>> preview;    ///< requested, not begun yet
+    std::optional<Wish> preview;                 ///< requested, not begun yet
     std::future<nlohmann::ordered_json> answer;  ///< to the preview under way
   };
 
@@ -95,13 +102,16 @@ class LiveView : public LiveChannel {
   void tell_saved(const std::string& what) const;
   void begin_previews();
   void show_previews();
-  [[nodiscard]] nlohmann::ordered_json preview_of(const std::vector<Goal>& goals,
+  [[nodiscard]] nlohmann::ordered_json preview_of(const Wish& wish,
                                                   const std::optional<PoseEstimate>& robot) const;
+  static Wish wish_from(const nlohmann::json& message);
+  [[nodiscard]] std::vector<Goal> goals_of(const Wish& wish) const;
 
   const Site& site_;
   LiveLink* link_;
   const LiveSurvey* survey_;
   MarkerRegistry registry_;
+  RouteGraph routes_;
   LiveViewOptions options_;
   std::unique_ptr<const PathPreview> preview_;  ///< once constructed, only the worker uses it
   std::optional<Places> saved_places_;          ///< that previews do not go by yet

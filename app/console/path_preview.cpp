@@ -2,6 +2,7 @@
 
 #include "app/console/live_json.hpp"
 #include "app/navigation/navigation_setup.hpp"
+#include "app/navigation/trip_planner.hpp"
 #include "control/travel_time.hpp"
 
 namespace lodestar {
@@ -9,7 +10,8 @@ namespace lodestar {
 using nlohmann::ordered_json;
 
 PathPreview::PathPreview(const Site& site, const Places& places)
-    : options_(navigation_options(site.robot)),
+    : routes_(places, site.robot.max_forward_mps),
+      options_(navigation_options(site.robot)),
       planner_(with_keep_out(site.map.map, places.keep_out), options_.planner) {}
 
 ordered_json PathPreview::plan(const Pose2& start, const std::vector<Goal>& goals) const {
@@ -21,7 +23,7 @@ ordered_json PathPreview::plan(const Pose2& start, const std::vector<Goal>& goal
     const Vec2 from = whole.waypoints_m.back();
     const Goal& goal = goals[i];
     const PlanResult result =
-        planner_.plan(from, goal.position_m, {.start_rad = heading_rad, .goal_rad = goal.heading_rad});
+        plan_leg(goal, from, {.start_rad = heading_rad, .goal_rad = goal.heading_rad}, planner_);
     if (const auto* failure = std::get_if<PlanFailure>(&result)) {
       ordered_json refused{{"why", to_string(*failure)}, {"goal", i}, {"nearest", nullptr}};
       const std::optional<Vec2> nearest = planner_.nearest_reachable(from, goal.position_m);
@@ -37,6 +39,14 @@ ordered_json PathPreview::plan(const Pose2& start, const std::vector<Goal>& goal
   }
   return {
       {"points", points_json(whole)}, {"length_m", length_m(whole)}, {"time_s", time_s}, {"turns", turns}};
+}
+
+ordered_json PathPreview::plan_over_edges(const Pose2& start, const std::vector<Goal>& goals) const {
+  ordered_json found = plan(start, routes_.over_edges(start.position_m, goals));
+  if (!found.contains("why")) return found;
+  found["goal"] = goals.size() - 1;  // which of the points on the way it is, says nothing to people
+  found["nearest"] = nullptr;
+  return found;
 }
 
 }  // namespace lodestar

@@ -33,16 +33,6 @@ std::optional<double> final_heading(const TripQuery& query) {
   return end_heading(goals_of(query).back());
 }
 
-/// The way to one goal.
-PlanResult leg_to(const Goal& goal, const Vec2& from_m, const PlanHeadings& headings,
-                  const MarginPlanner& planner) {
-  if (!goal.on_line) return planner.plan(from_m, goal.position_m, headings);
-  if (!planner.is_clear(from_m, goal.position_m)) return PlanFailure::line_blocked;
-  Plan straight;
-  straight.path = {{from_m, goal.position_m}};
-  return straight;
-}
-
 /// Are the points between its ends so near to the straight line between these, and is it clear, that the
 /// robot need neither stop nor turn there? Twice as far as it may be from a goal at which it arrives.
 bool is_straight(std::span<const Vec2> points_m, const MarginPlanner& planner) {
@@ -73,7 +63,7 @@ PlanResult plan_over(std::span<const Goal> goals, const Pose2& start,
   Vec2 from_m = start.position_m;
   for (const Goal& goal : goals) {
     if (&goal == &goals.back()) headings.goal_rad = final_heading_rad;
-    PlanResult leg = leg_to(goal, from_m, headings, planner);
+    PlanResult leg = plan_leg(goal, from_m, headings, planner);
     if (std::holds_alternative<PlanFailure>(leg)) return leg;
     if (goals.size() == 1) return leg;
     const std::vector<Vec2>& more_m = std::get<Plan>(leg).path.waypoints_m;
@@ -90,6 +80,15 @@ PlanResult plan_over(std::span<const Goal> goals, const Pose2& start,
 }
 
 }  // namespace
+
+PlanResult plan_leg(const Goal& goal, const Vec2& from_m, const PlanHeadings& headings,
+                    const MarginPlanner& planner) {
+  if (!goal.on_line) return planner.plan(from_m, goal.position_m, headings);
+  if (!planner.is_clear(from_m, goal.position_m)) return PlanFailure::line_blocked;
+  Plan straight;
+  straight.path = {{from_m, goal.position_m}};
+  return straight;
+}
 
 TripPlanner::TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options)
     : options_(options) {

@@ -27,6 +27,11 @@ struct TripQuery {
   std::vector<Goal> goals;    ///< to come on this trip; none: the one of the request, or of the trip's path
 };
 
+/// The way to a goal from the one before: a straight line where it asks for that (PlanFailure::line_blocked
+/// where that is not clear).
+PlanResult plan_leg(const Goal& goal, const Vec2& from_m, const PlanHeadings& headings,
+                    const MarginPlanner& planner);
+
 struct TripPlan {
   PlanAnswer answer;
   std::optional<RouteUpdate> update;  ///< when another path is followed from now on, or none

@@ -64,7 +64,7 @@ export class Console implements Page {
     this.routes = site.routes.map((route) => route.map(([x, y]) => ({ x, y })));
     this.stage.painters.push((c) => { if (this.layers.shown.route && this.modes.now === 'edit') paintRoutes(c, this.stage, this.routes); });
     this.places = new SitePlaces({ stage: this.stage, snap: this.pointer.snap, goTo: (points) => this.goTo(points), refresh: () => this.refreshTools(),
-      hasRobot: () => this.live.hello?.robot === true, list: this.live.places, isOn: () => this.modes?.now === 'places',
+      hasRobot: () => this.live.hello?.robot === true, lanesAre: (there) => this.live.lanesAre(there), list: this.live.places, isOn: () => this.modes?.now === 'places',
       shows: () => this.layers.shown.zones && this.modes?.now !== 'replay' }, site.name);
     this.commands = [...this.places.commands(), ...pageCommands(this)];
     this.makeTools();

@@ -10,10 +10,13 @@ export class DrivePanel {
   private listed = '';
   private readonly whyNot = el('p', { id: 'drive-why' });
   private readonly ask = button('Ask for the wheel', 'The driver is asked to hand over', () => this.live.ask(), { id: 'ask-wheel' });
+  private readonly lanes = el('input', { type: 'checkbox', id: 'along-lanes', checked: '' });
+  private readonly alongLanes = el('p', { hidden: '' }, el('label', { for: 'along-lanes', title: 'One-way lanes are driven their way only, and at their speed' }, this.lanes, ' Along the lanes'));
   private readonly summary = el('p', { id: 'preview-words', role: 'status' });
 
   constructor(private readonly live: Live) {
-    byId('drive').append(this.whyNot, el('div', { id: 'goal-list' }), this.summary, el('div', { class: 'row' },
+    this.lanes.addEventListener('change', () => this.live.useLanes(this.lanes.checked));
+    byId('drive').append(this.whyNot, el('div', { id: 'goal-list' }), this.alongLanes, this.summary, el('div', { class: 'row' },
       button('Drive', 'Drive to the goals', () => live.drive(), { id: 'drive-go', class: 'main' }),
       button('Clear', 'Remove the goals', () => live.goals.set([]), { id: 'drive-clear' }),
       button('Set robot pose', 'Set the robot\'s initial pose to the first goal', () => live.placeRobot(), { id: 'drive-place' })), this.nameField());
@@ -60,6 +63,7 @@ export class DrivePanel {
 
   private showGoals(): void {
     const { goals } = this.live;
+    this.alongLanes.hidden = !this.live.hasLanes;
     const key = JSON.stringify(goals.list);
     const isTyping = document.activeElement instanceof HTMLInputElement && byId('goal-list').contains(document.activeElement);
     if (key !== this.listed && !isTyping) {

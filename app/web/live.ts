@@ -49,6 +49,8 @@ export class Live implements Guest, Listener {
   private surveys = false;
   private sent = '';  // the goals of the drive under way
   private replan = false;
+  hasLanes = false;
+  wantsLanes = true;
 
   constructor(private readonly stage: Stage, private readonly site: Site, private readonly say: (words: string, bad?: boolean) => void) {
     const live = this;
@@ -185,10 +187,25 @@ export class Live implements Guest, Listener {
     this.say(this.socket.send({ type: 'stop' }) ? 'Stop' : 'No connection: use the button on the robot', true);
   }
 
+  /** Does the site have lanes, and does the user want to drive along them? */
+  get alongRoutes(): boolean { return this.hasLanes && this.wantsLanes; }
+
+  /** As saved: what is only drawn, the robot does not know. */
+  lanesAre(there: boolean): void {
+    if (there === this.hasLanes) return;
+    this.hasLanes = there;
+    this.goalsChanged();
+  }
+
+  useLanes(wanted: boolean): void {
+    this.wantsLanes = wanted;
+    this.goalsChanged();
+  }
+
   drive(): void {
     if (this.goals.list.length === 0) return;
     this.sent = JSON.stringify(this.goals.list);
-    this.control.order({ type: 'go', goals: this.goals.list.map(goalJson) });
+    this.control.order({ type: 'go', goals: this.goals.list.map(goalJson), routes: this.alongRoutes });
   }
 
   /** Goals set meanwhile are the user's next ones, and are planned from where the robot is now. */
@@ -227,7 +244,7 @@ export class Live implements Guest, Listener {
 
   private goalsChanged(): void {
     this.preview = null;
-    if (this.goals.list.length > 0 && this.canDrive) this.socket.send({ type: 'preview', goals: this.goals.list.map(goalJson) });
+    if (this.goals.list.length > 0 && this.canDrive) this.socket.send({ type: 'preview', goals: this.goals.list.map(goalJson), routes: this.alongRoutes });
     this.panel.refresh();
     this.stage.redrawOverlay();
   }

@@ -25,6 +25,8 @@ export interface PlacesHost {
   /** The tools' buttons follow. */
   refresh(): void;
   hasRobot(): boolean;
+  /** Has the site lanes, as saved? */
+  lanesAre(there: boolean): void;
   /** The list of the live view, which saves places too. */
   readonly list: { saving: Promise<unknown>; savedAs: string };
   /** Is this mode on? */
@@ -164,7 +166,10 @@ export class SitePlaces {
 
   // -- documents ----------------------------------------------------------------------------------------------
 
-  private take(tagged: api.TaggedPlaces): void { [this.base, this.etag] = [tagged.places, tagged.etag]; }
+  private take(tagged: api.TaggedPlaces): void {
+    [this.base, this.etag] = [tagged.places, tagged.etag];
+    this.host.lanesAre(tagged.places.edges.length > 0);
+  }
 
   private async save(): Promise<string> {
     const saving = this.saveNow();

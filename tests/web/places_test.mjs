@@ -1,9 +1,9 @@
 // Zones, lanes and places: drawn on the map, saved, and obeyed by the robot that runs.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { axeSource, labCopy, launch, open, serve, serveRobot, serveSite } from './browser.mjs';
+import { axeSource, labCopy, launch, open, serve, serveRobot, serveRobotAt, serveSite } from './browser.mjs';
 import { isIdle, leave, planned, setGoals, until } from './robot_page.mjs';
 
 let browser;
@@ -17,12 +17,14 @@ const stateIs = (page, text) => page.locator('#state', { hasText: text }).waitFo
 const editorOf = (page) => page.evaluate(() => window.lodestar.console.places.editor.document());
 const isRead = (page) => page.waitForFunction(() => window.lodestar.console.places.etag !== '', undefined, { polling: 50 });
 
-/** Where the robot believed to be, step by step in all its drives, as [x, y] in metres. */
-function drivenTrack(robot) {
-  const steps = readdirSync(robot.runs).map((run) => readFileSync(join(robot.runs, run, 'steps.csv'), 'utf8'));
-  const rows = steps.flatMap((text) => text.trim().split('\n').slice(1).map((row) => row.split(',')));
-  return rows.filter(([, x]) => x !== '').map(([, x, y]) => [Number(x), Number(y)]);
+/** Where the robot believed to be, step by step in a drive, and what it was commanded: [x, y, m/s]. */
+function drivenIn(robot, run) {
+  const [names, ...rows] = readFileSync(join(robot.runs, run, 'steps.csv'), 'utf8').trim().split('\n').map((row) => row.split(','));
+  const columns = ['x_m', 'y_m', 'commanded_mps'].map((name) => names.indexOf(name));
+  return rows.filter((row) => row[columns[0]] !== '').map((row) => columns.map((column) => Number(row[column])));
 }
+/** In all its drives. */
+const drivenTrack = (robot) => readdirSync(robot.runs).flatMap((run) => drivenIn(robot, run));
 
 async function clickMap(page, x, y) {
   const box = await page.locator('#stage').boundingBox();
@@ -130,6 +132,56 @@ describe('a keep-out', () => {
     assert.equal((await editorOf(page)).keep_out.length, 1);
     await leave(page);
     await site.stop();
+  });
+});
+
+describe('one-way lanes', () => {
+  /** A round in the left room, one way only. */
+  const round = { A: [1.4, 5.6], B: [2.3, 5.6], C: [1.9, 5.2] };
+  const lanes = `format: lodestar-places
+version: 1
+places: []
+nodes:
+${Object.entries(round).map(([name, [x, y]]) => `  - {name: "${name}", x_m: ${x}, y_m: ${y}}`).join('\n')}
+edges:
+  - {from: "A", to: "B", one_way: true, max_mps: 0.3}
+  - {from: "B", to: "C", one_way: true}
+  - {from: "C", to: "A", one_way: true}
+keep_out: []
+speed_zones: []
+missions: []
+`;
+  const goTo = async (page, [x, y]) => {
+    await setGoals(page, [x, y]);
+    await planned(page);
+    await page.getByRole('button', { name: 'Drive', exact: true }).click();
+    await until(page, ([gx, gy]) => { const s = window.lodestar.console.live.state; return !s.moving && Math.hypot(s.pose.x_m - gx, s.pose.y_m - gy) < 0.05; }, [x, y]);
+  };
+  const passes = (track, [x, y]) => track.some(([tx, ty]) => Math.hypot(tx - x, ty - y) < 0.06);
+
+  test('are driven their way only, and at their speed; without the tick the robot drives as it likes', async () => {
+    const place = labCopy();
+    writeFileSync(join(place.site, 'places.yaml'), lanes);
+    const robot = await serveRobotAt(place);
+    const page = await open(browser, robot.url);
+    await until(page, isIdle);
+    await until(page, () => !document.getElementById('along-lanes').parentElement.parentElement.hidden);
+    assert.ok(await page.locator('#along-lanes').isChecked());
+    await goTo(page, round.A);
+    await goTo(page, round.B);
+    await goTo(page, round.A);  // only by way of C
+    await page.getByLabel('Along the lanes').uncheck();
+    await goTo(page, round.B);
+    await goTo(page, round.A);  // straight back
+    assert.deepEqual(page.complaints, []);
+    await leave(page);
+    await robot.end();
+    const drives = readdirSync(robot.runs).sort((a, b) => a.localeCompare(b, undefined, { numeric: true })).map((run) => drivenIn(robot, run));
+    assert.equal(drives.length, 6);
+    assert.ok(!passes(drives[2], round.C) && passes(drives[3], round.C) && !passes(drives[5], round.C));
+    for (const [x, y] of drives[2].filter(([at]) => at > 1.45)) assert.ok(Math.abs(y - 5.6) < 0.03, `${x}, ${y}: beside the lane`);
+    assert.ok(Math.max(...drives[2].map(([,, mps]) => mps)) < 0.31 && Math.max(...drives[4].map(([,, mps]) => mps)) > 0.31);
+    await robot.stop();
   });
 });
 
