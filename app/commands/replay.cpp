@@ -246,24 +246,29 @@ bool needs_scanner(const ReplayArguments& arguments) {
          std::ranges::any_of(faults_named(arguments.faults), concerns_scanner, &Fault::kind);
 }
 
-ExitCode replay_command(const ReplayArguments& arguments) {
-  Site site = open_site(arguments.site);
-  if (needs_scanner(arguments) && !site.robot.scanner) site.robot.scanner.emplace();
-  for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
-  SimulatedDriveOptions options = replay_options(arguments, site);
-  std::optional<Ros2Service> ros2;
-  if (arguments.ros2.is_wanted) {
-    ros2.emplace(site, ros2_options(arguments.ros2, true));
-    options.realtime = true;  // tools of ROS look at it as it goes
-    options.attend = [&ros2](const SensorInput& heard, const MissionStep& step, Mission& mission) {
-      ros2->session().attend(heard, step, mission);
-    };
-  }
+ExitCode replay_as_asked(const Site& site, const SimulatedDriveOptions& options,
+                         const ReplayArguments& arguments) {
   if (arguments.explore) return replay_exploring(site, options, output_folder(site, arguments));
   if (arguments.fleet.is_wanted) return replay_in_fleet(site, options, arguments.fleet);
   if (arguments.serve) return replay_served(site, options, arguments);
   if (arguments.ros2.takes_commands && arguments.goals.empty()) return replay_waiting(site, options);
   return arguments.runs > 1 ? replay_many(site, options, arguments) : replay_once(site, options, arguments);
+}
+
+ExitCode replay_command(const ReplayArguments& arguments) {
+  Site site = open_site(arguments.site);
+  if (needs_scanner(arguments) && !site.robot.scanner) site.robot.scanner.emplace();
+  for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
+  SimulatedDriveOptions options = replay_options(arguments, site);
+  Ros2Companion ros2(site, arguments.ros2, true);
+  if (ros2.is_wanted()) {
+    options.attend = [&ros2](const SensorInput& heard, const MissionStep& step, Mission& mission) {
+      ros2.attend(heard, step, mission);
+    };
+  }
+  options.realtime = options.realtime || arguments.ros2.is_wanted;  // tools of ROS look at it as it goes
+  const ExitCode code = replay_as_asked(site, options, arguments);
+  return ros2.finish() ? code : job_failed;
 }
 
 }  // namespace
@@ -324,7 +329,8 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
   for (const char* other : {"--runs", "--goal", "--mission", "--routes", "--serve", "--survey", "--state"})
     fleet->excludes(command->get_option(other));
   add_ros2_options(*command, arguments->ros2);
-  command->get_option("--ros2")->excludes(command->get_option("--runs"));
+  for (const char* option : {"--ros2", "--ros2-bag"})
+    command->get_option(option)->excludes(command->get_option("--runs"));
   add_console_options(*command, arguments->console.access);
   add_lease_option(*command, arguments->console.live.lease);
   command->add_flag("--quiet", arguments->quiet, "No progress bar");

@@ -1,6 +1,7 @@
 #include "app/commands/ros2_service.hpp"
 
 #include "app/common/log.hpp"
+#include "drivers/system/clock.hpp"
 
 namespace lodestar {
 
@@ -21,6 +22,8 @@ void add_ros2_options(CLI::App& command, Ros2Arguments& arguments) {
       ->needs(ros2)
       ->check(CLI::IsMember({"humble", "jazzy"}))
       ->capture_default_str();
+  command.add_option("--ros2-bag", arguments.bag,
+                     "Record all that in an MCAP file, which `ros2 bag` plays; with or without --ros2");
   command
       .add_option("--ros-interface", arguments.interface, "Network interface; default: the system's choice")
       ->needs(ros2);
@@ -38,5 +41,25 @@ Ros2Service::Ros2Service(const Site& site, const Ros2Options& options)
     : session_(link_, options, site.robot.track_width_m, log_info),
       transport_(site, options, link_,
                  [](Severity severity, const std::string& words) { program_log().say(severity, words); }) {}
+
+Ros2Companion::Ros2Companion(const Site& site, const Ros2Arguments& arguments, bool is_simulated) {
+  if (arguments.is_wanted) service_.emplace(site, ros2_options(arguments, is_simulated));
+  if (arguments.bag.empty()) return;
+  bag_.emplace(arguments.bag, site,
+               Ros2BagOptions{.is_simulated = is_simulated,
+                              .clock_offset = is_simulated ? Duration{} : system_clock_offset(),
+                              .tell = [](const std::string& words) { log_warning(words); }});
+}
+
+void Ros2Companion::attend(const SensorInput& input, const MissionStep& step, Mission& mission) {
+  if (service_) service_->session().attend(input, step, mission);
+  if (bag_) bag_->attend(input, step, mission);
+}
+
+bool Ros2Companion::finish() {
+  const std::string loss = bag_ ? bag_->finish() : "";
+  if (!loss.empty()) log_warning("ros2: " + loss);
+  return loss.empty();
+}
 
 }  // namespace lodestar

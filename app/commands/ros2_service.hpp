@@ -1,11 +1,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "app/ros2/ros2_session.hpp"
 #include "app/ros2/ros2_transport.hpp"
 #include "app/site/site.hpp"
+#include "app/viewers/ros2_bag.hpp"
 
 namespace lodestar {
 
@@ -16,6 +18,7 @@ struct Ros2Arguments {
   int domain = 0;
   std::string distro = "jazzy";
   std::string interface;
+  std::string bag;  ///< file; empty: none
 };
 
 /// Fills the arguments, which must outlive the application.
@@ -35,6 +38,22 @@ class Ros2Service {
   Ros2Link link_;
   Ros2Session session_;
   Ros2Transport transport_;  ///< ends first: it uses the link
+};
+
+/// A drive as ROS 2 is to see it: the node, the bag, both, or neither.
+class Ros2Companion {
+ public:
+  Ros2Companion(const Site& site, const Ros2Arguments& arguments, bool is_simulated);
+
+  [[nodiscard]] bool is_wanted() const { return service_ || bag_; }
+  /// Call after each step.
+  void attend(const SensorInput& input, const MissionStep& step, Mission& mission);
+  /// After the last one. False, and told, when the bag is not whole.
+  [[nodiscard]] bool finish();
+
+ private:
+  std::optional<Ros2Service> service_;
+  std::optional<Ros2Bag> bag_;
 };
 
 }  // namespace lodestar

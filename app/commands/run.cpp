@@ -205,6 +205,14 @@ void check_purpose(const RunArguments& arguments) {
     throw InputError("--localize-only: found no --ros2, wanted it: the pose has nowhere to go");
 }
 
+ExitCode drive_as_asked(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol,
+                        const RunOptions& options, const RunArguments& arguments) {
+  if (arguments.fleet.is_wanted) return drive_in_fleet(parts, std::move(protocol), options, arguments);
+  if (arguments.survey) return drive_surveying(parts, std::move(protocol), options, arguments);
+  return arguments.serve ? drive_served(parts, std::move(protocol), options, arguments)
+                         : drive_once(parts, std::move(protocol), options, arguments);
+}
+
 ExitCode run_command(RunArguments arguments) {
   check_purpose(arguments);
   if (arguments.runs.empty()) arguments.runs = runs_folder();
@@ -243,20 +251,17 @@ ExitCode run_command(RunArguments arguments) {
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   const std::unique_ptr<Scanner> scanner = scanner_of(site);
   options.scanner = scanner.get();
-  std::optional<Ros2Service> ros2;
-  if (arguments.ros2.is_wanted) {
-    ros2.emplace(site, ros2_options(arguments.ros2, false));
+  Ros2Companion ros2(site, arguments.ros2, false);
+  if (ros2.is_wanted()) {
     options.attend = [&ros2](const SensorInput& heard, const MissionStep& step, Mission& mission) {
-      ros2->session().attend(heard, step, mission);
+      ros2.attend(heard, step, mission);
     };
-    options.until_stopped = arguments.ros2.takes_commands;
   }
+  options.until_stopped = arguments.ros2.takes_commands;
   const Interruption interruption;
   const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};
-  if (arguments.fleet.is_wanted) return drive_in_fleet(parts, std::move(protocol), options, arguments);
-  if (arguments.survey) return drive_surveying(parts, std::move(protocol), options, arguments);
-  return arguments.serve ? drive_served(parts, std::move(protocol), options, arguments)
-                         : drive_once(parts, std::move(protocol), options, arguments);
+  const ExitCode code = drive_as_asked(parts, std::move(protocol), options, arguments);
+  return ros2.finish() ? code : job_failed;
 }
 
 }  // namespace

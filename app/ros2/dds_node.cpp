@@ -140,7 +140,7 @@ dds_entity_t DdsNode::make_topic(const char* name, const dds_topic_descriptor_t&
   return checked(dds_create_topic(participant_, &type, name, nullptr, nullptr), name);
 }
 
-dds_entity_t DdsNode::make_writer(const RosTopic& topic) {
+int DdsNode::open(const RosTopic& topic) {
   const Qos qos = qos_of(topic.qos);
   set_user_data(qos, fmt::format("typehash={};", topic.type_hash));
   const dds_entity_t made = make_topic(("rt/" + std::string(topic.name)).c_str(), *topic.type);
@@ -167,13 +167,8 @@ void DdsNode::announce() {
   }
 }
 
-bool DdsNode::write(dds_entity_t writer, const void* message) {
-  return dds_write(writer, message) == DDS_RETCODE_OK;
-}
-
-bool DdsNode::is_heard(dds_entity_t writer) {
-  dds_publication_matched_status_t status{};
-  return dds_get_publication_matched_status(writer, &status) == DDS_RETCODE_OK && status.current_count > 0;
+void DdsNode::write(int topic, const void* message, Stamp /*stamp*/) {
+  (void)dds_write(topic, message);
 }
 
 }  // namespace lodestar

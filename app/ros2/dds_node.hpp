@@ -6,41 +6,26 @@
 #include <vector>
 
 #include "app/ros2/ros2_options.hpp"
+#include "app/ros2/ros_output.hpp"
 
 namespace lodestar {
-
-/// How an endpoint offers or wants its topic: the QoS that ROS 2's own nodes use for it.
-struct TopicQos {
-  bool keeps_for_late = false;  ///< transient local: who joins late gets the newest
-  int depth = 10;
-};
-
-struct RosTopic {
-  const char* name;  ///< as ROS shows it, without the leading slash
-  const dds_topic_descriptor_t* type;
-  const char* type_hash;  ///< RIHS01_..., REP 2016; names the type where definitions are compared
-  TopicQos qos;
-};
 
 /// A DDS participant that appears as a ROS 2 node: endpoints by topic, the type hash of each, and the message
 /// that tells which of them make up the node. All of one thread. Throws InputError where the network
 /// interface or the domain cannot be used.
-class DdsNode {
+class DdsNode final : public RosOutput {
  public:
   DdsNode(const std::string& name, const Ros2Options& options);
-  ~DdsNode();
+  ~DdsNode() override;
   DdsNode(const DdsNode&) = delete;
   DdsNode& operator=(const DdsNode&) = delete;
 
-  [[nodiscard]] dds_entity_t make_writer(const RosTopic& topic);
+  [[nodiscard]] int open(const RosTopic& topic) override;
+  /// A message is lost to a reliable reader that does not keep up: nobody waits for it.
+  void write(int topic, const void* message, Stamp stamp) override;
   [[nodiscard]] dds_entity_t make_reader(const RosTopic& topic);
   /// Tells other nodes what this one consists of; again after endpoints were made.
   void announce();
-
-  /// False when a reliable reader does not keep up: the message is then lost to it, and nobody waits.
-  static bool write(dds_entity_t writer, const void* message);
-  /// Does anyone read it?
-  [[nodiscard]] static bool is_heard(dds_entity_t writer);
 
  private:
   dds_entity_t make_topic(const char* name, const dds_topic_descriptor_t& type) const;

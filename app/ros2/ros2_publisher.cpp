@@ -63,31 +63,33 @@ void lend(Sequence& sequence, std::vector<Item>& items) {
 
 }  // namespace
 
-Ros2Publisher::Writers::Writers(DdsNode& node, const Ros2Options& options)
-    : tf(node.make_writer(ros_topics::tf)),
-      tf_static(node.make_writer(ros_topics::tf_static)),
-      amcl_pose(node.make_writer(ros_topics::amcl_pose)),
-      map(node.make_writer(ros_topics::map)),
-      plan(node.make_writer(ros_topics::plan)),
-      scan(node.make_writer(ros_topics::scan)),
-      diagnostics(node.make_writer(ros_topics::diagnostics)),
-      battery(node.make_writer(ros_topics::battery_state)) {
-  if (options.publishes_odometry) odom = node.make_writer(ros_topics::odom);
-  if (options.is_simulated) clock = node.make_writer(ros_topics::clock);
+Ros2Publisher::Topics::Topics(RosOutput& output, const Ros2Options& options)
+    : tf(output.open(ros_topics::tf)),
+      tf_static(output.open(ros_topics::tf_static)),
+      amcl_pose(output.open(ros_topics::amcl_pose)),
+      map(output.open(ros_topics::map)),
+      plan(output.open(ros_topics::plan)),
+      scan(output.open(ros_topics::scan)),
+      diagnostics(output.open(ros_topics::diagnostics)),
+      battery(output.open(ros_topics::battery_state)) {
+  if (options.publishes_odometry) odom = output.open(ros_topics::odom);
+  if (options.is_simulated) clock = output.open(ros_topics::clock);
 }
 
-Ros2Publisher::Ros2Publisher(DdsNode& node, const Site& site, const Ros2Options& options)
-    : options_(options),
+Ros2Publisher::Ros2Publisher(RosOutput& output, const Site& site, const Ros2Options& options)
+    : output_(output),
+      options_(options),
       map_(axis_aligned(site.map.map)),
       base_from_camera_(site.robot.base_from_camera),
       robot_(site.robot.name),
       battery_curve_(load_battery_curve(site.robot_file)),
-      writers_(node, options) {
+      topics_(output, options) {
   if (site.robot.scanner) scanner_ = site.robot.scanner->mount;
 }
 
-void Ros2Publisher::publish_scene(Duration clock_offset) {
-  const auto start = ros_time(Stamp{}, clock_offset);
+void Ros2Publisher::publish_scene(Stamp now, Duration clock_offset) {
+  clock_offset_ = clock_offset;
+  const auto start = ros_time(now, clock_offset);
   std::vector<geometry_msgs_msg_dds__TransformStamped_> mounts;
   const auto add = [&](std::string& frame, const Eigen::Isometry3d& pose) {
     mounts.push_back({.header = {.stamp = start, .frame_id = base_frame.data()},
@@ -98,7 +100,7 @@ void Ros2Publisher::publish_scene(Duration clock_offset) {
   if (scanner_) add(scanner_frame, lifted(scanner_->base_from_scanner, scanner_->height_m));
   tf2_msgs_msg_dds__TFMessage_ transforms{};
   lend(transforms.transforms, mounts);
-  (void)DdsNode::write(writers_.tf_static, &transforms);
+  write(topics_.tf_static, &transforms, now);
 
   nav_msgs_msg_dds__OccupancyGrid_ grid{.header = {.stamp = start, .frame_id = map_frame.data()},
                                         .info = {.map_load_time = start,
@@ -109,7 +111,7 @@ void Ros2Publisher::publish_scene(Duration clock_offset) {
                                         .data = {}};
   std::vector<std::uint8_t> cells(map_.cells.begin(), map_.cells.end());  // -1 is 255 there
   lend(grid.data, cells);
-  (void)DdsNode::write(writers_.map, &grid);
+  write(topics_.map, &grid, now);
 }
 
 void Ros2Publisher::publish(const Ros2Report& report, Duration clock_offset) {
@@ -119,9 +121,9 @@ void Ros2Publisher::publish(const Ros2Report& report, Duration clock_offset) {
     return true;
   };
   clock_offset_ = clock_offset;
-  if (writers_.clock) send_clock(report.now);
+  if (topics_.clock) send_clock(report.now);
   send_transforms(report);
-  if (writers_.odom && report.odom_from_base) send_odometry(report);
+  if (topics_.odom && report.odom_from_base) send_odometry(report);
   if (report.estimate && is_due(last_pose_, pose_period)) send_pose(*report.estimate);
   for (const Scan& scan : report.scans) send_scan(scan);
   if (report.path != path_) send_plan(report.path ? *report.path : Path{}, report.now);
@@ -137,9 +139,9 @@ void Ros2Publisher::publish(const Ros2Report& report, Duration clock_offset) {
   }
 }
 
-void Ros2Publisher::send_clock(Stamp now) const {
+void Ros2Publisher::send_clock(Stamp now) {
   const rosgraph_msgs_msg_dds__Clock_ message{.clock = ros_time(now, clock_offset_)};
-  (void)DdsNode::write(*writers_.clock, &message);
+  write(*topics_.clock, &message, now);
 }
 
 void Ros2Publisher::send_transforms(const Ros2Report& report) {
@@ -159,7 +161,7 @@ void Ros2Publisher::send_transforms(const Ros2Report& report) {
   if (chain.empty()) return;
   tf2_msgs_msg_dds__TFMessage_ message{};
   lend(message.transforms, chain);
-  (void)DdsNode::write(writers_.tf, &message);
+  write(topics_.tf, &message, report.odometry_stamp);
 }
 
 /// Covariances of zero say that none is known; what the pose is worth, amcl_pose says.
@@ -170,7 +172,7 @@ void Ros2Publisher::send_odometry(const Ros2Report& report) {
   message.pose.pose = pose_of(*report.odom_from_base);
   message.twist.twist.linear.x = report.velocity.forward_mps;
   message.twist.twist.angular.z = report.velocity.turn_radps;
-  (void)DdsNode::write(*writers_.odom, &message);
+  write(*topics_.odom, &message, report.odometry_stamp);
 }
 
 void Ros2Publisher::send_pose(const PoseEstimate& estimate) {
@@ -178,7 +180,7 @@ void Ros2Publisher::send_pose(const PoseEstimate& estimate) {
   message.header = {.stamp = ros_time(estimate.stamp, clock_offset_), .frame_id = map_frame.data()};
   message.pose.pose = pose_of(estimate.map_from_base);
   put_covariance(estimate.covariance, message.pose.covariance);
-  (void)DdsNode::write(writers_.amcl_pose, &message);
+  write(topics_.amcl_pose, &message, estimate.stamp);
 }
 
 /// Each waypoint looks along the leg that begins there. Without waypoints: there is no plan any more.
@@ -195,7 +197,7 @@ void Ros2Publisher::send_plan(const Path& path, Stamp now) {
   nav_msgs_msg_dds__Path_ message{};
   message.header = {.stamp = stamp, .frame_id = map_frame.data()};
   lend(message.poses, poses);
-  (void)DdsNode::write(writers_.plan, &message);
+  write(topics_.plan, &message, now);
 }
 
 void Ros2Publisher::send_scan(const Scan& scan) {
@@ -215,7 +217,7 @@ void Ros2Publisher::send_scan(const Scan& scan) {
       .intensities = {}};
   lend(message.ranges, beams.ranges_m);
   lend(message.intensities, beams.intensities);
-  (void)DdsNode::write(writers_.scan, &message);
+  write(topics_.scan, &message, beams.stamp);
 }
 
 void Ros2Publisher::send_diagnostics(const Ros2Report& report) {
@@ -236,7 +238,7 @@ void Ros2Publisher::send_diagnostics(const Ros2Report& report) {
   diagnostic_msgs_msg_dds__DiagnosticArray_ message{};
   message.header = {.stamp = ros_time(report.now, clock_offset_), .frame_id = no_text.data()};
   lend(message.status, all);
-  (void)DdsNode::write(writers_.diagnostics, &message);
+  write(topics_.diagnostics, &message, report.now);
 }
 
 void Ros2Publisher::send_battery(double battery_v, Stamp stamp) {
@@ -260,7 +262,7 @@ void Ros2Publisher::send_battery(double battery_v, Stamp stamp) {
       .cell_temperature = {},
       .location = no_text.data(),
       .serial_number = no_text.data()};
-  (void)DdsNode::write(writers_.battery, &message);
+  write(topics_.battery, &message, stamp);
 }
 
 }  // namespace lodestar

@@ -4,8 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "app/ros2/dds_node.hpp"
+#include "app/ros2/ros2_options.hpp"
 #include "app/ros2/ros2_report.hpp"
+#include "app/ros2/ros_output.hpp"
 #include "app/site/fleet_settings.hpp"
 #include "app/site/site.hpp"
 #include "maps/occupancy_map.hpp"
@@ -16,21 +17,25 @@ namespace lodestar {
 /// base_link; units and axes by REP 103; diagnostics once a second and on change, by REP 107.
 class Ros2Publisher {
  public:
-  Ros2Publisher(DdsNode& node, const Site& site, const Ros2Options& options);
+  Ros2Publisher(RosOutput& output, const Site& site, const Ros2Options& options);
 
   /// The map and the mounts, once: who joins late gets them. `clock_offset` is what ROS's clock is ahead of
   /// the robot's.
-  void publish_scene(Duration clock_offset);
+  void publish_scene(Stamp now, Duration clock_offset);
   void publish(const Ros2Report& report, Duration clock_offset);
 
  private:
-  struct Writers {
-    explicit Writers(DdsNode& node, const Ros2Options& options);
-    dds_entity_t tf, tf_static, amcl_pose, map, plan, scan, diagnostics, battery;
-    std::optional<dds_entity_t> odom, clock;
+  /// Numbers of the topics at the output.
+  struct Topics {
+    Topics(RosOutput& output, const Ros2Options& options);
+    int tf, tf_static, amcl_pose, map, plan, scan, diagnostics, battery;
+    std::optional<int> odom, clock;
   };
 
-  void send_clock(Stamp now) const;
+  void write(int topic, const void* message, Stamp stamp) {
+    output_.write(topic, message, stamp + clock_offset_);
+  }
+  void send_clock(Stamp now);
   void send_transforms(const Ros2Report& report);
   void send_odometry(const Ros2Report& report);
   void send_pose(const PoseEstimate& estimate);
@@ -39,13 +44,14 @@ class Ros2Publisher {
   void send_diagnostics(const Ros2Report& report);
   void send_battery(double battery_v, Stamp stamp);
 
+  RosOutput& output_;
   Ros2Options options_;
   OccupancyMap map_;
   Eigen::Isometry3d base_from_camera_;
   std::optional<ScannerMount> scanner_;
   std::string robot_;
   std::optional<BatteryCurve> battery_curve_;
-  Writers writers_;
+  Topics topics_;
   Duration clock_offset_{};
   std::optional<Stamp> last_pose_, last_battery_, last_diagnostics_;
   std::string said_;  ///< by the diagnostics

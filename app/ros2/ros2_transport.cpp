@@ -1,7 +1,6 @@
 #include "app/ros2/ros2_transport.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <optional>
 #include <ros2_messages.h>
@@ -23,12 +22,6 @@ ReceivedPose received(const std_msgs_msg_dds__Header_& header, const geometry_ms
           .quaternion = {turn.x, turn.y, turn.z, turn.w}};
 }
 
-/// What ROS's clock, the system's, is ahead of the robot's, which nobody can set.
-Duration system_clock_offset() {
-  const auto wall = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<Duration>(wall) - monotonic_now().time_since_epoch();
-}
-
 }  // namespace
 
 class Ros2Transport::Node {
@@ -46,7 +39,7 @@ class Ros2Transport::Node {
     }
     if (options.reads_odometry) odom_ = node_.make_reader(ros_topics::odom);
     node_.announce();
-    publisher_.publish_scene(clock_offset());
+    publisher_.publish_scene(options.is_simulated ? Stamp{} : monotonic_now(), clock_offset());
   }
 
   void turn() {

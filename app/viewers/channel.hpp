@@ -6,20 +6,22 @@
 
 #include "maps/stamp.hpp"
 
-// What viewers receive, from a file or live: channels of JSON messages, each with a schema.
+// What viewers receive, from a file or live: channels of messages, each with a schema.
 namespace lodestar {
 
 struct Channel {
   std::string topic;
   std::string schema_name;
-  std::string schema;          ///< JSON Schema
+  std::string schema;
   bool every_message = false;  ///< events: every one is delivered, not only the newest
+  std::string schema_encoding = "jsonschema";
+  std::string encoding = "json";  ///< of the messages
 };
 
 struct Message {
   std::size_t channel = 0;  ///< index in the list of channels
   Stamp stamp;
-  std::string json;
+  std::string content;  ///< in the channel's encoding
 };
 
 }  // namespace lodestar

@@ -34,7 +34,7 @@ enum DriveChannel : std::size_t {
 constexpr Duration message_period = std::chrono::milliseconds(50);  ///< of poses, at most
 
 Message message(DriveChannel channel, Stamp stamp, const MessageJson& json) {
-  return {.channel = channel, .stamp = stamp, .json = json.dump()};
+  return {.channel = channel, .stamp = stamp, .content = json.dump()};
 }
 
 /// Six decimals are enough for plots.

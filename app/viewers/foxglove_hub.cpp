@@ -30,7 +30,7 @@ SocketMessage data_frame(std::uint32_t subscription, const Message& message) {
   append(subscription, sizeof subscription);
   append(static_cast<std::uint64_t>(std::max<std::int64_t>(message.stamp.time_since_epoch().count(), 0)),
          sizeof(std::uint64_t));
-  bytes += message.json;
+  bytes += message.content;
   return {.bytes = std::make_shared<const std::string>(std::move(bytes)), .binary = true};
 }
 

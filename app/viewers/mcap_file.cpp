@@ -89,20 +89,22 @@ McapFile::McapFile(const std::filesystem::path& file, const std::vector<Channel>
     const auto [schema, is_new] =
         schemas.try_emplace(channel.schema_name, static_cast<std::uint16_t>(schemas.size() + 1));
     if (is_new) {
-      schemas_ += record(
-          Op::schema,
-          Bytes().number(schema->second).text(channel.schema_name).text("jsonschema").text(channel.schema));
+      schemas_ += record(Op::schema, Bytes()
+                                         .number(schema->second)
+                                         .text(channel.schema_name)
+                                         .text(channel.schema_encoding)
+                                         .text(channel.schema));
     }
     channels_ += record(Op::channel, Bytes()
                                          .number(channel_count_)
                                          .number(schema->second)
                                          .text(channel.topic)
-                                         .text("json")
+                                         .text(channel.encoding)
                                          .number(std::uint32_t{0}));  // no metadata
     ++channel_count_;
   }
   schema_count_ = static_cast<std::uint16_t>(schemas.size());
-  put(magic + record(Op::header, Bytes().text("").text("lodestar")) + schemas_ + channels_);
+  put(magic + record(Op::header, Bytes().text(options.profile).text("lodestar")) + schemas_ + channels_);
 }
 
 McapFile::~McapFile() {
@@ -116,7 +118,7 @@ void McapFile::write(const Message& message) {
   chunk_.index[channel].push_back({time_ns, chunk_.records.size()});
   chunk_.records +=
       record(Op::message,
-             Bytes().number(channel).number(sequence).number(time_ns).number(time_ns).raw(message.json));
+             Bytes().number(channel).number(sequence).number(time_ns).number(time_ns).raw(message.content));
   chunk_.first_ns = std::min(chunk_.first_ns, time_ns);
   chunk_.last_ns = std::max(chunk_.last_ns, time_ns);
   const bool is_long =

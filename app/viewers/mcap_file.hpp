@@ -15,6 +15,7 @@ struct McapOptions {
   std::size_t chunk_bytes = 256 * 1024;  ///< of messages, before compression; a chunk is written when full
   Duration chunk_time = std::chrono::seconds(2);  ///< or when its messages span this time
   int compression_level = 3;                      ///< of zstd
+  std::string profile;                            ///< "ros2", or none
 };
 
 /// Writes messages to an MCAP file (version 0 of the format) as they arrive: in chunks, each compressed, with

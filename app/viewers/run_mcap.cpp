@@ -31,7 +31,7 @@ void RunMcap::add_truth(const RunRecord& record) {
 void RunMcap::take(Portion portion) {
   constexpr std::size_t bytes_of_picture = 64U << 10U;  // estimate: it may not have been encoded yet
   std::size_t bytes = portion.picture ? bytes_of_picture : 0;
-  for (const Message& message : portion.messages) bytes += message.json.size();
+  for (const Message& message : portion.messages) bytes += message.content.size();
   writer_.put(std::move(portion), bytes);
 }
 

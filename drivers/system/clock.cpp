@@ -15,6 +15,11 @@ Stamp monotonic_now() {
   return Stamp(Duration(std::int64_t{time.tv_sec} * nanoseconds_per_second + time.tv_nsec));
 }
 
+Duration system_clock_offset() {
+  const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<Duration>(wall) - monotonic_now().time_since_epoch();
+}
+
 void sleep_until(Stamp stamp) {
   const std::int64_t since_boot = stamp.time_since_epoch().count();
   const timespec time{.tv_sec = since_boot / nanoseconds_per_second,

@@ -65,7 +65,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"app/simulate", {"app/report", "app/live", "app/navigation", "app/frames", judge}},
       {"app/drive",
        {"app/report", "app/live", "app/navigation", "app/frames", "drivers/stand_in", "drivers/scanner"}},
-      {"app/viewers", {"app/report", "app/recording", "app/live", "app/net"}},
+      {"app/viewers", {"app/report", "app/recording", "app/ros2", "app/live", "app/net"}},
       {"app/web", {}},
       {"app/console", {"app/placement", "app/live", "app/ros2", "app/net", "app/web"}},
       {"app/bench", {"app/report", judge}},

@@ -80,7 +80,7 @@ void talk(const std::string& text) {
     if (line.empty()) continue;
     const std::size_t who = static_cast<unsigned char>(line.front()) % clients.size();
     clients[who]->send(line.substr(1));
-    hub.publish({.channel = 0, .stamp = now, .json = "{}"});
+    hub.publish({.channel = 0, .stamp = now, .content = "{}"});
     view.pump(now += std::chrono::milliseconds(50), &state);
     bridge.pump(now, &state);
     for (const auto& client : clients) client->drain();

@@ -9,6 +9,7 @@ import { join, resolve } from 'node:path';
 const packages = createRequire(join(resolve(process.env.LODESTAR_ROS2_PACKAGES ?? '.'), 'package.json'));
 const { ros2jazzy, ros2humble } = packages('@foxglove/rosmsg-msgs-common');
 const { MessageReader, MessageWriter } = packages('@foxglove/rosmsg2-serialization');
+const { parse } = packages('@foxglove/rosmsg');
 const { McapIndexedReader } = packages('@mcap/core');
 const fzstd = packages('fzstd');
 export const source = resolve(process.env.LODESTAR_SOURCE_DIR ?? '../..');
@@ -50,6 +51,15 @@ export function decode(type, hex) {
   if (!readers.has(type)) readers.set(type, new MessageReader(definition(type)));
   return readers.get(type).readMessage(Buffer.from(hex, 'hex'));
 }
+
+/** With its own definition, as a file has it. */
+export function decodeBy(schema, data) {
+  if (!readers.has(schema)) readers.set(schema, new MessageReader(parseDefinition(schema)));
+  return readers.get(schema).readMessage(data);
+}
+export const parseDefinition = (schema) => parse(new TextDecoder().decode(schema.data), { ros2: true });
+/** The same as ROS 2 has it, of "nav_msgs/msg/Path". */
+export const definitionOf = (name) => definition(`${name.replaceAll('/', '::').replace('::msg::', '::msg::dds_::')}_`);
 
 export function encode(type, message) {
   return Buffer.from(new MessageWriter(definition(type)).writeMessage(message)).toString('hex');
@@ -138,16 +148,20 @@ export function dissected(file, filter, ...fields) {
     .split('\n').filter((line) => line);
 }
 
-/** The messages of a topic in a run's record. */
-export async function recorded(run, topic) {
-  const bytes = readFileSync(join(run, 'run.mcap'));
-  const reader = await McapIndexedReader.Initialize({
+export function openMcap(file) {
+  const bytes = readFileSync(file);
+  return McapIndexedReader.Initialize({
     readable: {
       size: () => Promise.resolve(BigInt(bytes.length)),
       read: (offset, size) => Promise.resolve(bytes.subarray(Number(offset), Number(offset + size))),
     },
     decompressHandlers: { zstd: (chunk, size) => fzstd.decompress(chunk, new Uint8Array(Number(size))) },
   });
+}
+
+/** The messages of a topic in a run's record. */
+export async function recorded(run, topic) {
+  const reader = await openMcap(join(run, 'run.mcap'));
   const messages = [];
   for await (const message of reader.readMessages({ topics: [topic] })) messages.push(JSON.parse(new TextDecoder().decode(message.data)));
   return messages;

@@ -15,7 +15,7 @@ std::vector<Channel> two_channels() {
 }
 
 Message said(std::size_t channel, const std::string& words, std::int64_t ns = 0) {
-  return {.channel = channel, .stamp = Stamp(Duration(ns)), .json = words};
+  return {.channel = channel, .stamp = Stamp(Duration(ns)), .content = words};
 }
 
 class FoxgloveHubTest : public testing::Test {

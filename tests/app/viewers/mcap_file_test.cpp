@@ -56,17 +56,17 @@ TEST_F(McapFileTest, the_same_messages_give_the_same_bytes) {
 TEST_F(McapFileTest, a_full_chunk_is_in_the_file_before_the_next_message_comes) {
   McapFile mcap(file, drive_channels(), {.chunk_bytes = 100});
   const std::size_t before = content_of(file).size();
-  mcap.write({.channel = 8, .stamp = Stamp(), .json = std::string(120, ' ')});
+  mcap.write({.channel = 8, .stamp = Stamp(), .content = std::string(120, ' ')});
   EXPECT_GT(content_of(file).size(), before + 50);
 }
 
 TEST_F(McapFileTest, a_chunk_spans_no_more_than_its_time) {
   McapFile mcap(file, drive_channels(), {.chunk_time = std::chrono::seconds(1)});
-  mcap.write({.channel = 8, .stamp = sample::at_s(1.0), .json = "{}"});
+  mcap.write({.channel = 8, .stamp = sample::at_s(1.0), .content = "{}"});
   const std::size_t before = content_of(file).size();
-  mcap.write({.channel = 8, .stamp = sample::at_s(1.9), .json = "{}"});
+  mcap.write({.channel = 8, .stamp = sample::at_s(1.9), .content = "{}"});
   EXPECT_EQ(content_of(file).size(), before);
-  mcap.write({.channel = 8, .stamp = sample::at_s(2.0), .json = "{}"});
+  mcap.write({.channel = 8, .stamp = sample::at_s(2.0), .content = "{}"});
   EXPECT_GT(content_of(file).size(), before);
 }
 
@@ -76,14 +76,14 @@ TEST_F(McapFileTest, a_folder_that_is_not_there_is_an_input_error) {
 
 TEST_F(McapFileTest, a_full_disk_is_told_and_stops_nobody) {
   McapFile mcap("/dev/full", drive_channels(), {.chunk_bytes = 100});
-  mcap.write({.channel = 8, .stamp = Stamp(), .json = std::string(120, ' ')});
+  mcap.write({.channel = 8, .stamp = Stamp(), .content = std::string(120, ' ')});
   EXPECT_FALSE(mcap.healthy());
 }
 
 TEST(DriveMessages, tell_the_truth_of_a_simulated_drive) {
   const std::vector<Message> messages = truth_messages(sample::run());
   ASSERT_EQ(messages.size(), 18U);  // nine poses, nine errors
-  const auto last = nlohmann::json::parse(messages.back().json);
+  const auto last = nlohmann::json::parse(messages.back().content);
   EXPECT_EQ(drive_channels().at(messages.back().channel).topic, "/error");
   EXPECT_EQ(last["timestamp"]["sec"], 4);
   EXPECT_NEAR(last["position_mm"], 80.0, 1e-6);
