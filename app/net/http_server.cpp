@@ -276,7 +276,7 @@ class HttpServer::Impl {
       answered->done.expires_at(asio::steady_timer::time_point::max());
       co_await answered->done.async_wait(asio::redirect_error(asio::use_awaitable, error));
     }
-    socket.cancel(error);
+    [[maybe_unused]] const error_code gone = socket.cancel(error);
     co_return std::move(answered->response);
   }
 

@@ -39,7 +39,7 @@ class Ros2Publisher {
   void send_transforms(const Ros2Report& report);
   void send_odometry(const Ros2Report& report);
   void send_pose(const PoseEstimate& estimate);
-  void send_plan(const Path& path, Stamp stamp);
+  void send_plan(const Path& path, Stamp now);
   void send_scan(const Scan& scan);
   void send_diagnostics(const Ros2Report& report);
   void send_battery(double battery_v, Stamp stamp);
