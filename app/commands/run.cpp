@@ -209,6 +209,10 @@ ExitCode drive_as_asked(const DriveParts& parts, std::unique_ptr<BaseProtocol> p
                         const RunOptions& options, const RunArguments& arguments) {
   if (arguments.fleet.is_wanted) return drive_in_fleet(parts, std::move(protocol), options, arguments);
   if (arguments.survey) return drive_surveying(parts, std::move(protocol), options, arguments);
+  if (!arguments.serve && arguments.goals.empty()) {  // by topic alone, until it is told to stop
+    (void)run(parts.site, parts.bus, std::move(protocol), parts.camera, options);
+    return done;
+  }
   return arguments.serve ? drive_served(parts, std::move(protocol), options, arguments)
                          : drive_once(parts, std::move(protocol), options, arguments);
 }

@@ -171,8 +171,9 @@ std::optional<std::string> LiveView::pass_request(const Client& client, Stamp no
     client.outbox->queue(message_of({{"type", "control"}}));
     return std::nullopt;
   }
-  if (const Client* const driver = find(*lease_.holder(now)))
-    driver->outbox->queue(message_of({{"type", "asked"}, {"client", client.number}, {"name", client.name}}));
+  const Client* const driver = find(*lease_.holder(now));
+  if (driver == nullptr) return driver_in_words(now) + " drives, which cannot be asked: stop ends its drive";
+  driver->outbox->queue(message_of({{"type", "asked"}, {"client", client.number}, {"name", client.name}}));
   return std::nullopt;
 }
 

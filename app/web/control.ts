@@ -13,7 +13,8 @@ interface Wheel {
   driveOver(): void;
 }
 
-export const nameOf = (client: number, name: string): string => name === '' ? `client ${client}` : `${name} (client ${client})`;
+/** Programs have numbers below 0, which say nothing to people. */
+export const nameOf = (client: number, name: string): string => client < 0 ? name : name === '' ? `client ${client}` : `${name} (client ${client})`;
 
 export class Control {
   private wanted = false;
