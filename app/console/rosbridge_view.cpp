@@ -125,20 +125,25 @@ void RosbridgeView::receive(Client& client, const json& message, Stamp now) {
   link_.hold_until(lease_.until());
 }
 
+/// Made once: whoever asks for it again and again must not delay a stop.
+const SocketMessage& RosbridgeView::map_message() {
+  constexpr std::size_t most_cells = 1'000'000;  // some 3 MB as JSON, made in some 50 ms
+  if (site_.map.map.cells.size() > most_cells)
+    throw InputError("found a map of more than a million cells: too large for JSON, wanted --ros2");
+  if (!map_.bytes) map_ = published("/map", grid_json(unix_time({}, {}), site_.map.map));
+  return map_;
+}
+
 /// What stands is sent at once.
 void RosbridgeView::subscribe(Client& client, const std::string& topic) {
-  constexpr std::size_t most_cells = 4'000'000;  // some 12 MB as JSON
   if (!types_by_topic().contains(topic))
     throw InputError("found topic '" + topic.substr(0, 80) + "', wanted one of /rosapi/topics");
   const auto slot = static_cast<int>(std::distance(types_by_topic().begin(), types_by_topic().find(topic)));
   client.topics[topic] = slot;
-  const Duration time = unix_time({}, {});
   if (topic == "/map") {
-    if (site_.map.map.cells.size() > most_cells)
-      throw InputError("found a map of more than 4 million cells: too large for JSON, wanted --ros2");
-    client.outbox->offer(slot, published(topic, grid_json(time, site_.map.map)));
+    client.outbox->offer(slot, map_message());
   } else if (topic == "/plan") {
-    client.outbox->offer(slot, published(topic, plan_json(time, path_ ? *path_ : Path{})));
+    client.outbox->offer(slot, published(topic, plan_json(unix_time({}, {}), path_ ? *path_ : Path{})));
   }
 }
 

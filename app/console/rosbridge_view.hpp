@@ -52,6 +52,7 @@ class RosbridgeView : public LiveChannel {
   void add_client(Client& client);
   void remove_client(const Client& client);
   void receive(Client& client, const nlohmann::json& message, Stamp now);
+  [[nodiscard]] const SocketMessage& map_message();
   void subscribe(Client& client, const std::string& topic);
   void publish(Client& client, const nlohmann::json& message, Stamp now);
   void call_service(Client& client, const nlohmann::json& message);
@@ -70,6 +71,7 @@ class RosbridgeView : public LiveChannel {
   int clients_so_far_ = 0;
   std::uint64_t tickets_so_far_ = 0;
   std::shared_ptr<const Path> path_;
+  SocketMessage map_;
   Stamp last_pose_;
 };
 
