@@ -10,13 +10,18 @@ interface Kept { at: string; registry: Registry }
 export class Draft {
   private readonly key: string;
   private readonly keeping: Latest;
+  private offered = false;
 
   constructor(private readonly editor: Editor, site: string, fail: (error: unknown) => void) {
     this.key = `lodestar-draft: ${site}`;
     this.keeping = new Latest(keepEveryMs, async () => this.keep(), fail);
   }
 
-  changed(): void { this.keeping.want(); }
+  /** What has just been saved is thrown away at once: a page that is opened meanwhile must not offer what it replaced. */
+  changed(): void {
+    if (this.offered && !this.editor.dirty) this.keep();
+    else this.keeping.want();
+  }
 
   private keep(): void {
     if (!this.editor.dirty) return localStorage.removeItem(this.key);
@@ -27,6 +32,7 @@ export class Draft {
   /** Offers what an earlier window left. */
   async offer(): Promise<string> {
     const text = localStorage.getItem(this.key);
+    this.offered = true;
     if (text === null) return '';
     localStorage.removeItem(this.key);
     const { at, registry } = JSON.parse(text) as Kept;

@@ -180,7 +180,7 @@ export class SitePlaces {
   private async saveNow(): Promise<string> {
     try {
       this.take(await api.putPlaces(this.editor.document(), this.etag));
-      this.editor.markSaved();
+      this.nowSaved();
       return this.host.hasRobot() ? 'Saved; the robot obeys the zones from now on' : 'Saved';
     } catch (error) {
       if (error instanceof api.Refusal && error.status === 422) this.showRefusal(error);
@@ -198,12 +198,12 @@ export class SitePlaces {
     this.take(theirs);
     if (resolution === 'theirs') {
       this.editor.replaceAll(theirs.places);
-      this.editor.markSaved();
+      this.nowSaved();
       return 'Loaded the version that the other user saved; undo brings yours back';
     }
     if (resolution === 'merge') this.editor.replaceAll(mergedPlaces(base, mine, theirs.places));
     this.take(await api.putPlaces(this.editor.document(), this.etag));
-    this.editor.markSaved();
+    this.nowSaved();
     return resolution === 'merge' ? 'Merged and saved' : 'Overwrote the other version; it is in the history';
   }
 
@@ -213,7 +213,7 @@ export class SitePlaces {
     if (this.editor.dirty && await ask('Throw away your changes?', changesOfPlaces(lines), [['', 'Keep editing'], ['go', 'Throw away and reload']]) !== 'go') return 'Kept your changes';
     this.take(tagged);
     this.editor.replaceAll(tagged.places);
-    this.editor.markSaved();
+    this.nowSaved();
     return 'Reloaded from the site; undo brings yours back';
   }
 
@@ -225,8 +225,14 @@ export class SitePlaces {
     if (this.editor.dirty) return 'Somebody else saved places or zones; saving yours will ask what to do, Reload shows theirs';
     this.take(tagged);
     this.editor.replaceAll(tagged.places);
-    this.editor.markSaved();
+    this.nowSaved();
     return tagged.etag === this.host.list.savedAs ? '' : 'Somebody else saved places or zones: they are shown now';
+  }
+
+  /** At once, not a second later: a page that is opened meanwhile must not offer what has been saved over. */
+  private nowSaved(): void {
+    this.editor.markSaved();
+    this.keep();
   }
 
   // -- drafts -------------------------------------------------------------------------------------------------

@@ -81,12 +81,15 @@ describe('a keep-out', () => {
     await clickMap(page, 2.4, 5.2);
     await page.locator('#stage').press('Escape');
     await page.locator('#place-one-way').check();
+    await page.waitForFunction(() => Object.keys(localStorage).some((key) => key.startsWith('lodestar-places-draft')), undefined, { polling: 50 });
     await page.locator('#place-speed').fill('0.3');
     await page.keyboard.press('Enter');
     await page.keyboard.press('Control+s');
     await stateIs(page, 'the robot obeys');
     assert.match(file(robot), /- \{name: "glass", corners_m: \[\[3, 4.9\], \[3.6, 4.9\], \[3.6, 5.9\], \[3, 5.9\]\]\}/);
     assert.match(file(robot), /- \{from: "N1", to: "N2", one_way: true, max_mps: 0.3\}/);
+
+    assert.equal(await page.evaluate(() => Object.keys(localStorage).find((key) => key.startsWith('lodestar-places-draft'))), undefined);
 
     await page.reload();
     await until(page, isIdle);
