@@ -21,6 +21,13 @@ std::vector<SocketProtocol> protocols_of(const std::vector<std::unique_ptr<LiveC
   return protocols;
 }
 
+/// What the running robot is told of saved places.
+PlacesOrder places_order(const Places& places, const Site& site) {
+  PlacesOrder order{.zones = {places.keep_out, places.speed_zones}, .map_from_dock = {}};
+  if (const auto charging = charging_at(site.charging, places)) order.map_from_dock = charging->map_from_dock;
+  return order;
+}
+
 }  // namespace
 
 ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* link, const LiveSurvey* survey)
@@ -67,9 +74,9 @@ void ConsoleService::tell_of_saved_documents() {
     if (markers) attempt([&] { channel->take_markers(*markers); });
     if (places) attempt([&] { channel->take_places(*places); });
   }
-  if (places) untold_zones_ = Zones{places->keep_out, places->speed_zones};
-  if (link_ == nullptr || !untold_zones_) return;
-  if (link_->give({.by = "saved", .what = ZonesOrder{*untold_zones_}})) untold_zones_.reset();
+  if (places) untold_places_ = places_order(*places, documents_.site());
+  if (link_ == nullptr || !untold_places_) return;
+  if (link_->give({.by = "saved", .what = *untold_places_})) untold_places_.reset();
 }
 
 void ConsoleService::attempt(const std::function<void()>& step) {

@@ -45,7 +45,7 @@ class ConsoleService {
   std::mutex saving_;  ///< of what follows: markers are saved on another thread of the server
   std::optional<MarkerRegistry> saved_;
   std::optional<Places> saved_places_;
-  std::optional<Zones> untold_zones_;  ///< to the robot: its orders wait in a short queue
+  std::optional<PlacesOrder> untold_places_;  ///< to the robot: its orders wait in a short queue
   std::unique_ptr<HttpServer> server_;
   std::string last_error_;  ///< logged once, not in every turn
 };

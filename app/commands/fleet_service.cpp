@@ -62,7 +62,7 @@ FleetSettings fleet_settings(const Site& site, const FleetArguments& arguments, 
 FleetService::FleetService(const Site& site, const FleetSettings& settings, const std::string& name)
     : session_(link_, fleet_session_options(site, settings),
                [name](const std::string& words) { log_info(named(name, words)); }),
-      transport_(settings, factsheet_of(site.robot, settings), link_,
+      transport_(settings, factsheet_of(site.robot, settings, site.charging.has_value()), link_,
                  [name](Severity severity, const std::string& words) {
                    program_log().say(severity, named(name, words));
                  }) {}

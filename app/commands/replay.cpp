@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <memory>
 
+#include "app/commands/charge_option.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/conducted_replay.hpp"
 #include "app/commands/console_options.hpp"
@@ -49,6 +50,8 @@ struct ReplayArguments {
   std::string planner = "fastest";
   GoalArguments goals;
   bool routes = false;
+  bool charges = false;
+  std::optional<double> battery_v;
   std::optional<double> pictures_hz;
   UncertaintyConstraintOptions uncertainty_constraint;
   DisturbanceArguments disturbances;
@@ -75,6 +78,7 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
                                 .uncertainty_constraint = std::nullopt,
                                 .disturbances = disturbances_of(arguments.disturbances),
                                 .disk = std::make_shared<SimulatedDisk>(),
+                                .battery_v = arguments.battery_v,
                                 .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                                 .realtime = arguments.realtime};
   if (!arguments.faults.empty()) options.faults = faults_named(arguments.faults);
@@ -93,6 +97,7 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
     if (!file.warning.empty()) fmt::print(stderr, "lodestar: warning: {}\n", file.warning);
     options.learned = std::move(file.state);
   }
+  if (arguments.charges) options.goals.clear();
   if (!arguments.goals.empty()) options.goals = goals_in(arguments.goals, site.places);
   if (arguments.routes)
     options.goals =
@@ -113,6 +118,8 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
     if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
   }
   if (arguments.routes) command += " --routes";
+  if (arguments.charges) command += " --charge";
+  if (arguments.battery_v) command += fmt::format(" --battery {}", *arguments.battery_v);
   if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
   return command + words_of(arguments.people) + words_of(arguments.disturbances);
 }
@@ -165,11 +172,26 @@ DiskState disk_state(const SimulatedDisk& disk) {
   return {.is_full = [&disk] { return disk.full(); }, .delay = [&disk] { return disk.delay(); }};
 }
 
+/// Takes part in the drive; what took part before goes on.
+void attend_charging(SimulatedDriveOptions& options, Charging& charging) {
+  options.attend = [&charging, others = std::move(options.attend)](
+                       const SensorInput& heard, const MissionStep& step, Mission& mission) {
+    charging.watch(heard.now, heard.base, step, mission);
+    if (others) others(heard, step, mission);
+  };
+}
+
 ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
   RecordedRun recorded(output_folder(site, arguments), site, options.camera,
                        {.can_wait = true, .disk = disk_state(*options.disk)});
   const Interruption interruption;
   options.goes_on = [] { return !Interruption::asked(); };
+  std::optional<Charging> charging;
+  if (arguments.charges) {
+    charging.emplace(charging_after(options.goals, site));
+    attend_charging(options, *charging);
+    options.stays_on = [&charging] { return charging->is_under_way(); };
+  }
   RunRecord record;
   {
     Progress progress("replay", arguments.quiet);
@@ -202,7 +224,8 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
     fmt::print(stderr, "lodestar: interrupted; the run folder has the drive up to here\n");
     return job_failed;
   }
-  return succeeded(summary) && end.loss.empty() ? done : job_failed;
+  const bool is_charged = !charging || print_charge(*charging);
+  return succeeded(summary) && is_charged && end.loss.empty() ? done : job_failed;
 }
 
 /// Simulates with the console in a browser, until Ctrl-C.
@@ -220,6 +243,11 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
   LiveLink link;
   ConsoleService service(console, &link, survey ? survey->live() : nullptr);
   OperatorSession session(link, log_info);
+  std::optional<Charging> charging = charging_of(site, true);
+  if (charging) {
+    session.use(*charging);
+    attend_charging(options, *charging);
+  }
   KeptRuns runs(folder, true, site, options.camera, {.disk = disk_state(*options.disk)});
   if (!survey) options.watch = runs.watcher();
   bool all_arrived = true;
@@ -294,6 +322,13 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->check(CLI::IsMember(planner_names()))
       ->capture_default_str();
   add_goal_options(*command, arguments->goals, "; default: the site's");
+  add_charge_option(*command, arguments->charges);
+  command
+      ->add_option(
+          "--battery", arguments->battery_v,
+          "Volts of the simulated battery at rest at the start, 22 (empty) to 28.8 (full), where the "
+          "site has a dock")
+      ->check(CLI::Range(22.0, 28.8));
   command->add_flag("--routes", arguments->routes,
                     "Drive to the goals along the edges of places.yaml: one-way edges and their speeds hold");
   command
@@ -314,6 +349,8 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
   CLI::Option* serve = command->add_flag(
       "--serve", arguments->serve, "Serve the console in a browser, and wait for goals from it until Ctrl-C");
   serve->excludes(command->get_option("--runs"))->excludes(command->get_option("--state"));
+  for (const char* option : {"--runs", "--serve"})
+    command->get_option("--charge")->excludes(command->get_option(option));
   command->add_flag("--survey", arguments->survey,
                     "The drive is a survey: says how to make a registry of it; with --serve one log for all "
                     "that is driven, by hand or by goals, and the console shows how it stands");
@@ -324,9 +361,11 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->excludes(serve)
       ->excludes(command->get_option("--runs"))
       ->excludes(command->get_option("--goal"))
+      ->excludes(command->get_option("--charge"))
       ->excludes(command->get_option("--mission"));
   CLI::Option* fleet = add_fleet_option(*command, arguments->fleet);
-  for (const char* other : {"--runs", "--goal", "--mission", "--routes", "--serve", "--survey", "--state"})
+  for (const char* other :
+       {"--runs", "--goal", "--mission", "--routes", "--charge", "--serve", "--survey", "--state"})
     fleet->excludes(command->get_option(other));
   add_ros2_options(*command, arguments->ros2);
   for (const char* option : {"--ros2", "--ros2-bag"})

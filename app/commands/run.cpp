@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <memory>
 
+#include "app/commands/charge_option.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/console_options.hpp"
 #include "app/commands/console_service.hpp"
@@ -38,6 +39,7 @@ namespace fs = std::filesystem;
 struct RunArguments {
   std::string site;
   GoalArguments goals;
+  bool charges = false;
   std::string interface;
   std::uint64_t seed = 1;
   std::string output;
@@ -68,6 +70,15 @@ OperatorWish wish_of(OperatorInput& input) {
   return *word == OperatorWord::resume ? OperatorWish::resume : OperatorWish::stop;
 }
 
+/// Takes part in the run; what took part before goes on.
+void attend_charging(RunOptions& options, Charging& charging) {
+  options.attend = [&charging, others = std::move(options.attend)](
+                       const SensorInput& heard, const MissionStep& step, Mission& mission) {
+    charging.watch(heard.now, heard.base, step, mission);
+    if (others) others(heard, step, mission);
+  };
+}
+
 /// The console of a driving robot, and the run folders of its drives. A survey has one log for all of them.
 class ServedRun {
  public:
@@ -90,6 +101,8 @@ class ServedRun {
     all_arrived_ = all_arrived_ && record.arrived();
     if (!surveys_) runs_.keep(std::move(record));
   }
+  /// Orders to charge are carried out by it.
+  void use(Charging& charging) { session_.use(charging); }
   /// Call at the end: all drives arrived, and their run folders are whole.
   [[nodiscard]] bool succeeded() { return runs_.finish() && all_arrived_; }
 
@@ -164,18 +177,34 @@ ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> proto
   KeptRuns runs(run_folder(arguments, parts.site), true, parts.site, options.camera,
                 {.interface = parts.interface});
   options.watch = runs.watcher();
+  std::optional<Charging> charging;
+  if (arguments.charges) {
+    charging.emplace(charging_after(options.goals, parts.site));
+    attend_charging(options, *charging);
+    options.conduct = [&charging](const MissionStep&, const Mission& mission) {
+      return !mission.finished() || charging->is_under_way();
+    };
+  }
   RunRecord record = run(parts.site, parts.bus, std::move(protocol), parts.camera, options);
   print_goals(record);
   const bool has_arrived = record.arrived();
   runs.keep(std::move(record));
   const bool is_recorded = runs.finish();
-  return has_arrived && is_recorded ? done : job_failed;
+  const bool is_charged = !charging || print_charge(*charging);
+  return has_arrived && is_charged && is_recorded ? done : job_failed;
 }
 
 /// Drives with the console, until it is told to stop.
 ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
-                      const RunArguments& arguments) {
+                      const RunArguments& arguments, Charging* of_fleet = nullptr) {
   ServedRun served(parts.site, parts.interface, arguments, options, nullptr);
+  std::optional<Charging> charging;
+  if (of_fleet != nullptr) {
+    served.use(*of_fleet);
+  } else if (charging = charging_of(parts.site, true); charging) {
+    served.use(*charging);
+    attend_charging(options, *charging);
+  }
   served.keep(run(parts.site, parts.bus, std::move(protocol), parts.camera, options));
   return served.succeeded() ? done : job_failed;
 }
@@ -190,17 +219,19 @@ ExitCode drive_in_fleet(const DriveParts& parts, std::unique_ptr<BaseProtocol> p
     fleet.session().attend(step, mission);
     return true;
   };
-  if (arguments.serve) return drive_served(parts, std::move(protocol), options, arguments);
+  if (arguments.serve)
+    return drive_served(parts, std::move(protocol), options, arguments, fleet.session().charging());
   (void)run(parts.site, parts.bus, std::move(protocol), parts.camera, options);
   return done;
 }
 
 void check_purpose(const RunArguments& arguments) {
-  const bool is_given_goals =
-      !arguments.goals.empty() || arguments.fleet.is_wanted || arguments.ros2.takes_commands;
+  const bool is_given_goals = !arguments.goals.empty() || arguments.charges || arguments.fleet.is_wanted ||
+                              arguments.ros2.takes_commands;
   if (!is_given_goals && !arguments.serve && !arguments.survey && !arguments.localize_only)
     throw InputError(
-        "found neither --goal, --mission, --serve, --fleet, --ros2-commands, --localize-only nor --survey");
+        "found neither --goal, --mission, --charge, --serve, --fleet, --ros2-commands, --localize-only nor "
+        "--survey");
   if (arguments.localize_only && !arguments.ros2.is_wanted)
     throw InputError("--localize-only: found no --ros2, wanted it: the pose has nowhere to go");
 }
@@ -209,7 +240,8 @@ ExitCode drive_as_asked(const DriveParts& parts, std::unique_ptr<BaseProtocol> p
                         const RunOptions& options, const RunArguments& arguments) {
   if (arguments.fleet.is_wanted) return drive_in_fleet(parts, std::move(protocol), options, arguments);
   if (arguments.survey) return drive_surveying(parts, std::move(protocol), options, arguments);
-  if (!arguments.serve && arguments.goals.empty()) {  // by topic alone, until it is told to stop
+  if (!arguments.serve && !arguments.charges &&
+      arguments.goals.empty()) {  // by topic alone, until it is told to stop
     (void)run(parts.site, parts.bus, std::move(protocol), parts.camera, options);
     return done;
   }
@@ -281,6 +313,7 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
                    "Site folder, or the name of a site in /etc/lodestar or /srv/lodestar")
       ->required();
   add_goal_options(*command, arguments->goals);
+  CLI::Option* charge = add_charge_option(*command, arguments->charges);
   command->add_flag("--serve", arguments->serve,
                     "Serve the console in a browser, and wait for goals from it until stopped");
   command->add_flag(
@@ -300,13 +333,16 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
   add_fleet_option(*command, arguments->fleet)
       ->excludes(command->get_option("--goal"))
       ->excludes(command->get_option("--mission"))
+      ->excludes(charge)
       ->excludes(command->get_option("--survey"));
+  charge->excludes(command->get_option("--serve"))->excludes(command->get_option("--survey"));
   add_ros2_options(*command, arguments->ros2);
   CLI::Option* only =
       command->add_flag("--localize-only", arguments->localize_only,
                         "Publish where the robot is, for another program that drives it: commands "
                         "nothing, and sends nothing to the base");
-  for (const char* other : {"--goal", "--mission", "--serve", "--survey", "--fleet", "--ros2-commands"})
+  for (const char* other :
+       {"--goal", "--mission", "--charge", "--serve", "--survey", "--fleet", "--ros2-commands"})
     only->excludes(command->get_option(other));
   command
       ->add_option("--odom", arguments->odometry, "Of --localize-only: base (its CAN) or ros2 (topic odom)")

@@ -130,6 +130,7 @@ ordered_json state_json(const RobotState& state) {
                    {"fault", state.fault ? ordered_json(in_words(*state.fault, state.fault_details))
                                          : ordered_json(nullptr)},
                    {"battery_v", or_null(state.battery_v)},
+                   {"charging", to_string(state.charging)},
                    {"markers", state.markers},
                    {"confidence", short_number(state.confidence)},
                    {"seen_s", state.last_seen ? ordered_json(short_number(seconds(*state.last_seen)))

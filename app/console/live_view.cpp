@@ -86,6 +86,7 @@ void LiveView::add_client(Client& client) {
                                    {"robot", link_ != nullptr},
                                    {"session", session_},
                                    {"survey", survey_ != nullptr},
+                                   {"dock", site_.charging ? site_.charging->place : ""},
                                    {"lease_s", seconds(options_.lease)}}));
   if (path_message_.bytes) client.outbox->offer(path_slot, path_message_);
   if (state_.bytes) client.outbox->offer(state_slot, state_);
@@ -199,7 +200,10 @@ std::optional<std::string> LiveView::give_order(const Client& client, const std:
   Order order{.by = in_words(client.number, client.name), .what = PauseOrder{}};
   if (type == "hold") return std::nullopt;
   if (type == "go") {
-    order.what = GoOrder{goals_of(wish_from(message))};
+    order.what = go_order(message);
+  } else if (type == "charge") {
+    if (!site_.charging) return "found no charging in site.yaml: the robot has no dock";
+    order.what = ChargeOrder{};
   } else if (type == "resume") {
     order.what = ResumeOrder{};
   } else if (type == "clear_fault") {
@@ -220,10 +224,14 @@ LiveView::Wish LiveView::wish_from(const json& message) {
 }
 
 /// Throws InputError where no edges lead there.
-std::vector<Goal> LiveView::goals_of(const Wish& wish) const {
-  if (!wish.along_routes) return wish.goals;
+GoOrder LiveView::go_order(const json& message) const {
+  const Wish wish = wish_from(message);
+  const bool is_more = message.value("more", false);
+  if (!wish.along_routes) return {.goals = wish.goals, .is_more = is_more};
   if (!estimate_) throw InputError("the robot does not know where it is");
-  return routes_.over_edges(estimate_->map_from_base.position_m, wish.goals);
+  const Vec2 from_m = is_more ? last_goal_m_.value_or(estimate_->map_from_base.position_m)
+                              : estimate_->map_from_base.position_m;
+  return {.goals = routes_.over_edges(from_m, wish.goals), .is_more = is_more};
 }
 
 void LiveView::pump(Stamp now, const RobotState* fresh) {
@@ -236,6 +244,8 @@ void LiveView::pump(Stamp now, const RobotState* fresh) {
 
 void LiveView::show(const RobotState& state, Stamp now) {
   estimate_ = state.estimate;
+  last_goal_m_.reset();
+  if (state.current < state.goals.size()) last_goal_m_ = state.goals.back().position_m;
   frame_ = state.frame;
   if (state.path != path_) show_path(state.path);
   ordered_json content = state_json(state);

@@ -40,9 +40,10 @@ struct LiveViewOptions {
 ///   ask                                   asks the driver for it
 ///   hand_over {client}, keep {client}     the driver's answer
 ///   clear_fault, place {pose}             while no other client has the lease; they take none
-///   go {goals, routes}, pause, resume, steer {forward_mps, turn_degps}        only from the client that has
-///   the lease
-/// `routes`, which may be left out: true for a way along the edges of the site's places.
+///   go {goals, routes, more}, charge, pause, resume, steer {forward_mps, turn_degps}    only from the client
+///   that has the lease
+/// `routes`, which may be left out: true for a way along the edges of the site's places; `more`: likewise,
+/// behind the goals of the present drive.
 class LiveView : public LiveChannel {
  public:
   /// `link`: null when no robot is connected. `survey`: the one under way; null when there is none. All must
@@ -105,7 +106,7 @@ class LiveView : public LiveChannel {
   [[nodiscard]] nlohmann::ordered_json preview_of(const Wish& wish,
                                                   const std::optional<PoseEstimate>& robot) const;
   static Wish wish_from(const nlohmann::json& message);
-  [[nodiscard]] std::vector<Goal> goals_of(const Wish& wish) const;
+  [[nodiscard]] GoOrder go_order(const nlohmann::json& message) const;
 
   const Site& site_;
   LiveLink* link_;
@@ -120,7 +121,8 @@ class LiveView : public LiveChannel {
   std::vector<Client*> clients_;
   int clients_so_far_ = 0;
   std::optional<PoseEstimate> estimate_;
-  std::optional<Frame> frame_;  ///< not shown yet
+  std::optional<Vec2> last_goal_m_;  ///< of the present drive
+  std::optional<Frame> frame_;       ///< not shown yet
   Stamp last_picture_;
   Stamp last_seen_;
   std::int64_t session_;  ///< tells this program's run from others

@@ -35,6 +35,14 @@ std::variant<Places, PlacesRefusal> sent_places(const HttpRequest& request, cons
   }
 }
 
+/// Without it the site could not be loaded again.
+std::optional<PlacesRefusal> dock_missing(const Places& places, const Site& site) {
+  if (!site.charging || charging_at(site.charging, places)) return std::nullopt;
+  return PlacesRefusal{
+      "found no place '" + site.charging->place + "' with a heading, wanted it: the robot charges there", "",
+      0};
+}
+
 }  // namespace
 
 PlacesApi::PlacesApi(const Site& site) : site_(site), history_(site.folder / ".history" / "places") {}
@@ -68,6 +76,7 @@ HttpResponse PlacesApi::save(const HttpRequest& request, const Places& before) c
   const auto sent = sent_places(request, before, site_.robot);
   if (const auto* why = std::get_if<PlacesRefusal>(&sent)) return refused(*why);
   const Places& after = std::get<Places>(sent);
+  if (const auto why = dock_missing(after, site_)) return refused(*why);
   if (places_text(after) != text_before) {
     history_.keep(text_before);
     save_places(after, site_.folder);
@@ -80,6 +89,7 @@ HttpResponse PlacesApi::save(const HttpRequest& request, const Places& before) c
 HttpResponse PlacesApi::check(const HttpRequest& request) const {
   auto sent = places_from_json(request.body, site_.robot);
   if (const auto* why = std::get_if<PlacesRefusal>(&sent)) return refused(*why);
+  if (const auto why = dock_missing(std::get<Places>(sent), site_)) return refused(*why);
   Site draft = site_;
   draft.places = std::move(std::get<Places>(sent));
   ordered_json issues = ordered_json::array();

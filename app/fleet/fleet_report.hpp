@@ -31,6 +31,7 @@ struct FleetReport {
   bool wants_base = false;  ///< the end of the base is near, and there is a horizon
   double since_last_node_m = 0.0;
   double charge_percent = 0.0;
+  bool charging = false;
   std::optional<double> battery_v;
   OperatingMode mode = OperatingMode::automatic;
   EmergencyStop emergency_stop = EmergencyStop::none;

@@ -42,6 +42,14 @@ FleetSessionOptions fleet_session_options(const Site& site, const FleetSettings&
   options.hooks = settings.actions;
   options.folder = site.folder;
   book.instant_actions = {"initPosition", "stateRequest", "factsheetRequest"};
+  options.charging = site.charging;
+  if (options.charging) {
+    options.charging->low_v.reset();  // when to charge is the master's business
+    for (const char* type : {"startCharging", "stopCharging"}) {
+      book.node_actions.insert(type);
+      book.instant_actions.insert(type);
+    }
+  }
   book.slowest_mps = navigation_options(site.robot).drive.min_forward_mps;
   options.battery = load_battery_curve(site.robot_file);
   const double fastest_mps = site.robot.max_forward_mps;
@@ -56,7 +64,9 @@ FleetSession::FleetSession(FleetLink& link, FleetSessionOptions options,
       options_(std::move(options)),
       tell_(std::move(tell)),
       book_(options_.book),
-      hooks_(options_.hooks, options_.folder) {}
+      hooks_(options_.hooks, options_.folder) {
+  if (options_.charging) charging_.emplace(*options_.charging, tell_);
+}
 
 void FleetSession::say(const std::string& words) const {
   if (tell_) tell_("fleet: " + words);
@@ -80,6 +90,7 @@ void FleetSession::hear(const SensorInput& input) {
 }
 
 void FleetSession::attend(const MissionStep& step, Mission& mission) {
+  if (charging_) charging_->watch(now_, base_, step, mission);
   follow(step, mission);
   see_who_drives(mission);
   take_messages(step.navigation);
@@ -158,6 +169,7 @@ void FleetSession::hold(Mission& mission) {
 
 void FleetSession::act(Mission& mission) {
   go_on_waiting();
+  go_on_charging();
   hooks_.keep([this](const std::string& id) { return book_.is_running(id); });
   for (const HookResult& result : hooks_.take_ended()) {
     if (!result.succeeded) say(fmt::format("action {}: {}", result.action_id, result.words));
@@ -175,6 +187,11 @@ void FleetSession::begin(const FleetAction& action, Mission& mission) {
     book_.action_ended(action.id, true);
   } else if (action.type == "factsheetRequest") {
     link_.ask_for_factsheet();
+    book_.action_ended(action.id, true);
+  } else if (action.type == "startCharging" && charging_) {
+    charge(action, mission);
+  } else if (action.type == "stopCharging" && charging_) {
+    charging_->end();  // nothing on board switches the current: it ends as the robot leaves
     book_.action_ended(action.id, true);
   } else if (hooks_.carries_out(action.type)) {
     hooks_.start(action);
@@ -205,6 +222,31 @@ void FleetSession::place(const FleetAction& action, Mission& mission) {
   book_.action_ended(action.id, true);
 }
 
+/// From wherever it stands onto the dock; done when the battery charges.
+void FleetSession::charge(const FleetAction& action, Mission& mission) {
+  const auto fail = [&](const std::string& why) { book_.action_ended(action.id, false, why); };
+  if (charge_action_) return fail("another action brings the robot to the dock");
+  if (!mission.finished() || !book_.targets().empty()) return fail("the robot has somewhere to drive");
+  charge_action_ = action.id;
+  if (charging_->state() != ChargingState::none) return;  // it is there
+  charging_->begin(mission);
+  targets_.clear();  // no node of the order
+  is_ours_ = true;
+  is_stopped_by_us_ = false;
+}
+
+void FleetSession::go_on_charging() {
+  if (!charge_action_) return;
+  const ChargingState state = charging_->state();
+  const bool is_charged = state == ChargingState::charging || state == ChargingState::full;
+  if (book_.is_running(*charge_action_)) {
+    if (charging_->is_under_way() && !is_charged) return;
+    const std::string& why = charging_->failure();
+    book_.action_ended(*charge_action_, is_charged, is_charged || !why.empty() ? why : "off the dock");
+  }
+  charge_action_.reset();
+}
+
 void FleetSession::go_on_waiting() {
   std::erase_if(waits_, [&](Wait& wait) {
     if (!book_.is_running(wait.action)) return true;
@@ -227,7 +269,7 @@ void FleetSession::drive(Mission& mission) {
     mission.start(goals_of(targets_));
     is_ours_ = true;
     is_stopped_by_us_ = false;
-  } else if (is_ours_ && !is_stopped_by_us_) {
+  } else if (is_ours_ && !is_stopped_by_us_ && !targets_.empty()) {
     const auto is_new = [&](const DriveTarget& target) { return target.sequence > targets_.back().sequence; };
     const auto more = std::ranges::find_if(targets, is_new);
     if (more == targets.end()) return;
@@ -235,88 +277,6 @@ void FleetSession::drive(Mission& mission) {
     mission.append(goals_of({more, targets.end()}));
     targets_.insert(targets_.end(), more, targets.end());
   }
-}
-
-/// A reason that lasts: one that comes and goes is not worth a message each time.
-void FleetSession::note_stop(const NavigationStep& step) {
-  constexpr Duration lasts = std::chrono::milliseconds(500);
-  std::string why;
-  if (base_.state == BaseState::fault) {
-    why = "base: " + in_words(base_.state, base_.fault, base_.details);
-  } else if (step.stop) {
-    why = to_string(*step.stop);
-  }
-  if (why != stop_ || !stop_since_) {
-    stop_ = std::move(why);
-    stop_since_ = now_;
-  }
-  if (now_ - *stop_since_ >= lasts) book_.set_stopped(stop_);
-}
-
-bool FleetSession::wants_base(const NavigationStep& step) const {
-  const bool has_horizon = !book_.nodes().empty() && !book_.nodes().back().released;
-  if (!has_horizon || !step.estimate) return false;
-  double left_m = 0.0;
-  Vec2 from_m = step.estimate->map_from_base.position_m;
-  for (const FleetNode& node : book_.nodes()) {
-    if (!node.released) break;
-    left_m += (node.at->position_m - from_m).norm();
-    from_m = node.at->position_m;
-  }
-  return left_m < options_.ask_for_base_m;
-}
-
-void FleetSession::report(const NavigationStep& step, const Mission& mission) {
-  const Visible visible{.revision = book_.revision(),
-                        .connections = link_.connections(),
-                        .driving = !wheels_.holds(),
-                        .paused = book_.is_paused() || (is_ours_ && mission.paused()),
-                        .wants_base = wants_base(step),
-                        .field_violation = step.stop && waits_for_others(*step.stop),
-                        .emergency_stop = base_.fault == BaseFault::emergency_stop ? EmergencyStop::manual
-                                                                                   : EmergencyStop::none};
-  if (node_of_driven_ != book_.last_sequence()) driven_m_ = 0.0;
-  node_of_driven_ = book_.last_sequence();
-  const Duration since = now_ - reported_at_;
-  const bool is_due = !reported_ || since >= options_.most_interval ||
-                      (since >= options_.least_interval && (is_state_asked_ || visible != *reported_));
-  if (!is_due || !link_.publish(report_of(step, visible))) return;
-  reported_ = visible;
-  reported_at_ = now_;
-  is_state_asked_ = false;
-}
-
-FleetReport FleetSession::report_of(const NavigationStep& step, const Visible& visible) const {
-  constexpr double charged_percent = 80.0;  // VDA 5050: 20 for low and 80 for good where no more is known
-  FleetReport report{.order_id = book_.order_id(),
-                     .update_id = book_.update_id(),
-                     .last_node_id = book_.last_node_id(),
-                     .last_sequence = book_.last_sequence(),
-                     .nodes = book_.nodes(),
-                     .edges = book_.edges(),
-                     .actions = book_.actions(),
-                     .errors = book_.errors(),
-                     .map_from_base = {},
-                     .map = options_.book.map,
-                     .velocity = base_.measured.value_or(BodyVelocity{}),
-                     .driving = visible.driving,
-                     .paused = visible.paused,
-                     .wants_base = visible.wants_base,
-                     .since_last_node_m = driven_m_,
-                     .charge_percent = charged_percent,
-                     .battery_v = {},
-                     .mode = book_.mode(),
-                     .emergency_stop = visible.emergency_stop,
-                     .field_violation = visible.field_violation};
-  if (step.estimate) {
-    report.map_from_base = step.estimate->map_from_base;
-    report.deviation_m = std::sqrt(std::max(0.0, step.estimate->covariance.topLeftCorner<2, 2>().trace()));
-  }
-  if (base_.system && base_.system->battery_v > 0.0) {
-    report.battery_v = base_.system->battery_v;
-    if (options_.battery) report.charge_percent = options_.battery->percent_at(*report.battery_v);
-  }
-  return report;
 }
 
 }  // namespace lodestar

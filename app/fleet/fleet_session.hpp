@@ -8,6 +8,7 @@
 #include "app/fleet/action_hooks.hpp"
 #include "app/fleet/fleet_link.hpp"
 #include "app/fleet/order_book.hpp"
+#include "app/navigation/charging.hpp"
 #include "app/navigation/mission.hpp"
 #include "app/navigation/wheel_rest.hpp"
 #include "app/site/fleet_settings.hpp"
@@ -19,6 +20,7 @@ struct FleetSessionOptions {
   OrderBookOptions book;
   std::optional<BatteryCurve> battery;
   std::vector<ActionHook> hooks;
+  std::optional<ChargingSettings> charging;
   std::filesystem::path folder;  ///< of the site, in which their programs run
   /// The master is asked for more base when this much of it is left: three seconds at full speed, and the
   /// braking distance.
@@ -43,6 +45,8 @@ class FleetSession {
   void attend(const MissionStep& step, Mission& mission);
 
   [[nodiscard]] const OrderBook& book() const { return book_; }
+  /// Who brings the robot onto its dock; null where it has none.
+  [[nodiscard]] Charging* charging() { return charging_ ? &*charging_ : nullptr; }
 
  private:
   struct Wait {
@@ -54,6 +58,7 @@ class FleetSession {
     std::uint64_t revision = 0;
     std::uint64_t connections = 0;
     bool driving = false;
+    bool charging = false;
     bool paused = false;
     bool wants_base = false;
     bool field_violation = false;
@@ -70,7 +75,9 @@ class FleetSession {
   void act(Mission& mission);
   void begin(const FleetAction& action, Mission& mission);
   void place(const FleetAction& action, Mission& mission);
+  void charge(const FleetAction& action, Mission& mission);
   void go_on_waiting();
+  void go_on_charging();
   void drive(Mission& mission);
   void note_stop(const NavigationStep& step);
   void report(const NavigationStep& step, const Mission& mission);
@@ -95,6 +102,8 @@ class FleetSession {
   bool has_paused_ = false;  ///< the present drive
   std::vector<Wait> waits_;
   ActionHooks hooks_;
+  std::optional<Charging> charging_;
+  std::optional<std::string> charge_action_;
   std::string stop_;  ///< why the robot may not move, and since when
   std::optional<Stamp> stop_since_;
   bool is_state_asked_ = false;

@@ -82,7 +82,7 @@ OrderedJson parameter(const char* key, const char* type, bool is_optional = fals
   return {{"key", key}, {"valueDataType", type}, {"isOptional", is_optional}};
 }
 
-OrderedJson actions_offered(const std::vector<std::string>& more) {
+OrderedJson actions_offered(const Factsheet& facts) {
   OrderedJson actions = OrderedJson::array(
       {offered("startPause", {"INSTANT"}), offered("stopPause", {"INSTANT"}),
        offered("cancelOrder", {"INSTANT"}),
@@ -92,7 +92,10 @@ OrderedJson actions_offered(const std::vector<std::string>& more) {
                                    parameter("lastNodeId", "STRING", true)})),
        offered("stateRequest", {"INSTANT"}), offered("factsheetRequest", {"INSTANT"}),
        offered("wait", {"NODE"}, OrderedJson::array({parameter("seconds", "NUMBER")}))});
-  for (const std::string& type : more) actions.push_back(offered(type.c_str(), {"NODE"}));
+  if (facts.charges)
+    for (const char* type : {"startCharging", "stopCharging"})
+      actions.push_back(offered(type, {"INSTANT", "NODE"}));
+  for (const std::string& type : facts.node_actions) actions.push_back(offered(type.c_str(), {"NODE"}));
   return actions;
 }
 
@@ -149,7 +152,7 @@ std::string state_text(const MessageHeader& header, const FleetReport& report) {
   json["velocity"] = {
       {"vx", report.velocity.forward_mps}, {"vy", 0.0}, {"omega", report.velocity.turn_radps}};
   json["actionStates"] = array_of(report.actions, action_state);
-  json["batteryState"] = {{"batteryCharge", report.charge_percent}, {"charging", false}};
+  json["batteryState"] = {{"batteryCharge", report.charge_percent}, {"charging", report.charging}};
   if (report.battery_v) json["batteryState"]["batteryVoltage"] = *report.battery_v;
   json["errors"] = array_of(report.errors, error_state);
   json["safetyState"] = {{"eStop", to_string(report.emergency_stop)},
@@ -163,7 +166,7 @@ std::string connection_text(const MessageHeader& header, ConnectionState state) 
   return text_of(json);
 }
 
-Factsheet factsheet_of(const Robot& robot, const FleetSettings& settings) {
+Factsheet factsheet_of(const Robot& robot, const FleetSettings& settings, bool charges) {
   Factsheet facts{.series = robot.name,
                   .slowest_mps = robot.dead_band_mps.value_or(0.0),
                   .fastest_mps = robot.max_forward_mps,
@@ -173,6 +176,7 @@ Factsheet factsheet_of(const Robot& robot, const FleetSettings& settings) {
                   .length_m = 2.0 * robot.radius_m,
                   .radius_m = robot.radius_m,
                   .outline_m = {},
+                  .charges = charges,
                   .node_actions = {}};
   for (const ActionHook& hook : settings.actions) facts.node_actions.push_back(hook.type);
   if (!robot.footprint) return facts;
@@ -209,7 +213,7 @@ std::string factsheet_text(const MessageHeader& header, const Factsheet& facts) 
                            "order.nodes.nodePosition.allowedDeviationTheta", "order.edges.maxSpeed"})
     obeyed.push_back({{"parameter", name}, {"support", "SUPPORTED"}});
   json["protocolFeatures"] = {{"optionalParameters", std::move(obeyed)},
-                              {"agvActions", actions_offered(facts.node_actions)}};
+                              {"agvActions", actions_offered(facts)}};
   const std::vector<Vec2> outline_m = facts.outline_m.empty() ? around_disc(facts.radius_m) : facts.outline_m;
   json["agvGeometry"] = {
       {"envelopes2d",

@@ -35,9 +35,10 @@ struct Factsheet {
   double length_m = 0.0;
   double radius_m = 0.0;
   std::vector<Vec2> outline_m;            ///< of the base frame; empty: the disc of that radius
+  bool charges = false;                   ///< the site has a dock
   std::vector<std::string> node_actions;  ///< types of the site's own
 };
-Factsheet factsheet_of(const Robot& robot, const FleetSettings& settings);
+Factsheet factsheet_of(const Robot& robot, const FleetSettings& settings, bool charges);
 std::string factsheet_text(const MessageHeader& header, const Factsheet& facts);
 
 }  // namespace lodestar

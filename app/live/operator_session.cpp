@@ -47,8 +47,7 @@ void OperatorSession::apply_orders(Mission& mission, BaseDriver& base, Stamp now
   }
   for (const Order& order : link_.take_orders()) take(order, mission, base, now);
   if (link_.take_stop()) {
-    next_goals_.clear();
-    end_drive(std::exchange(next_ticket_, 0), "stopped before it began");
+    forget_next("stopped before it began");
     mission.stop();
     say(now, "stop");
   }
@@ -56,10 +55,26 @@ void OperatorSession::apply_orders(Mission& mission, BaseDriver& base, Stamp now
     mission.pause();
     say(now, "paused: no client has control any more");
   }
-  if (next_goals_.empty() || !mission.finished()) return;
-  mission.start(std::exchange(next_goals_, {}));
+  if (mission.finished()) start_next(mission);
+}
+
+void OperatorSession::start_next(Mission& mission) {
+  if (next_goals_.empty() && !charges_next_) return;
+  if (charges_next_) {
+    charging_->begin(mission);
+  } else {
+    mission.start(next_goals_);
+  }
   ticket_ = std::exchange(next_ticket_, 0);
+  next_goals_.clear();
+  charges_next_ = false;
   by_console_ = true;
+}
+
+void OperatorSession::forget_next(const std::string& why) {
+  end_drive(std::exchange(next_ticket_, 0), why);
+  next_goals_.clear();
+  charges_next_ = false;
 }
 
 /// `why` is empty for one that arrived.
@@ -73,11 +88,8 @@ void OperatorSession::end_drive(std::uint64_t ticket, const std::string& why) {
 void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& base, Stamp now) {
   const auto say_by = [&](const std::string& words) { say(now, order.by + ": " + words); };
   if (const auto* go = std::get_if<GoOrder>(&order.what)) {
-    end_drive(next_ticket_, "another goal came before it began");
-    next_goals_ = go->goals;
-    next_ticket_ = go->ticket;
-    mission.stop();
-    say_by("go to " + in_words(go->goals));
+    take(*go, mission);
+    say_by((go->is_more ? "then go to " : "go to ") + in_words(go->goals));
   } else if (std::holds_alternative<PauseOrder>(order.what)) {
     mission.pause();
     say_by("pause");
@@ -92,7 +104,14 @@ void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& bas
     const bool done = mission.finished() && mission.place_robot(pose);
     say_by(fmt::format("set pose to ({:.2f}, {:.2f}, {:.0f}°){}", pose.position_m.x(), pose.position_m.y(),
                        degrees(pose.yaw_rad), done ? "" : ": not now"));
-  } else if (const auto* set = std::get_if<ZonesOrder>(&order.what)) {
+  } else if (std::holds_alternative<ChargeOrder>(order.what)) {
+    if (charging_ == nullptr) return say_by("charge: the site has no dock");
+    forget_next("the robot was sent to charge before it began");
+    charges_next_ = true;
+    mission.stop();
+    say_by("charge");
+  } else if (const auto* set = std::get_if<PlacesOrder>(&order.what)) {
+    if (charging_ != nullptr && set->map_from_dock) charging_->dock_moved(*set->map_from_dock);
     zones_ = std::make_shared<const Zones>(set->zones);
     say_by(fmt::format("zones: {} keep-outs, {} speed zones", zones_->keep_out.size(),
                        zones_->speed_zones.size()));
@@ -104,6 +123,24 @@ void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& bas
     if (mission.phase() != MissionPhase::by_hand) say_by("drive by hand");
     mission.steer(steer->wanted, now + steering_holds);
   }
+}
+
+/// Behind the goals of a drive that somebody else has begun, too: who has control answers for all of it.
+void OperatorSession::take(const GoOrder& order, Mission& mission) {
+  const bool is_stopping = mission.phase() == MissionPhase::stopping;
+  if (order.is_more && !mission.finished() && !is_stopping) {
+    mission.append(order.goals);
+    by_console_ = true;
+    return;
+  }
+  if (order.is_more && is_stopping && !next_goals_.empty()) {
+    next_goals_.insert(next_goals_.end(), order.goals.begin(), order.goals.end());
+    return;
+  }
+  forget_next("another goal came before it began");
+  next_goals_ = order.goals;
+  next_ticket_ = order.ticket;
+  mission.stop();
 }
 
 void OperatorSession::remember(const SensorInput& input, const MissionStep& step, const Mission& mission) {
@@ -144,6 +181,7 @@ void OperatorSession::publish(const SensorInput& input, const MissionStep& step,
                    .base = input.base.state,
                    .fault = input.base.fault,
                    .fault_details = input.base.details,
+                   .charging = charging_ != nullptr ? charging_->state() : ChargingState::none,
                    .distrusted = navigation.distrusted,
                    .frame = last_frame_,
                    .error_m = error_m ? error_m() : std::nullopt,

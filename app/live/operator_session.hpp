@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/live/live_link.hpp"
+#include "app/navigation/charging.hpp"
 #include "app/navigation/mission.hpp"
 
 namespace lodestar {
@@ -19,6 +20,9 @@ class OperatorSession {
  public:
   /// `tell`: receives each event, in words, for a log.
   explicit OperatorSession(LiveLink& link, std::function<void(const std::string&)> tell = {});
+
+  /// Of a robot that has a dock: who brings it there. It must outlive this.
+  void use(Charging& charging) { charging_ = &charging; }
 
   /// Call before a step. `clock` is monotonic_now(), `now` the step's own time.
   void apply_orders(Mission& mission, BaseDriver& base, Stamp now, Stamp clock);
@@ -35,12 +39,17 @@ class OperatorSession {
  private:
   void end_drive(std::uint64_t ticket, const std::string& why);
   void take(const Order& order, Mission& mission, BaseDriver& base, Stamp now);
+  void take(const GoOrder& order, Mission& mission);
+  void start_next(Mission& mission);
+  void forget_next(const std::string& why);
   void remember(const SensorInput& input, const MissionStep& step, const Mission& mission);
 
   LiveLink& link_;
   std::function<void(const std::string&)> tell_;
   std::vector<Goal> next_goals_;  ///< to start when the robot has come to rest
   std::uint64_t next_ticket_ = 0;
+  bool charges_next_ = false;
+  Charging* charging_ = nullptr;
   std::uint64_t ticket_ = 0;      ///< of the present drive
   std::deque<EndedDrive> ended_;  ///< of those with a ticket
   bool by_console_ = false;       ///< the present drive was ordered from the console

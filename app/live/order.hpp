@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,6 +16,7 @@ namespace lodestar {
 struct GoOrder {
   std::vector<Goal> goals;
   std::uint64_t ticket = 0;  ///< by which the end of the drive is told; 0: nobody asks
+  bool is_more = false;      ///< behind the goals of the present drive, if there is one; not in their place
 };
 struct PauseOrder {};
 struct ResumeOrder {};
@@ -29,14 +31,19 @@ struct SteerOrder {
   BodyVelocity wanted;
 };
 
-/// Obeys these zones from now on.
-struct ZonesOrder {
+/// Obeys these from now on.
+struct PlacesOrder {
   Zones zones;
+  std::optional<Pose2> map_from_dock;  ///< of a site where the robot charges
 };
+/// To the dock, as soon as the present drive has been stopped.
+struct ChargeOrder {};
 
 struct Order {
   std::string by;  ///< who, in words
-  std::variant<GoOrder, PauseOrder, ResumeOrder, ClearFaultOrder, PlaceOrder, SteerOrder, ZonesOrder> what;
+  std::variant<GoOrder, PauseOrder, ResumeOrder, ClearFaultOrder, PlaceOrder, SteerOrder, PlacesOrder,
+               ChargeOrder>
+      what;
 };
 
 }  // namespace lodestar

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/navigation/charging.hpp"
 #include "app/navigation/mission.hpp"
 #include "app/site/goal.hpp"
 #include "drivers/base/base_driver.hpp"
@@ -45,6 +46,7 @@ struct RobotState {
   std::optional<BaseFault> fault;
   std::string fault_details;
   std::optional<double> battery_v;
+  ChargingState charging = ChargingState::none;
 
   std::vector<int> markers;        ///< of the newest fix
   double confidence = 0.0;         ///< of its optimal marker

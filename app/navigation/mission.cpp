@@ -301,11 +301,12 @@ MissionEvent Mission::end_goal(Stamp now, MissionEvent event) {
   return event;
 }
 
-/// From where it stands, the robot would come to the goals after one on the way by another way than was
-/// asked.
+/// From where it stands, the robot would come to the goals after one on the way, and to those on a straight
+/// line from it, by another way than was asked.
 MissionEvent Mission::fail(Stamp now, std::string why) {
   failure_ = std::move(why);
   failed_to_ = current_ + trip().size();
+  while (failed_to_ < goals_.size() && goals_[failed_to_].on_line) ++failed_to_;
   navigation_.halt();
   return end_goal(now, MissionEvent::goal_failed);
 }

@@ -26,6 +26,10 @@ std::vector<Station> stations_of(const Site& site) {
         {fmt::format("goal {} of site.yaml", i + 1), site.goals[i].position_m, site.goals[i].heading_rad});
   for (const Place& place : site.places.places)
     stations.push_back({"'" + place.name + "'", place.position_m, place.yaw_rad});
+  if (const std::optional<ChargingSettings> charging = charging_at(site.charging, site.places)) {
+    const Pose2 before = approach_pose(*charging);
+    stations.push_back({"the pose in front of '" + charging->place + "'", before.position_m, before.yaw_rad});
+  }
   return stations;
 }
 

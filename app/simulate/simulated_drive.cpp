@@ -10,7 +10,7 @@ RunRecord simulate_drive(const Site& site, const SimulatedDriveOptions& options)
   SimulatedRobot robot(site, options);
   Pace pace;
   robot.begin_record();
-  while (!robot.mission().finished()) {
+  while (!robot.mission().finished() || (options.stays_on && options.stays_on())) {
     robot.step();
     if (options.goes_on && !options.goes_on()) break;
     if (options.is_over && options.is_over(robot.scorer())) break;

@@ -38,9 +38,11 @@ struct SimulatedDriveOptions {
   bool is_placed_at_start = false;                 ///< a person says where it starts, to 2 cm and 1 degree
   /// Asked after each step what the judge of the simulated world says; true ends the drive where it is.
   std::function<bool(const Scorer&)> is_over;
-  double pictures_hz = 0.0;       ///< camera frames to keep in the record
-  bool realtime = false;          ///< simulated time runs no faster than wall time
-  std::function<bool()> goes_on;  ///< asked after each step; false ends the drive where it is
+  std::optional<double> battery_v;  ///< at rest, at the start, of a robot that has a dock
+  double pictures_hz = 0.0;         ///< camera frames to keep in the record
+  bool realtime = false;            ///< simulated time runs no faster than wall time
+  std::function<bool()> goes_on;    ///< asked after each step; false ends the drive where it is
+  std::function<bool()> stays_on;   ///< asked when the last goal is done; true: the drive is not over yet
   /// Called after each step of the navigator with the wall time that it took.
   std::function<void(std::chrono::nanoseconds)> on_step;
   std::function<void(double)> progress;              ///< called repeatedly with the completed share, 0..1

@@ -37,6 +37,11 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
     options.scanner = SimulatedScannerOptions{.mount = site.robot.scanner->mount};
   options.discs = replay.discs;
   options.people = replay.people;
+  if (site.charging) {
+    options.battery.emplace();
+    options.battery->map_from_dock = site.charging->map_from_dock;
+    if (replay.battery_v) options.battery->start_v = *replay.battery_v;
+  }
   options.others = replay.others;
   if (site.robot.scanner) brake_as_declared(options, site.robot.scanner->protective_deceleration_mps2);
   return options;

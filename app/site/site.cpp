@@ -210,6 +210,25 @@ void check_speed_limits(const Site& site) {
   if (slow) throw InputError(site.folder / places_file_name, 0, slow->found, slow->wanted);
 }
 
+ChargingSettings read_charging(StrictYaml yaml, const Site& site) {
+  const double slowest_mps = site.robot.dead_band_mps.value_or(0.0);
+  const ChargingSettings charging = read_charging_settings(yaml, site.places);
+  if (charging.approach_mps < slowest_mps)
+    yaml.refuse("approach_mps", fmt::format("{}", charging.approach_mps),
+                fmt::format("at least the robot's dead_band_mps, {}", slowest_mps));
+  return charging;
+}
+
+void check_actions(const FleetSettings& fleet, const Site& site) {
+  const auto charges = [](const ActionHook& hook) {
+    return hook.type == "startCharging" || hook.type == "stopCharging";
+  };
+  const auto hook = std::ranges::find_if(fleet.actions, charges);
+  if (site.charging && hook != fleet.actions.end())
+    throw InputError(site.folder / "site.yaml", 0, "a program for " + hook->type + " beside charging:",
+                     "one of them: with charging: the robot carries that action out itself");
+}
+
 }  // namespace
 
 Robot load_robot(const std::filesystem::path& file) {
@@ -281,7 +300,9 @@ Site load_site(const std::filesystem::path& folder) {
                   "scanner: in its robot.yaml too");
   }
   if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
-  if (yaml.has("fleet")) (void)read_fleet_settings(yaml.mapping("fleet"), folder);  // kept by who asks for it
+  if (yaml.has("charging")) site.charging = read_charging(yaml.mapping("charging"), site);
+  if (yaml.has("fleet"))  // kept by who asks for it
+    check_actions(read_fleet_settings(yaml.mapping("fleet"), folder), site);
   yaml.finish();
   return site;
 }

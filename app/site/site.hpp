@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/site/charging_settings.hpp"
 #include "app/site/goal.hpp"
 #include "drivers/base/base_state.hpp"
 #include "maps/camera_model.hpp"
@@ -107,6 +108,7 @@ struct Site {
   CameraSettings camera_settings;
   std::string scanner;                 ///< where the robot's scanner is; empty when the site names none
   std::optional<BaseConnection> base;  ///< nothing when the site is for simulation only
+  std::optional<ChargingSettings> charging;
 };
 
 /// Reads `folder`/site.yaml, all files that it names, and places.yaml beside it if there is one. Throws

@@ -12,14 +12,17 @@ export class DrivePanel {
   private readonly ask = button('Ask for the wheel', 'The driver is asked to hand over', () => this.live.ask(), { id: 'ask-wheel' });
   private readonly lanes = el('input', { type: 'checkbox', id: 'along-lanes', checked: '' });
   private readonly alongLanes = el('p', { hidden: '' }, el('label', { for: 'along-lanes', title: 'One-way lanes are driven their way only, and at their speed' }, this.lanes, ' Along the lanes'));
+  private readonly more = button('Drive there next', 'When the present drive is done, without a stop in between', () => this.live.driveNext(), { id: 'drive-more', hidden: '' });
+  private readonly charge = button('Charge', 'Drive onto the dock and charge', () => this.live.charge(), { id: 'drive-charge', hidden: '' });
   private readonly summary = el('p', { id: 'preview-words', role: 'status' });
 
   constructor(private readonly live: Live) {
     this.lanes.addEventListener('change', () => this.live.useLanes(this.lanes.checked));
     byId('drive').append(this.whyNot, el('div', { id: 'goal-list' }), this.alongLanes, this.summary, el('div', { class: 'row' },
       button('Drive', 'Drive to the goals', () => live.drive(), { id: 'drive-go', class: 'main' }),
+      this.more,
       button('Clear', 'Remove the goals', () => live.goals.set([]), { id: 'drive-clear' }),
-      button('Set robot pose', 'Set the robot\'s initial pose to the first goal', () => live.placeRobot(), { id: 'drive-place' })), this.nameField());
+      button('Set robot pose', 'Set the robot\'s initial pose to the first goal', () => live.placeRobot(), { id: 'drive-place' }), this.charge), this.nameField());
   }
 
   private nameField(): HTMLElement {
@@ -55,7 +58,7 @@ export class DrivePanel {
     if (state.field !== null) rows.push(['Scanner', fieldWords(state.field) || 'the way is clear', state.field.state !== 'free']);
     rows.push(['May move', state.stop ?? (state.base_ready ? 'yes' : 'no'), state.stop !== null]);
     rows.push(['Base', state.fault ? `${state.base}: ${state.fault}` : state.base, !state.base_ready]);
-    if (state.battery_v !== null) rows.push(['Battery', `${state.battery_v.toFixed(1)} V`]);
+    if (state.battery_v !== null) rows.push(['Battery', `${state.battery_v.toFixed(1)} V${state.charging === '' ? '' : `, ${state.charging}`}`]);
     rows.push(['Driver', state.driver === null ? 'nobody' : this.live.atWheel ? 'you' : nameOf(state.driver, state.driver_name)]);
     byId('robot').replaceChildren(el('dl', {}, ...rows.flatMap(([name, words, bad]) =>
       [el('dt', {}, name), el('dd', bad ? { class: 'error' } : {}, words.replaceAll(/ (?=mm|m\b|m\/s|°|V)/g, '\u00a0'))])));
@@ -124,6 +127,10 @@ export class DrivePanel {
     enable('live-resume', free && state!.paused);
     enable('live-clear', free && state!.fault !== null);
     enable('drive-go', free && live.preview?.points !== undefined);
+    this.more.hidden = !live.hasNext;
+    enable('drive-more', free && live.preview?.points !== undefined);
+    this.charge.hidden = !live.hello?.dock;
+    enable('drive-charge', free && state!.base_ready);
     enable('drive-clear', live.goals.list.length > 0);
     enable('drive-place', free && !state!.moving && live.goals.list[0]?.yawDeg != null);
   }

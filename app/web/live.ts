@@ -208,6 +208,17 @@ export class Live implements Guest, Listener {
     this.control.order({ type: 'go', goals: this.goals.list.map(goalJson), routes: this.alongRoutes });
   }
 
+  /** Has the user set goals for after the present drive? */
+  get hasNext(): boolean { return this.state?.moving === true && this.goals.list.length > 0 && JSON.stringify(this.goals.list) !== this.sent; }
+
+  /** The goals come behind those of the present drive. */
+  driveNext(): void {
+    this.control.order({ type: 'go', goals: this.goals.list.map(goalJson), routes: this.alongRoutes, more: true });
+    this.goals.set([]);
+  }
+
+  charge(): void { this.control.order({ type: 'charge' }); }
+
   /** Goals set meanwhile are the user's next ones, and are planned from where the robot is now. */
   private driveOver(): void {
     if (JSON.stringify(this.goals.list) === this.sent) this.goals.set([]);
@@ -320,6 +331,7 @@ export class Live implements Guest, Listener {
     const goal = state.moving && state.goals.length > 1 ? `, goal ${state.current + 1} of ${state.goals.length}` : '';
     const field = state.moving ? fieldWords(state.field) : '';
     const must = field === '' && state.stop !== null ? `must not move: ${state.stop}` : field;
-    return `${state.phase}${goal}${must === '' ? '' : `; ${must}`}`;
+    const phase = !state.moving && state.charging !== '' ? state.charging : state.phase;
+    return `${phase}${goal}${must === '' ? '' : `; ${must}`}`;
   }
 }

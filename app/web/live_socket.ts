@@ -12,13 +12,13 @@ export interface Velocity { forward_mps: number; turn_degps: number }
 export interface State {
   time_s: number; pose: Estimate | null; commanded: Velocity; measured: Velocity | null;
   phase: string; moving: boolean; paused: boolean; goals: number[][]; current: number;
-  stop: string | null; field: { state: 'free' | 'slowed' | 'stopped'; why: string | null } | null; base: string; base_ready: boolean; fault: string | null; battery_v: number | null;
+  stop: string | null; field: { state: 'free' | 'slowed' | 'stopped'; why: string | null } | null; base: string; base_ready: boolean; fault: string | null; battery_v: number | null; charging: string;
   markers: number[]; confidence: number; seen_s: number | null; distrusted: number[];
   error_m: number | null; events: { number: number; time_s: number; words: string }[];
   driver: number | null; driver_name: string; viewers: number;
 }
 
-export interface Hello { client: number; role: 'view' | 'edit' | 'drive'; robot: boolean; session: number; survey: boolean; lease_s: number }
+export interface Hello { client: number; role: 'view' | 'edit' | 'drive'; robot: boolean; session: number; survey: boolean; dock: string; lease_s: number }
 
 export interface Preview {
   points?: [number, number][]; length_m?: number; time_s?: number; turns?: number;

@@ -47,6 +47,11 @@ void SimulatedBase::take_over_by_remote(bool taken) {
   command_.reset();
 }
 
+void SimulatedBase::set_battery_v(double battery_v) {
+  options_.battery_v = battery_v;
+  periphery_.set_battery_v(battery_v);
+}
+
 bool SimulatedBase::is_told_to_move() const {
   return command_ && (command_->velocity.forward_mps != 0.0 || command_->velocity.turn_radps != 0.0);
 }

@@ -49,6 +49,8 @@ class SimulatedBase final : public SimulatedFirmware {
   void take_over_by_remote(bool taken) override;
   void set_fault_bits(std::uint16_t bits) override;
   [[nodiscard]] bool is_told_to_move() const override;
+  /// What its sensor at the battery measures from now on.
+  void set_battery_v(double battery_v);
 
  private:
   void handle(const CanFrame& frame, Stamp now);

@@ -14,6 +14,8 @@ class SimulatedPeriphery {
  public:
   SimulatedPeriphery(CanBus& bus, double battery_v) : bus_(bus), battery_v_(battery_v) {}
 
+  void set_battery_v(double battery_v) { battery_v_ = battery_v; }
+
   /// Handles light commands and version requests; ignores other frames.
   void handle(const CanFrame& frame);
 

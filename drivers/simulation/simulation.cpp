@@ -79,6 +79,7 @@ struct Simulation::World {
     }
     if (options.people.count > 0)
       people.emplace(map, options.people, options.start, seed_for(chosen.seed, people_stream));
+    if (options.battery) battery.emplace(*options.battery);
     for (const MovingDisc& disc : options.discs) trajectories.emplace_back(disc);
     move_discs();
   }
@@ -91,6 +92,10 @@ struct Simulation::World {
     faulty_bus.advance(now);
     faulty_camera.advance(now);
     if (faulty_scanner) faulty_scanner->advance(now);
+    if (battery) {
+      battery->step(options.physics_step, base.is_told_to_move(), motion.true_map_from_base());
+      base.set_battery_v(battery->voltage_v());
+    }
     base.step(now);
     camera.observe(now, motion.true_map_from_base());
     if (now >= next_discs) move_discs();
@@ -157,6 +162,7 @@ struct Simulation::World {
   std::optional<FaultyScanner> faulty_scanner;
   std::vector<FollowedTrajectory> trajectories;
   std::optional<Walkers> people;
+  std::optional<SimulatedBattery> battery;
   std::vector<DiscState> discs;
   Stamp next_discs;
   bool was_blocked = false;

@@ -14,6 +14,7 @@
 #include "drivers/simulation/moving_disc.hpp"
 #include "drivers/simulation/scoring.hpp"
 #include "drivers/simulation/simulated_base.hpp"
+#include "drivers/simulation/simulated_battery.hpp"
 #include "drivers/simulation/simulated_camera_options.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
 #include "drivers/simulation/simulated_scanner.hpp"
@@ -37,7 +38,8 @@ struct SimulationOptions {
   Duration scoring_period = std::chrono::milliseconds(20);  ///< between records of the true pose
   std::uint64_t seed = 1;
   std::vector<Fault> faults;
-  std::shared_ptr<SimulatedDisk> disk;  ///< disk of the recorders, if there are any
+  std::shared_ptr<SimulatedDisk> disk;             ///< disk of the recorders, if there are any
+  std::optional<SimulatedBatteryOptions> battery;  ///< without them its voltage stays as it is
   /// Of the robot's scanner; without them it has none.
   std::optional<SimulatedScannerOptions> scanner;
   PeopleOptions people;           ///< besides the discs; they walk about on the true map

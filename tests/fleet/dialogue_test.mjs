@@ -149,6 +149,33 @@ for (const version of ['2.0.0', '2.1.0']) {
       assert.equal(witness.all('factsheet').at(-1).physicalParameters.speedMax, 0.6);
     });
 
+    test('it drives onto its dock, and says truly whether it charges', async () => {
+      const { x, y } = witness.state().agvPosition;
+      assert.equal(witness.state().batteryState.charging, false);
+      assign(orderOver('charge', 0, [[x, y], [1.7, 5.6]], { actions: { n1: [action('c1', 'startCharging')] } }));
+      await wait('it is on its way', () => statusOf('c1') === 'RUNNING');
+      const other = instant(action('c2', 'startCharging'));
+      await wait('nothing else may bring it there meanwhile', () => statusOf('c2') === 'FAILED');
+      if (other) await wait('the master knows', () => other.error?.errorType === 'instantActionError');
+      await wait('it charges', () => statusOf('c1') === 'FINISHED' && witness.state().batteryState.charging);
+      const { agvPosition, operatingMode } = witness.state();
+      assert.ok(Math.hypot(agvPosition.x - 1.0, agvPosition.y - 5.6) < 0.03 && operatingMode === 'AUTOMATIC', JSON.stringify(agvPosition));
+      instant(action('c3', 'stopCharging'));
+      await wait('it has stopped', () => statusOf('c3') === 'FINISHED' && !witness.state().batteryState.charging);
+      assign(orderOver('leave', 0, [[1.0, 5.6], [1.7, 5.6]], { actions: {} }));
+      await wait('it drives off', () => witness.state().orderId === 'leave' && !witness.state().nodeStates.length);
+    });
+
+    test('a cancelled order does not go on to the dock', async () => {
+      assign(orderOver('again', 0, [[1.7, 5.6]], { actions: { n0: [action('c4', 'startCharging')] } }));
+      await wait('it drives to the dock', () => statusOf('c4') === 'RUNNING' && witness.state().driving);
+      instant(action('cancel-3', 'cancelOrder'));
+      await wait('it stands, and it is cancelled', () => statusOf('cancel-3') === 'FINISHED' && statusOf('c4') === 'FAILED' && !witness.state().driving);
+      const { x } = witness.state().agvPosition;
+      await new Promise((done) => setTimeout(done, 1500));
+      assert.ok(Math.abs(witness.state().agvPosition.x - x) < 0.02);
+    });
+
     test('states come no faster than ten a second, with headerIds in turn', () => {
       const states = witness.messages.filter((one) => one.topic === 'state');
       const ids = states.map((one) => one.message.headerId);

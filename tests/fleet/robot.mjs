@@ -49,7 +49,9 @@ function fleetSite(serial, version, identity) {
   const site = join(folder, 'lab');
   cpSync(join(source, 'sites/lab'), site, { recursive: true });
   const file = join(site, 'site.yaml');
-  writeFileSync(file, `${readFileSync(file, 'utf8')}fleet: {broker: "mqtts://nowhere.invalid", interface: uagv, manufacturer: ACME, serial: ${serial}, version: ${version}, ${identity}
+  writeFileSync(join(site, 'places.yaml'), `format: lodestar-places\nversion: 1\nplaces:
+  - {name: dock, x_m: 1.0, y_m: 5.6, yaw_deg: 180}\n`);
+  writeFileSync(file, `${readFileSync(file, 'utf8')}charging: {place: dock, approach_m: 0.3, full_v: 29}\nfleet: {broker: "mqtts://nowhere.invalid", interface: uagv, manufacturer: ACME, serial: ${serial}, version: ${version}, ${identity}
   actions: [{type: pick, run: [/bin/sh, -c, "read action; echo box 7"], timeout_s: 60}]}\n`);
   return { folder, site };
 }

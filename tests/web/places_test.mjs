@@ -1,10 +1,10 @@
 // Zones, lanes and places: drawn on the map, saved, and obeyed by the robot that runs.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { appendFileSync, existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { axeSource, labCopy, launch, open, serve, serveRobot, serveRobotAt, serveSite } from './browser.mjs';
-import { isIdle, leave, planned, setGoals, until } from './robot_page.mjs';
+import { isIdle, isMoving, leave, planned, setGoals, until } from './robot_page.mjs';
 
 let browser;
 before(async () => { browser = await launch(); });
@@ -66,6 +66,36 @@ async function complaintsOfAxe(page) {
 
 /** Below the cupboard of the left room: the way that the robot takes without it. */
 const across = [[3, 4.9], [3.6, 4.9], [3.6, 5.9], [3, 5.9]];
+
+describe('the dock', () => {
+  test('is driven to by a button, and the battery says that it charges; goals come behind those of a drive', async () => {
+    const place = labCopy();
+    writeFileSync(join(place.site, 'places.yaml'), 'format: lodestar-places\nversion: 1\nplaces:\n  - {name: dock, x_m: 1, y_m: 5.6, yaw_deg: 180}\n');
+    appendFileSync(join(place.site, 'site.yaml'), 'charging: {place: dock, full_v: 29}\n');
+    const robot = await serveRobotAt(place, '--realtime');
+    const page = await open(browser, robot.url);
+    await until(page, isIdle);
+    await page.locator('#tool-live').click();
+    await setGoals(page, [2.4, 5.2]);
+    await planned(page);
+    assert.equal(await page.locator('#drive-more').isVisible(), false);
+    await page.getByRole('button', { name: 'Drive', exact: true }).click();
+    await until(page, isMoving);
+    await setGoals(page, [1.6, 5.2]);
+    await planned(page);
+    await page.locator('#drive-more').click();
+    await until(page, () => window.lodestar.console.live.state.goals.length === 2);
+    await until(page, () => { const s = window.lodestar.console.live.state; return !s.moving && Math.hypot(s.pose.x_m - 1.6, s.pose.y_m - 5.2) < 0.02; });
+    await page.locator('#drive-charge').click();
+    await until(page, () => window.lodestar.console.live.state.charging === 'charging');
+    assert.match(await page.locator('#robot').textContent(), /Battery2[67]\.\d.V, charging/);
+    assert.deepEqual(await complaintsOfAxe(page), []);
+    if (pictures) await page.screenshot({ path: join(pictures, 'charging.png') });
+    await page.locator('#live-stop').click();
+    await leave(page);
+    await robot.stop();
+  });
+});
 
 describe('a keep-out', () => {
   test('and a one-way lane are drawn, saved and read again, and the running robot keeps out', async () => {

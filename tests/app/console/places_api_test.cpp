@@ -116,6 +116,22 @@ TEST_F(PlacesApiTest, checks_a_draft_and_leaves_the_site_as_it_is) {
   EXPECT_FALSE(fs::exists(site_ / places_file_name));
 }
 
+TEST_F(PlacesApiTest, refuses_to_lose_the_place_where_the_robot_charges) {
+  ASSERT_EQ(put(drawn(), get().etag).status, 200);
+  std::ofstream(site_ / "site.yaml", std::ios::app) << "charging: {place: desk, full_v: 29}\n";
+  console_.emplace(site_, folder_ / "runs");
+
+  json without = drawn();
+  without["places"][0].erase("yaw_deg");
+  for (const HttpResponse& response : {put(without, get().etag), check(without)}) {
+    EXPECT_EQ(response.status, 422);
+    EXPECT_THAT(response.body, HasSubstr("found no place 'desk' with a heading"));
+  }
+  json moved = drawn();
+  moved["places"][0]["x_m"] = 2.4;
+  EXPECT_EQ(put(moved, get().etag).status, 200);
+}
+
 TEST_F(PlacesApiTest, keeps_earlier_states_beside_those_of_the_markers) {
   const json before = json::parse(get().body);
   ASSERT_EQ(put(drawn(), get().etag).status, 200);

@@ -73,6 +73,38 @@ void expect_gentle(const Story& story, const Site& site, std::size_t from) {
   }
 }
 
+TEST(OperatorSession, appends_goals_to_the_drive_and_begins_one_where_there_is_none) {
+  const Site site = lab();
+  const Vec2 second_m{2.2, 5.2};
+  bool told = false;
+  const Story story = attended(site, {{.position_m = {2.0, 5.6}}}, [&](LiveLink& link, const Story& so_far) {
+    link.hold_until(monotonic_now() + long_time);
+    if (!told && drives_fast(so_far)) {
+      Order order = go_to(second_m);
+      std::get<GoOrder>(order.what).is_more = true;
+      told = link.give(order);
+    }
+    return !told || !is_idle(so_far);
+  });
+  ASSERT_EQ(story.kept.size(), 1U);
+  ASSERT_EQ(story.kept.front().goals.size(), 2U);
+  EXPECT_TRUE(story.kept.front().arrived()) << story.kept.front().goals.back().failure;
+  EXPECT_EQ(story.kept.front().goals.back().goal.position_m, second_m);
+  EXPECT_TRUE(story.said("somebody: then go to (2.20, 5.20)"));
+
+  told = false;
+  const Story alone = attended(site, {}, [&](LiveLink& link, const Story& so_far) {
+    link.hold_until(monotonic_now() + long_time);
+    if (!told && !so_far.states.empty() && so_far.states.back().base == BaseState::ready) {
+      Order order = go_to({1.8, 5.6});
+      std::get<GoOrder>(order.what).is_more = true;
+      told = link.give(order);
+    }
+    return so_far.kept.empty();
+  });
+  EXPECT_TRUE(alone.kept.front().arrived());
+}
+
 TEST(OperatorSession, sends_the_robot_where_it_is_told_and_keeps_each_drive) {
   const Site site = lab();
   bool told = false;

@@ -166,5 +166,14 @@ TEST(Flow, a_line_through_a_wall_is_a_failure_with_a_reason) {
   EXPECT_EQ(flow.failure, "the straight line to the goal is blocked");
 }
 
+TEST(Flow, a_goal_on_a_line_fails_with_the_one_that_the_line_begins_at) {
+  const Goal behind_wall{.position_m = {-50.0, 0.0}};
+  Goal on_line = ahead(1.0, false);
+  on_line.on_line = true;
+  const Flow flow = drive({behind_wall, on_line, ahead(0.5, false)});
+  EXPECT_EQ(flow.events,
+            (std::vector{MissionEvent::goal_failed, MissionEvent::goal_failed, MissionEvent::goal_arrived}));
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -47,6 +47,39 @@ TEST(Site, names_its_cameras_as_it_likes_and_warns_of_keys_of_other_programs) {
   EXPECT_THROW((void)load_site(site), InputError);
 }
 
+TEST(Site, charges_at_a_place_with_a_heading_at_a_speed_that_its_motors_can_drive) {
+  const TemporaryFolder folder;
+  const fs::path site = folder / "site";
+  fs::copy(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", site, fs::copy_options::recursive);
+  std::ofstream(site / places_file_name)
+      << "format: lodestar-places\nversion: 1\nplaces:\n"
+         "  - {name: dock, x_m: 1, y_m: 5.6, yaw_deg: 180}\n  - {name: desk, x_m: 2, y_m: 5.6}\n";
+  std::ostringstream usual;
+  usual << std::ifstream(site / "site.yaml").rdbuf();
+  const auto read = [&](const std::string& charging) {
+    std::ofstream(site / "site.yaml") << usual.str() << "charging: " << charging << "\n";
+    return load_site(site).charging;
+  };
+  const std::optional<ChargingSettings> charging =
+      read("{place: dock, full_v: 29, low_v: 24, approach_m: 0.4}");
+  ASSERT_TRUE(charging);
+  EXPECT_NEAR(approach_pose(*charging).position_m.x(), 1.4, 1e-12);
+  EXPECT_EQ(charging->low_v, 24.0);
+  for (const auto& [wrong, words] : std::vector<std::pair<std::string, std::string>>{
+           {"{place: desk, full_v: 29}", "site.yaml:15: found 'desk'"},
+           {"{place: nowhere, full_v: 29}", "found 'nowhere'"},
+           {"{place: dock}", "found no key 'full_v' in charging"},
+           {"{place: dock, full_v: 29, low_v: 29.5}", "found 29.5 V, wanted less than full_v"},
+           {"{place: dock, full_v: 29, speed: 1}", "speed"}}) {
+    try {
+      (void)read(wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(words));
+    }
+  }
+}
+
 TEST(Site, has_the_places_beside_it_and_no_zone_that_its_motors_cannot_obey) {
   const TemporaryFolder folder;
   fs::copy(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", folder / "site", fs::copy_options::recursive);
