@@ -119,8 +119,8 @@ std::vector<Vec2> around_disc(double radius_m) {
   constexpr double step_rad = 2.0 * std::numbers::pi / corners;
   std::vector<Vec2> outline_m;
   for (int i = 0; i < corners; ++i)
-    outline_m.push_back(radius_m / std::cos(step_rad / 2.0) *
-                        Vec2(std::cos(i * step_rad), std::sin(i * step_rad)));
+    outline_m.emplace_back(radius_m / std::cos(step_rad / 2.0) *
+                           Vec2(std::cos(i * step_rad), std::sin(i * step_rad)));
   return outline_m;
 }
 
