@@ -5,18 +5,42 @@
 #include "app/commands/console_service.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/program_data.hpp"
+#include "app/console/new_site_api.hpp"
 #include "app/site/site_folder.hpp"
 
 namespace lodestar {
 namespace {
 
-ExitCode serve(ConsoleServiceOptions options) {
+struct ServeArguments {
+  ConsoleServiceOptions console;
+  bool is_new = false;
+};
+
+/// Serves the page that makes the site, on the port where its console will be; false when it was not made.
+bool serve_new_site(const ServeArguments& arguments, AccessRules& access) {
+  constexpr std::size_t most_plan_bytes = 64U << 20U;
+  constexpr std::chrono::milliseconds turn(50);
+  constexpr int turns_for_the_answer = 20;
+  NewSiteApi api(arguments.console.site, program_data("sites/lab"));
+  HttpServer server(
+      {.access = access, .max_body_bytes = most_plan_bytes, .uses_files = NewSiteApi::uses_files},
+      [&api](const HttpRequest& request) { return api.answer(request); });
+  access.port = server.port();
+  tell_address(access, server.port());
+  while (!api.is_made() && !Interruption::asked()) server.run_for(turn);
+  for (int i = 0; i < turns_for_the_answer && api.is_made(); ++i) server.run_for(turn);
+  return api.is_made();
+}
+
+ExitCode serve(const ServeArguments& arguments) {
+  ConsoleServiceOptions options = arguments.console;
   check_tokens(options.access);
+  const Interruption interruption;
+  if (arguments.is_new && !serve_new_site(arguments, options.access)) return done;
   options.site = site_folder(options.site.string());
   if (options.runs.empty()) options.runs = runs_folder();
   ConsoleService service(options, nullptr);
-  const Interruption interruption;
-  tell_address(options.access, service.port());
+  if (!arguments.is_new) tell_address(options.access, service.port());
   while (!Interruption::asked()) service.serve_a_turn();
   return done;
 }
@@ -24,19 +48,22 @@ ExitCode serve(ConsoleServiceOptions options) {
 }  // namespace
 
 std::vector<Command> serve_commands(CLI::App& lodestar) {
-  const auto options = std::make_shared<ConsoleServiceOptions>();
+  const auto arguments = std::make_shared<ServeArguments>();
+  ConsoleServiceOptions& console = arguments->console;
   CLI::App* command = lodestar.add_subcommand("serve",
                                               "Serve the console in a browser: edit markers on the map, see "
                                               "their coverage, print them, play back runs");
   command
-      ->add_option("site", options->site,
+      ->add_option("site", console.site,
                    "Site folder, or the name of a site in /etc/lodestar or /srv/lodestar")
       ->required();
+  command->add_flag("--new", arguments->is_new,
+                    "The folder is not there yet: the page makes it, from a plan or from nothing");
   command->add_option(
-      "--runs", options->runs,
+      "--runs", console.runs,
       "Folder with run folders; default: runs, or where replay writes if that may not be written");
-  add_console_options(*command, options->access);
-  return {{command, [options] { return serve(*options); }}};
+  add_console_options(*command, console.access);
+  return {{command, [arguments] { return serve(*arguments); }}};
 }
 
 }  // namespace lodestar

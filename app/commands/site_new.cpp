@@ -27,6 +27,8 @@ struct SiteNewArguments {
   double ceiling_m = 2.6;
   std::string robot = "agilex";
   std::string robot_file;
+  std::optional<double> radius_m;
+  std::optional<double> camera_height_m;
   std::string camera = "wide";
 };
 
@@ -66,6 +68,8 @@ NewSite chosen_site(const SiteNewArguments& arguments) {
   const fs::path lab = program_data("sites/lab");
   site.robot_file = arguments.robot_file.empty() ? lab / "robot.yaml" : fs::path(arguments.robot_file);
   site.base_protocol = arguments.robot;
+  site.radius_m = arguments.radius_m;
+  site.camera_height_m = arguments.camera_height_m;
   site.camera_profile = arguments.camera == "paper" ? "paper" : "wide";
   site.camera_file = arguments.camera == "wide"    ? lab / "camera.yaml"
                      : arguments.camera == "paper" ? lab / "camera_paper.yaml"
@@ -161,6 +165,13 @@ std::vector<Command> site_commands(CLI::App& lodestar) {
       ->check(CLI::IsMember({"agilex", "odrive"}))
       ->capture_default_str();
   command->add_option("--robot-file", arguments->robot_file, "robot.yaml to begin with; default: the lab's");
+  command
+      ->add_option("--radius", arguments->radius_m, "The robot's radius in metres; default: as in robot.yaml")
+      ->check(CLI::Range(0.01, 5.0));
+  command
+      ->add_option("--camera-height", arguments->camera_height_m,
+                   "Of its camera above the floor in metres; default: as in robot.yaml")
+      ->check(CLI::Range(0.0, 10.0));
   command
       ->add_option("--camera", arguments->camera, "Camera to begin with: wide, paper (the lab's), or a file")
       ->capture_default_str();

@@ -6,11 +6,11 @@
 
 #include "app/common/json_parse.hpp"
 #include "app/common/whole_number.hpp"
+#include "app/console/page_file.hpp"
 #include "app/console/registry_edit.hpp"
 #include "app/console/registry_json.hpp"
 #include "app/placement/formats.hpp"
 #include "app/placement/sheet.hpp"
-#include "app/web/page.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
@@ -71,16 +71,6 @@ ordered_json heights_json(const std::optional<HeightBands>& heights) {
 HttpResponse unless_known(const HttpResponse& response, const HttpRequest& request) {
   if (response.etag.empty() || !has_etag(request.if_none_match, response.etag)) return response;
   return {.status = 304, .etag = response.etag};
-}
-
-std::optional<HttpResponse> page_file(const std::string& target) {
-  for (const PageFile& file : page_files()) {
-    if (file.target != target) continue;
-    HttpResponse response{.content_type = std::string(file.content_type), .body = std::string(file.text)};
-    response.etag = etag_of(response.body);
-    return response;
-  }
-  return std::nullopt;
 }
 
 HttpResponse exported(const json& request) {

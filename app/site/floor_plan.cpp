@@ -125,24 +125,35 @@ MapFromPlan map_from_picture(const PlanPicture& picture, const PlanOptions& opti
   return result;
 }
 
-MapFromPlan map_from_plan(const fs::path& file, const PlanOptions& options) {
+PlanSheet read_plan(const fs::path& file, const PlanOptions& options) {
   if (!is_file(file)) throw InputError(file, 0, "no file", "a plan");
   const std::string ending = ending_of(file);
-  if (ending == ".dxf") return map_from_picture(read_dxf_plan(file, options), options);
+  if (ending == ".dxf") {
+    PlanPicture drawn = read_dxf_plan(file, options);
+    return {std::move(drawn.walls), drawn.metres_per_px};
+  }
   const bool is_picture =
       ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".pgm" || ending == ".bmp";
   if (!is_picture && ending != ".pdf")
     throw InputError(file, 0, "a name that ends in '" + ending + "'",
                      "a plan: .png, .jpg, .pgm, .bmp, .pdf, .dxf, or a map's .yaml");
-  const cv::Mat gray = is_picture ? read_picture(file) : read_pdf_page(file);
-  if (!options.metres_per_unit)
-    throw InputError(file, 0,
-                     fmt::format("a picture of {} x {} pixels without a scale", gray.cols, gray.rows),
-                     "--points X1,Y1,X2,Y2 (pixels, from the upper left corner) with --distance M, or "
-                     "--resolution metres for a pixel");
-  PlanPicture picture{.walls = {}, .metres_per_px = *options.metres_per_unit};
-  cv::compare(gray, options.darkest_free, picture.walls, cv::CMP_GE);
+  return {is_picture ? read_picture(file) : read_pdf_page(file), options.metres_per_unit};
+}
+
+MapFromPlan map_from_sheet(const PlanSheet& sheet, const PlanOptions& options) {
+  PlanPicture picture{.walls = {}, .metres_per_px = sheet.metres_per_px.value()};
+  cv::compare(sheet.gray, options.darkest_free, picture.walls, cv::CMP_GE);
   return map_from_picture(picture, options);
+}
+
+MapFromPlan map_from_plan(const fs::path& file, const PlanOptions& options) {
+  const PlanSheet sheet = read_plan(file, options);
+  if (!sheet.metres_per_px)
+    throw InputError(
+        file, 0, fmt::format("a picture of {} x {} pixels without a scale", sheet.gray.cols, sheet.gray.rows),
+        "--points X1,Y1,X2,Y2 (pixels, from the upper left corner) with --distance M, or "
+        "--resolution metres for a pixel");
+  return map_from_sheet(sheet, options);
 }
 
 OccupancyMap empty_hall(double width_m, double height_m, double cell_m) {

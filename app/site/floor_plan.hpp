@@ -30,11 +30,23 @@ struct PlanPicture {
   double metres_per_px = 0.0;
 };
 
+/// A plan as it was read: gray, top row first.
+struct PlanSheet {
+  cv::Mat gray;
+  std::optional<double> metres_per_px;  ///< of a drawing, or as given
+};
+
 /// Reads a plan by the ending of its name: .png .jpg .jpeg .pgm .bmp (a picture), .pdf (its first page, with
-/// 150 pixels per inch), .dxf (its lines, without frozen layers). A wall thinner than a cell fills the cells
-/// that it touches. What lies outside the outer walls becomes unknown, and the map ends at those walls; its
-/// frame begins at its lower left corner. Throws InputError, also where the scale is unknown.
+/// 150 pixels per inch), .dxf (its lines, without frozen layers). Throws InputError.
+PlanSheet read_plan(const std::filesystem::path& file, const PlanOptions& options);
+
+/// Of read_plan()'s kinds. A wall thinner than a cell fills the cells that it touches. What lies outside the
+/// outer walls becomes unknown, and the map ends at those walls; its frame begins at its lower left corner.
+/// Throws InputError, also where the scale is unknown.
 MapFromPlan map_from_plan(const std::filesystem::path& file, const PlanOptions& options);
+
+/// The same from a plan that was read before, and has a scale.
+MapFromPlan map_from_sheet(const PlanSheet& sheet, const PlanOptions& options);
 
 /// The same from a picture.
 MapFromPlan map_from_picture(const PlanPicture& picture, const PlanOptions& options);

@@ -6,9 +6,11 @@
 #include <deque>
 #include <fmt/format.h>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <sys/stat.h>
 
+#include "app/site/robot_mount.hpp"
 #include "app/site/site.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/distance_field.hpp"
@@ -79,8 +81,18 @@ fs::path without_slash(const fs::path& folder) {
   return normal.has_filename() ? normal : normal.parent_path();
 }
 
+/// The rest of the file, comments included, stays as it is.
+void write_robot(const NewSite& site, const fs::path& file) {
+  std::string text = text_of(site.robot_file);
+  static const std::regex radius("^radius_m:[^#\n]*", std::regex::multiline);
+  if (site.radius_m) text = std::regex_replace(text, radius, fmt::format("radius_m: {}", *site.radius_m));
+  write_file_atomically(file, text);
+  if (site.camera_height_m)
+    write_file_atomically(file, with_camera_mount(file, {{"z_m", fmt::format("{}", *site.camera_height_m)}}));
+}
+
 void write_files(const NewSite& site, const fs::path& folder, const std::string& name) {
-  write_file_atomically(folder / "robot.yaml", text_of(site.robot_file));
+  write_robot(site, folder / "robot.yaml");
   write_file_atomically(folder / "camera.yaml", text_of(site.camera_file));
   save_map(site.map, folder / "map.yaml", "");
   save_registry(MarkerRegistry{}, folder / "markers.yaml");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "maps/occupancy_map.hpp"
@@ -14,6 +15,9 @@ struct NewSite {
   std::filesystem::path camera_file;  ///< camera.yaml to begin with
   std::string camera_profile;         ///< its name in site.yaml
   std::string base_protocol;          ///< "agilex" or "odrive"
+  // Of the robot; nothing: as the file has them.
+  std::optional<double> radius_m;
+  std::optional<double> camera_height_m;  ///< above the floor
 };
 
 /// Where a new site's usual drive begins and ends: the place with the most room, and of those that the robot

@@ -56,7 +56,26 @@ async function request(method: string, target: string, body?: unknown, headers: 
 const json = async <T>(response: Promise<Response>): Promise<T> => await (await response).json() as T;
 
 export const openSession = (token: string): Promise<Response> => request('POST', '/api/session', { token });
-export const getSite = (): Promise<Site> => json(request('GET', '/api/site'));
+export const getSite = (): Promise<Site | NoSite> => json(request('GET', '/api/site'));
+
+/** Of a site that is yet to be made. */
+export interface NoSite { new: true; folder: string }
+export interface Plan { name: string; width_px: number; height_px: number; metres_per_px: number | null; shown_px: number; png: string }
+/** Cells in base64, bottom row first: 0 free, 100 occupied, 255 unknown. */
+export interface NewMap { columns: number; rows: number; resolution_m: number; x_m: number; y_m: number; cells: string; warnings: string[] }
+
+export const readPlan = async (name: string, bytes: string, metresPerUnit: number | null): Promise<Plan> =>
+  ({ ...await json<Omit<Plan, 'name'>>(request('PUT', '/api/new/plan', { name, bytes, metres_per_unit: metresPerUnit })), name });
+export const makeMap = async (wanted: Record<string, unknown>): Promise<NewMap> => {
+  const made = await json<{ map: Omit<NewMap, 'warnings'>; warnings: string[] }>(request('PUT', '/api/new/map', wanted));
+  return { ...made.map, warnings: made.warnings };
+};
+export const makeSite = (site: Record<string, unknown>): Promise<{ markers: number; uncovered_m2: number; why: string }> =>
+  json(request('PUT', '/api/new/site', site));
+/** While the server changes over nobody listens. */
+export const isSiteThere = async (): Promise<boolean> =>
+  request('GET', '/api/site').then(async (response) => !('new' in await response.json()), () => false);
+
 export const getMap = (): Promise<MapInfo> => json(request('GET', '/api/map'));
 export const getCells = async (): Promise<Int8Array> =>
   new Int8Array(await (await request('GET', '/api/map/cells')).arrayBuffer());

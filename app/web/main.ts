@@ -5,6 +5,7 @@ import { Console } from './console.js';
 import { Floor } from './coverage.js';
 import { centerOf } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
+import { NewSitePage } from './new_site.js';
 import { say } from './words.js';
 
 /** A link with #t=TOKEN becomes a session; the token leaves the address bar. */
@@ -25,12 +26,18 @@ export interface Handle {
 async function start(): Promise<void> {
   if (matchMedia('(prefers-color-scheme: dark)').matches) document.documentElement.dataset['theme'] = 'dark';
   await useTokenOfAddress();
-  const [site, info, cells, tagged] = await Promise.all([api.getSite(), api.getMap(), api.getCells(), api.getMarkers()]);
+  const site = await api.getSite();
+  if ('new' in site) {
+    (window as unknown as { lodestar: { newSite: NewSitePage } }).lodestar = { newSite: new NewSitePage(site.folder) };
+    return;
+  }
+  const [info, cells, tagged] = await Promise.all([api.getMap(), api.getCells(), api.getMarkers()]);
   const made = new Console(site, new Floor(info, cells, site.coverage.room_m, await api.getHeights(info)), tagged);
   const marker = (id: number) => [...made.editor.shown()].find((m) => m.id === id);
   const handle: Handle = { console: made, marker, screenOf: (id) => made.view.toScreen(centerOf(marker(id)!)) };
   (window as unknown as { lodestar: Handle }).lodestar = handle;
-  say('Ready');
+  say(sessionStorage.getItem('lodestar-made') ?? 'Ready');
+  sessionStorage.removeItem('lodestar-made');
 }
 
 /** Instead of an empty page. */

@@ -17,14 +17,14 @@ TEST(SimulatedBattery, is_drained_by_what_it_feeds_and_sags_under_load) {
   SimulatedBattery battery({.start_v = 26.0});
   const Pose2 away{{3.0, 0.0}, 0.0};
   EXPECT_NEAR(after_min(battery, 60, false, away), 26.0 - 0.68 - 0.08, 1e-6);
-  EXPECT_NEAR(after_min(battery, 60, true, away), 26.0 - 7 * 0.68 - 6 * 0.08, 1e-6);
+  EXPECT_NEAR(after_min(battery, 30, true, away), 26.0 - 4 * 0.68 - 6 * 0.08, 1e-6);
 }
 
 TEST(SimulatedBattery, is_charged_where_the_contacts_touch_up_to_the_end_voltage) {
   SimulatedBattery battery({.start_v = 26.0});
   EXPECT_NEAR(after_min(battery, 1, false, {{0.031, 0.0}, 0.0}), 25.91, 0.01);
   EXPECT_NEAR(after_min(battery, 1, false, {{0.0, 0.0}, 0.1}), 25.90, 0.01);
-  EXPECT_NEAR(after_min(battery, 1, false, {{0.02, 0.0}, 0.05}), 26.71, 0.02);
+  EXPECT_NEAR(after_min(battery, 1, false, {{0.02, 0.0}, 0.05}), 26.80, 0.02);
   EXPECT_NEAR(after_min(battery, 120, false, {}), 29.2, 0.1);
 }
 
