@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "app/commands/people_options.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/commands/recorded_run.hpp"
+#include "app/commands/repeated_replay.hpp"
 #include "app/commands/ros2_service.hpp"
 #include "app/commands/run_summary_json.hpp"
 #include "app/common/interruption.hpp"
@@ -26,15 +26,11 @@
 #include "app/common/progress.hpp"
 #include "app/live/operator_session.hpp"
 #include "app/navigation/navigation_setup.hpp"
-#include "app/report/run_folder.hpp"
 #include "app/simulate/fault_files.hpp"
-#include "app/simulate/run_table.hpp"
 #include "app/simulate/simulated_drive.hpp"
-#include "app/simulate/simulated_drives.hpp"
 #include "app/site/arguments.hpp"
 #include "app/site/route_graph.hpp"
 #include "app/site/site_folder.hpp"
-#include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -124,45 +120,6 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
   return command + words_of(arguments.people) + words_of(arguments.disturbances);
 }
 
-bool succeeded(const RunSummary& run) {
-  const bool hit_people = run.people && run.people->moving > 0;
-  return run.arrivals == run.goals && run.contacts == 0 && !hit_people;
-}
-
-/// CPU time used so far, of all cores.
-double cpu_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
-ExitCode replay_many(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
-  if (!arguments.output.empty()) make_run_folder(arguments.output);
-  const Interruption interruption;
-  options.goes_on = [] { return !Interruption::asked(); };
-  const double begun_s = cpu_seconds();
-  std::vector<RunSummary> runs;
-  {
-    Progress progress("replay", arguments.quiet);
-    runs = simulate_drives(site, options, arguments.runs, [&](int finished) {
-      progress.show(static_cast<double>(finished) / arguments.runs);
-    });
-  }
-  nlohmann::ordered_json report = nlohmann::ordered_json::array();
-  for (const RunSummary& run : runs) report.push_back(as_json(run));
-  if (arguments.json) {
-    fmt::print("{}\n", report.dump(2));
-  } else {
-    print_run_table(runs, cpu_seconds() - begun_s);
-  }
-  if (!arguments.output.empty()) {
-    write_file_atomically(fs::path(arguments.output) / "runs.json", report.dump(2) + "\n");
-  }
-  if (runs.size() < static_cast<std::size_t>(arguments.runs)) {
-    fmt::print(stderr, "lodestar: interrupted after {} of {} runs\n", runs.size(), arguments.runs);
-    return job_failed;
-  }
-  return std::ranges::all_of(runs, succeeded) ? done : job_failed;
-}
-
 fs::path output_folder(const Site& site, const ReplayArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   return runs_folder() / fmt::format("{}-{}", site.name, arguments.seed);
@@ -170,15 +127,6 @@ fs::path output_folder(const Site& site, const ReplayArguments& arguments) {
 
 DiskState disk_state(const SimulatedDisk& disk) {
   return {.is_full = [&disk] { return disk.full(); }, .delay = [&disk] { return disk.delay(); }};
-}
-
-/// Takes part in the drive; what took part before goes on.
-void attend_charging(SimulatedDriveOptions& options, Charging& charging) {
-  options.attend = [&charging, others = std::move(options.attend)](
-                       const SensorInput& heard, const MissionStep& step, Mission& mission) {
-    charging.watch(heard.now, heard.base, step, mission);
-    if (others) others(heard, step, mission);
-  };
 }
 
 ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
@@ -280,7 +228,12 @@ ExitCode replay_as_asked(const Site& site, const SimulatedDriveOptions& options,
   if (arguments.fleet.is_wanted) return replay_in_fleet(site, options, arguments.fleet);
   if (arguments.serve) return replay_served(site, options, arguments);
   if (arguments.ros2.takes_commands && arguments.goals.empty()) return replay_waiting(site, options);
-  return arguments.runs > 1 ? replay_many(site, options, arguments) : replay_once(site, options, arguments);
+  if (arguments.runs == 1) return replay_once(site, options, arguments);
+  return replay_many(site, options,
+                     {.runs = arguments.runs,
+                      .quiet = arguments.quiet,
+                      .json = arguments.json,
+                      .output = arguments.output});
 }
 
 ExitCode replay_command(const ReplayArguments& arguments) {

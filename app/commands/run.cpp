@@ -17,12 +17,12 @@
 #include "app/commands/kept_runs.hpp"
 #include "app/commands/localizing_run.hpp"
 #include "app/commands/ros2_service.hpp"
+#include "app/commands/served_run.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/log.hpp"
 #include "app/common/program_data.hpp"
 #include "app/drive/camera_setup.hpp"
 #include "app/drive/operator_input.hpp"
-#include "app/live/operator_session.hpp"
 #include "app/placement/exploration.hpp"
 #include "app/site/arguments.hpp"
 #include "app/site/base_setup.hpp"
@@ -70,61 +70,6 @@ OperatorWish wish_of(OperatorInput& input) {
   return *word == OperatorWord::resume ? OperatorWish::resume : OperatorWish::stop;
 }
 
-/// Takes part in the run; what took part before goes on.
-void attend_charging(RunOptions& options, Charging& charging) {
-  options.attend = [&charging, others = std::move(options.attend)](
-                       const SensorInput& heard, const MissionStep& step, Mission& mission) {
-    charging.watch(heard.now, heard.base, step, mission);
-    if (others) others(heard, step, mission);
-  };
-}
-
-/// The console of a driving robot, and the run folders of its drives. A survey has one log for all of them.
-class ServedRun {
- public:
-  ServedRun(const Site& site, const std::string& interface, const RunArguments& arguments,
-            RunOptions& options, const DrivenSurvey* survey)
-      : surveys_(survey != nullptr),
-        service_(console_options(site, arguments), &link_, surveys_ ? survey->live() : nullptr),
-        runs_(arguments.output.empty() ? fs::path(arguments.runs) / site.name : fs::path(arguments.output),
-              !arguments.output.empty(), site, options.camera, {.interface = interface}) {
-    if (!surveys_) options.watch = runs_.watcher();
-    options.session = &session_;
-    options.hold_on_base_fault = true;
-    options.keep = [this](RunRecord record) { keep(std::move(record)); };
-    tell_address(arguments.console.access, service_.port());
-    thread_.emplace(service_);
-  }
-
-  void keep(RunRecord record) {
-    if (record.goals.empty()) return;
-    all_arrived_ = all_arrived_ && record.arrived();
-    if (!surveys_) runs_.keep(std::move(record));
-  }
-  /// Orders to charge are carried out by it.
-  void use(Charging& charging) { session_.use(charging); }
-  /// Call at the end: all drives arrived, and their run folders are whole.
-  [[nodiscard]] bool succeeded() { return runs_.finish() && all_arrived_; }
-
- private:
-  static ConsoleServiceOptions console_options(const Site& site, const RunArguments& arguments) {
-    check_tokens(arguments.console.access);
-    ConsoleServiceOptions options = arguments.console;
-    options.site = site.folder;
-    options.runs =
-        arguments.output.empty() ? fs::path(arguments.runs) : fs::absolute(arguments.output).parent_path();
-    return options;
-  }
-
-  bool surveys_ = false;
-  LiveLink link_;
-  OperatorSession session_{link_};
-  ConsoleService service_;
-  KeptRuns runs_;
-  bool all_arrived_ = true;
-  std::optional<ConsoleThread> thread_;  // destroyed before what it serves
-};
-
 /// The run folder of this drive.
 fs::path run_folder(const RunArguments& arguments, const Site& site) {
   if (!arguments.output.empty()) return arguments.output;
@@ -139,6 +84,13 @@ struct DriveParts {
   const std::string& interface;
   Camera& camera;
 };
+
+ServedRunOptions served_options(const DriveParts& parts, const RunArguments& arguments) {
+  return {.console = arguments.console,
+          .output = arguments.output,
+          .runs = arguments.runs,
+          .interface = parts.interface};
+}
 
 /// Drives to the goals, if any, and goes on looking until it is told to stop.
 ExitCode drive_surveying(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
@@ -158,7 +110,7 @@ ExitCode drive_surveying(const DriveParts& parts, std::unique_ptr<BaseProtocol> 
   options.on_input = [&survey](const SensorInput& input) { survey.take(input); };
   bool all_arrived = true;
   if (arguments.serve) {
-    ServedRun served(parts.site, parts.interface, arguments, options, &survey);
+    ServedRun served(parts.site, served_options(parts, arguments), options, &survey);
     served.keep(run(parts.site, parts.bus, std::move(protocol), parts.camera, options));
     all_arrived = served.succeeded();
   } else {
@@ -197,7 +149,7 @@ ExitCode drive_once(const DriveParts& parts, std::unique_ptr<BaseProtocol> proto
 /// Drives with the console, until it is told to stop.
 ExitCode drive_served(const DriveParts& parts, std::unique_ptr<BaseProtocol> protocol, RunOptions options,
                       const RunArguments& arguments, Charging* of_fleet = nullptr) {
-  ServedRun served(parts.site, parts.interface, arguments, options, nullptr);
+  ServedRun served(parts.site, served_options(parts, arguments), options, nullptr);
   std::optional<Charging> charging;
   if (of_fleet != nullptr) {
     served.use(*of_fleet);

@@ -163,6 +163,13 @@ std::vector<Goal> goals_from_json(const json& goals) {
   return read;
 }
 
+std::string name_from_json(const json& message) {
+  constexpr std::size_t longest = 40;
+  const auto name = message.at("name").get<std::string>();
+  if (name.size() > longest) throw InputError("found a long name, wanted at most 40 bytes");
+  return name;
+}
+
 BodyVelocity velocity_from_json(const json& message) {
   return {number_in(message.at("forward_mps"), 10.0), radians(number_in(message.at("turn_degps"), 1000.0))};
 }

@@ -27,6 +27,8 @@ nlohmann::ordered_json points_json(const Path& path);
 std::vector<Goal> goals_from_json(const nlohmann::json& goals);
 
 /// {"forward_mps": ..., "turn_degps": ...}. Throws InputError for what is no velocity.
+/// The words of a client about itself, which others read.
+std::string name_from_json(const nlohmann::json& message);
 BodyVelocity velocity_from_json(const nlohmann::json& message);
 
 /// Reads [x_m, y_m, yaw_deg]. Throws InputError for anything else.

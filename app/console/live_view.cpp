@@ -23,14 +23,6 @@ std::string in_words(int client, const std::string& name) {
   return name.empty() ? fmt::format("client {}", client) : fmt::format("client {} ({})", client, name);
 }
 
-/// The words of a client about itself, which others read.
-std::string name_from_json(const json& message) {
-  constexpr std::size_t longest = 40;
-  const auto name = message.at("name").get<std::string>();
-  if (name.size() > longest) throw InputError("found a long name, wanted at most 40 bytes");
-  return name;
-}
-
 bool is_for_once(const std::string& type) {
   return type == "place" || type == "clear_fault";
 }
