@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "app/console/document_history.hpp"
+#include "app/console/hanging_api.hpp"
 #include "app/console/places_api.hpp"
 #include "app/console/run_archive.hpp"
 #include "app/console/site_coverage.hpp"
@@ -29,6 +30,7 @@ namespace lodestar {
 ///   POST /api/markers/import       {name, text} -> a registry
 ///   POST /api/markers/print        {ids, paper} -> a PDF
 ///   /api/places..., /api/routes    what people name on the map: PlacesApi
+///   /api/hanging...                what hangs already: HangingApi
 ///   GET  /api/runs                 names of runs;  /api/runs/NAME  one of them
 ///   GET  /api/runs/NAME/pictures/T.jpg
 ///
@@ -74,6 +76,7 @@ class DocumentApi {
   std::function<void(const MarkerRegistry&)> on_saved_;
   SiteCoverage coverage_;
   PlacesApi places_;
+  HangingApi hanging_;
 };
 
 }  // namespace lodestar

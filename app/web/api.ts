@@ -58,6 +58,17 @@ const json = async <T>(response: Promise<Response>): Promise<T> => await (await 
 export const openSession = (token: string): Promise<Response> => request('POST', '/api/session', { token });
 export const getSite = (): Promise<Site | NoSite> => json(request('GET', '/api/site'));
 
+export type HangingState = 'planned' | 'hung' | 'verified';
+/** A saved marker on the map: its centre, and metres to the walls about it. */
+export interface HangingMarker {
+  id: number; x_m: number; y_m: number; z_m: number; yaw_deg: number;
+  walls: { left: number | null; right: number | null; below: number | null; above: number | null };
+  state: HangingState; by: string; at: string; photo: boolean;
+}
+export const getHanging = (): Promise<HangingMarker[]> => json(request('GET', '/api/hanging'));
+export const setHanging = (id: number, state: HangingState, by: string): Promise<HangingMarker[]> => json(request('PUT', `/api/hanging/${id}`, { state, by }));
+export const keepPhoto = (id: number, jpeg: string): Promise<HangingMarker[]> => json(request('PUT', `/api/hanging/${id}/photo`, { jpeg }));
+
 /** Of a site that is yet to be made. */
 export interface NoSite { new: true; folder: string }
 export interface Plan { name: string; width_px: number; height_px: number; metres_per_px: number | null; shown_px: number; png: string }

@@ -10,6 +10,7 @@ import { Draft } from './draft.js';
 import { button, byId } from './dom.js';
 import { Editor } from './editor.js';
 import type { Point } from './geometry.js';
+import { Hang } from './hang.js';
 import { Latest } from './latest.js';
 import { Layers } from './layers.js';
 import { Live } from './live.js';
@@ -41,6 +42,7 @@ export class Console implements Page {
   readonly actions: Actions;
   readonly documents: Documents;
   readonly modes: Modes;
+  readonly hang: Hang;
   readonly places: SitePlaces;
   private readonly draft: Draft;
   readonly commands: Command[];
@@ -68,6 +70,7 @@ export class Console implements Page {
       shows: () => this.layers.shown.zones && this.modes?.now !== 'replay' }, site.name);
     this.commands = [...this.places.commands(), ...pageCommands(this)];
     this.makeTools();
+    this.hang = new Hang(this.stage, this.live);
     this.modes = new Modes(this);
     this.listen();
     byId('title').textContent = `Lodestar: ${site.name}`;

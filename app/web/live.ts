@@ -87,6 +87,12 @@ export class Live implements Guest, Listener {
   private wantPictures(): void { if (this.hello?.robot) this.socket.send({ type: 'camera', on: this.shown }); }
 
   get mayDrive(): boolean { return this.hello?.role === 'drive' && this.hello.robot; }
+  get mayEdit(): boolean { return this.hello !== null && this.hello.role !== 'view'; }
+  /** Is this marker among those that the newest pose was found by, just now? */
+  readsNow(id: number): boolean {
+    const { state } = this;
+    return state !== null && !this.isStale && state.seen_s !== null && state.time_s - state.seen_s < 0.5 && state.markers.includes(id);
+  }
   get canDrive(): boolean { return this.mayDrive && this.connected; }
   get atWheel(): boolean { return this.connected && this.state !== null && this.state.driver === this.hello?.client; }
   get isStale(): boolean { return !this.connected || performance.now() - this.heardAt > staleAfterMs; }

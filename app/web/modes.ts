@@ -1,6 +1,7 @@
 // The mode of the page: selects the panel beside the map, and the meaning of clicks on it.
 import { button, byId } from './dom.js';
 import type { Layers } from './layers.js';
+import type { Hang } from './hang.js';
 import type { Live } from './live.js';
 import type { Guest, Pointer } from './pointer.js';
 import type { Replay } from './replay.js';
@@ -8,8 +9,8 @@ import type { SitePlaces } from './site_places.js';
 import type { Stage } from './stage.js';
 import { attempt } from './words.js';
 
-export type Mode = 'edit' | 'places' | 'live' | 'survey' | 'replay';
-const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['places', 'Zones', 'draw zones, lanes and places'], ['live', 'Live', 'watch and drive the robot'],
+export type Mode = 'edit' | 'hang' | 'places' | 'live' | 'survey' | 'replay';
+const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['hang', 'Hang', 'hang the markers, one after the other'], ['places', 'Zones', 'draw zones, lanes and places'], ['live', 'Live', 'watch and drive the robot'],
   ['survey', 'Survey', 'survey the markers by driving'],
   ['replay', 'Replay', 'open a run and play it back']];
 
@@ -17,6 +18,7 @@ const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'
 const passive: Guest = { press: () => false, drag: () => {}, release: () => {}, click: () => {} };
 
 interface Parts {
+  readonly hang: Hang;
   readonly layers: Layers;
   readonly live: Live;
   readonly pointer: Pointer;
@@ -39,7 +41,7 @@ export class Modes {
   }
 
   enter(mode: Mode): void {
-    const { layers, live, places, pointer, replay, stage } = this.parts;
+    const { hang, layers, live, places, pointer, replay, stage } = this.parts;
     const before = this.now;
     this.now = mode;
     document.body.dataset['mode'] = mode;
@@ -47,11 +49,12 @@ export class Modes {
     pointer.endPick();
     pointer.cancel();
     const isLive = mode === 'live' || mode === 'survey';
-    pointer.guest = mode === 'edit' ? null : mode === 'places' ? places.tools : isLive ? live : passive;
+    pointer.guest = mode === 'edit' ? null : mode === 'hang' ? hang : mode === 'places' ? places.tools : isLive ? live : passive;
     if (mode === 'places') places.judge();
     else if (before === 'places') places.tools.take(null);
     stage.showsSelection = mode === 'edit';
     live.show(isLive, mode === 'survey');
+    hang.show(mode === 'hang');
     if (before !== mode) layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
     if (mode !== 'replay') this.fitAtFirst(mode);
     this.parts.refreshTools();
