@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 // How far the markers of a site are hung: hanging.yaml of its folder. docs/file-formats.md has the keys.
