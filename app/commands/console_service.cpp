@@ -47,6 +47,11 @@ ConsoleService::ConsoleService(const ConsoleServiceOptions& options, LiveLink* l
     const std::lock_guard lock(saving_);
     saved_places_ = saved;
   });
+  if (options.may_change_map)
+    documents_.on_saved_map([this] {
+      log_info("the map was saved through the console");
+      has_new_map_ = true;
+    });
   server_ = std::make_unique<HttpServer>(
       HttpServerOptions{.access = options.access,
                         .takes_long = DocumentApi::takes_long,

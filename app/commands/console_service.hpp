@@ -19,6 +19,7 @@ struct ConsoleServiceOptions {
   std::filesystem::path site;
   std::filesystem::path runs;
   LiveViewOptions live;
+  bool may_change_map = false;  ///< the service must be made anew when it has been
 };
 
 /// The console service: the document API and the live channels.
@@ -29,6 +30,9 @@ class ConsoleService {
   ConsoleService(const ConsoleServiceOptions& options, LiveLink* link, const LiveSurvey* survey = nullptr);
 
   [[nodiscard]] unsigned short port() const { return server_->port(); }
+
+  /// A client has saved another map.
+  [[nodiscard]] bool has_new_map() const { return has_new_map_; }
 
   /// One turn of about 50 ms: serves all clients, then sends them what is new. An exception costs its step of
   /// the turn and is logged; it never ends the program, which may be driving a robot.
@@ -45,6 +49,7 @@ class ConsoleService {
   std::mutex saving_;  ///< of what follows: markers are saved on another thread of the server
   std::optional<MarkerRegistry> saved_;
   std::optional<Places> saved_places_;
+  std::atomic<bool> has_new_map_ = false;
   std::optional<PlacesOrder> untold_places_;  ///< to the robot: its orders wait in a short queue
   std::unique_ptr<HttpServer> server_;
   std::string last_error_;  ///< logged once, not in every turn

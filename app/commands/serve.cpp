@@ -11,6 +11,8 @@
 namespace lodestar {
 namespace {
 
+constexpr int turns_for_the_answer = 20;  // of 50 ms, before the server that gave it makes way for another
+
 struct ServeArguments {
   ConsoleServiceOptions console;
   bool is_new = false;
@@ -20,7 +22,6 @@ struct ServeArguments {
 bool serve_new_site(const ServeArguments& arguments, AccessRules& access) {
   constexpr std::size_t most_plan_bytes = 64U << 20U;
   constexpr std::chrono::milliseconds turn(50);
-  constexpr int turns_for_the_answer = 20;
   NewSiteApi api(arguments.console.site, program_data("sites/lab"));
   HttpServer server(
       {.access = access, .max_body_bytes = most_plan_bytes, .uses_files = NewSiteApi::uses_files},
@@ -39,9 +40,15 @@ ExitCode serve(const ServeArguments& arguments) {
   if (arguments.is_new && !serve_new_site(arguments, options.access)) return done;
   options.site = site_folder(options.site.string());
   if (options.runs.empty()) options.runs = runs_folder();
-  ConsoleService service(options, nullptr);
-  if (!arguments.is_new) tell_address(options.access, service.port());
-  while (!Interruption::asked()) service.serve_a_turn();
+  options.may_change_map = true;
+  bool is_told = arguments.is_new;
+  while (!Interruption::asked()) {
+    ConsoleService service(options, nullptr);
+    options.access.port = service.port();
+    if (!std::exchange(is_told, true)) tell_address(options.access, service.port());
+    while (!Interruption::asked() && !service.has_new_map()) service.serve_a_turn();
+    for (int i = 0; i < turns_for_the_answer && service.has_new_map(); ++i) service.serve_a_turn();
+  }
   return done;
 }
 

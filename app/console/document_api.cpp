@@ -110,7 +110,8 @@ DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::fi
       runs_(runs_folder),
       coverage_(site_),
       places_(site_),
-      hanging_(site_) {}
+      hanging_(site_),
+      map_(site_) {}
 
 HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   const std::string& target = request.target;
@@ -118,6 +119,7 @@ HttpResponse DocumentApi::answer(const HttpRequest& request) const {
     return request.method == "PUT" ? *places : unless_known(*places, request);
   if (const std::optional<HttpResponse> hanging = hanging_.answer(request))
     return request.method == "PUT" ? *hanging : unless_known(*hanging, request);
+  if (const std::optional<HttpResponse> map = map_.answer(request)) return *map;
   if (request.method == "PUT" && target == "/api/markers") return save_markers(request);
   if (request.method == "POST") return post(request);
   if (request.method != "GET" && request.method != "HEAD") return refusal(405, "found another method");

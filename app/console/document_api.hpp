@@ -5,6 +5,7 @@
 
 #include "app/console/document_history.hpp"
 #include "app/console/hanging_api.hpp"
+#include "app/console/map_api.hpp"
 #include "app/console/places_api.hpp"
 #include "app/console/run_archive.hpp"
 #include "app/console/site_coverage.hpp"
@@ -19,6 +20,7 @@ namespace lodestar {
 ///   GET  /api/site                 name, robot, start, goals, usual routes, what the camera covers
 ///   GET  /api/map                  size, resolution, origin
 ///   GET  /api/map/cells            one byte a cell, bottom row first
+///   PUT  /api/map/cells            MapApi
 ///   GET  /api/map/heights          of an OctoMap: four bytes a cell, little-endian
 ///   GET  /api/markers              the registry
 ///   PUT  /api/markers              saves it, with If-Match: 412 when someone else saved
@@ -56,6 +58,9 @@ class DocumentApi {
   /// The same for places and zones.
   void on_saved_places(std::function<void(const Places&)> tell) { places_.on_saved(std::move(tell)); }
 
+  /// The same for the map; without it none is taken. The documents must be made anew then.
+  void on_saved_map(std::function<void()> tell) { map_.on_saved(std::move(tell)); }
+
   [[nodiscard]] const Site& site() const { return site_; }
 
  private:
@@ -77,6 +82,7 @@ class DocumentApi {
   SiteCoverage coverage_;
   PlacesApi places_;
   HangingApi hanging_;
+  MapApi map_;
 };
 
 }  // namespace lodestar

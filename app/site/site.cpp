@@ -265,7 +265,8 @@ Site load_site(const std::filesystem::path& folder) {
   Site site;
   site.folder = folder;
   site.name = yaml.text("name");
-  site.map = load_map(folder / yaml.text("map"));
+  site.map_file = folder / yaml.text("map");
+  site.map = load_map(site.map_file);
   if (yaml.has("octomap")) site.octomap_file = folder / yaml.text("octomap");
   site.registry_file = folder / yaml.text("markers");
   site.registry = load_registry(site.registry_file);

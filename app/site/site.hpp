@@ -94,6 +94,7 @@ struct Site {
   std::string name;
   std::filesystem::path folder;
   LoadedMap map;
+  std::filesystem::path map_file;
   std::optional<std::filesystem::path> octomap_file;  ///< of the same site, where there is one
   MarkerRegistry registry;
   std::filesystem::path registry_file;

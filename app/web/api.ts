@@ -1,4 +1,5 @@
 // The server's documents. A refused request throws a Refusal with the server's message.
+import { base64 } from './base64.js';
 import type { Registry } from './editor.js';
 import type { ListName, PlacesDocument } from './places_doc.js';
 
@@ -90,6 +91,16 @@ export const isSiteThere = async (): Promise<boolean> =>
 export const getMap = (): Promise<MapInfo> => json(request('GET', '/api/map'));
 export const getCells = async (): Promise<Int8Array> =>
   new Int8Array(await (await request('GET', '/api/map/cells')).arrayBuffer());
+
+/** With the ETag that tells these cells from others. */
+export interface TaggedCells { cells: Uint8Array; etag: string }
+export async function getTaggedCells(): Promise<TaggedCells> {
+  const response = await request('GET', '/api/map/cells');
+  return { cells: new Uint8Array(await response.arrayBuffer()), etag: response.headers.get('ETag') ?? '' };
+}
+export const saveCells = (cells: Uint8Array, etag: string): Promise<Response> => request('PUT', '/api/map/cells', { cells: base64(cells) }, { 'If-Match': etag });
+/** While the server loads the site anew nobody listens. */
+export const isMapAnother = async (etag: string): Promise<boolean> => getTaggedCells().then((now) => now.etag !== etag, () => false);
 
 export const getHeights = async (info: MapInfo): Promise<Heights | null> => info.heights
   ? { ...info.heights, bands: new Uint32Array(await (await request('GET', '/api/map/heights')).arrayBuffer()) } : null;

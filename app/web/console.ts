@@ -14,6 +14,7 @@ import { Hang } from './hang.js';
 import { Latest } from './latest.js';
 import { Layers } from './layers.js';
 import { Live } from './live.js';
+import { MapMode } from './map_mode.js';
 import { Measure } from './measure.js';
 import { Modes } from './modes.js';
 import { pageCommands } from './page_commands.js';
@@ -43,6 +44,7 @@ export class Console implements Page {
   readonly documents: Documents;
   readonly modes: Modes;
   readonly hang: Hang;
+  readonly map: MapMode;
   readonly places: SitePlaces;
   private readonly draft: Draft;
   readonly commands: Command[];
@@ -71,6 +73,7 @@ export class Console implements Page {
     this.commands = [...this.places.commands(), ...pageCommands(this)];
     this.makeTools();
     this.hang = new Hang(this.stage, this.live);
+    this.map = new MapMode(floor.info, this.live);
     this.modes = new Modes(this);
     this.listen();
     byId('title').textContent = `Lodestar: ${site.name}`;

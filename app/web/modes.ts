@@ -3,14 +3,15 @@ import { button, byId } from './dom.js';
 import type { Layers } from './layers.js';
 import type { Hang } from './hang.js';
 import type { Live } from './live.js';
+import type { MapMode } from './map_mode.js';
 import type { Guest, Pointer } from './pointer.js';
 import type { Replay } from './replay.js';
 import type { SitePlaces } from './site_places.js';
 import type { Stage } from './stage.js';
 import { attempt } from './words.js';
 
-export type Mode = 'edit' | 'hang' | 'places' | 'live' | 'survey' | 'replay';
-const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['hang', 'Hang', 'hang the markers, one after the other'], ['places', 'Zones', 'draw zones, lanes and places'], ['live', 'Live', 'watch and drive the robot'],
+export type Mode = 'edit' | 'hang' | 'places' | 'map' | 'live' | 'survey' | 'replay';
+const titles: [Mode, string, string][] = [['edit', 'Markers', 'edit the markers'], ['hang', 'Hang', 'hang the markers, one after the other'], ['places', 'Zones', 'draw zones, lanes and places'], ['map', 'Map', 'draw and erase walls'], ['live', 'Live', 'watch and drive the robot'],
   ['survey', 'Survey', 'survey the markers by driving'],
   ['replay', 'Replay', 'open a run and play it back']];
 
@@ -19,6 +20,7 @@ const passive: Guest = { press: () => false, drag: () => {}, release: () => {}, 
 
 interface Parts {
   readonly hang: Hang;
+  readonly map: MapMode;
   readonly layers: Layers;
   readonly live: Live;
   readonly pointer: Pointer;
@@ -41,7 +43,7 @@ export class Modes {
   }
 
   enter(mode: Mode): void {
-    const { hang, layers, live, places, pointer, replay, stage } = this.parts;
+    const { hang, layers, live, map, places, pointer, replay, stage } = this.parts;
     const before = this.now;
     this.now = mode;
     document.body.dataset['mode'] = mode;
@@ -55,6 +57,7 @@ export class Modes {
     stage.showsSelection = mode === 'edit';
     live.show(isLive, mode === 'survey');
     hang.show(mode === 'hang');
+    map.show(mode === 'map');
     if (before !== mode) layers.paintFloor(mode === 'edit' ? 'coverage' : 'plain');
     if (mode !== 'replay') this.fitAtFirst(mode);
     this.parts.refreshTools();

@@ -1,24 +1,16 @@
 // The page without a site: from a plan, or from nothing, to a site folder with its first markers. Each step says what it lacks.
 import * as api from './api.js';
 import type { NewMap, Plan } from './api.js';
+import { base64, bytesOf } from './base64.js';
 import { ask, button, byId, el, plural } from './dom.js';
 import { MapPaint } from './map_paint.js';
-import { NewStage, valueNamed } from './new_stage.js';
-import type { Tool } from './new_stage.js';
+import { MapTools } from './map_tools.js';
+import { NewStage } from './new_stage.js';
 import { attempt, say } from './words.js';
 
 const waitMs = 200;
 
 interface NumberOf { input: HTMLInputElement; label: string; low: number; high: number }
-
-/** Bytes as base64, in pieces: a call takes no million arguments. */
-function base64(bytes: Uint8Array): string {
-  let text = '';
-  for (let at = 0; at < bytes.length; at += 0x8000) text += String.fromCharCode(...bytes.subarray(at, at + 0x8000));
-  return btoa(text);
-}
-
-const bytesOf = (text: string): Uint8Array => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
 export class NewSitePage {
   readonly stage = new NewStage();
@@ -41,7 +33,7 @@ export class NewSitePage {
   private readonly base = this.choice('new-base', 'Base', [['agilex', 'AgileX'], ['odrive', 'ODrive']]);
   private readonly lens = this.choice('new-lens', 'Lens', [['wide', 'Wide'], ['paper', 'Of the paper']]);
   private readonly fills = el('input', { type: 'checkbox', id: 'new-fill', checked: '' });
-  private readonly tools = el('div', { class: 'row', role: 'toolbar', 'aria-label': 'Draw on the map' });
+  private readonly tools = new MapTools(this.stage, () => this.paint);
   private readonly lacks: Record<string, HTMLElement> = {};
   private readonly makeMap = button('Make the map', 'Cells of walls and floor from the plan', () => attempt(() => this.mapOfPlan()), { id: 'new-make-map' });
   private readonly make = button('Make the site', 'Writes the folder and opens its console', () => attempt(() => this.makeSite()), { id: 'new-make', class: 'main' });
@@ -50,10 +42,11 @@ export class NewSitePage {
     document.body.dataset['mode'] = 'new';
     byId('title').textContent = `Lodestar: new site ${folder}`;
     document.title = `New site ${folder}`;
+    byId('stage').setAttribute('aria-label', 'The plan, then the map. The fields beside it do the same with the keyboard.');
     this.buildSteps();
     this.stage.onPoints = () => this.refresh();
     this.file.addEventListener('change', () => attempt(() => this.openPlan()));
-    addEventListener('keydown', (e) => this.key(e));
+    addEventListener('keydown', (e) => this.tools.key(e));
     addEventListener('beforeunload', (e) => { if (this.paint?.canUndo) e.preventDefault(); });
     this.refresh();
   }
@@ -86,34 +79,17 @@ export class NewSitePage {
   }
 
   private buildSteps(): void {
-    const tool = (text: string, title: string, name: Tool, cell: string) => button(text, title, () => this.pick(name, cell), { id: `new-tool-${name}-${cell}`, 'aria-pressed': 'false' });
-    this.tools.append(tool('Wall', 'Draw walls, one cell wide', 'line', 'wall'), tool('Erase', 'Floor, three cells wide', 'line', 'floor'),
-      tool('Block', 'A rectangle of wall: furniture, a shaft', 'rectangle', 'wall'), tool('Clear', 'A rectangle of floor', 'rectangle', 'floor'),
-      tool('Fill floor', 'All that hangs together becomes floor', 'fill', 'floor'), tool('Fill outside', 'All that hangs together is outside: no robot drives there', 'fill', 'outside'),
-      button('Undo', 'Undo (Ctrl+Z)', () => this.paint?.undo(), { id: 'new-undo' }), button('Redo', 'Redo (Ctrl+Shift+Z)', () => this.paint?.redo(), { id: 'new-redo' }));
     byId('new-steps').append(
       this.step('plan', '1. A plan, or an empty hall', el('p', {}, el('label', { for: 'new-plan' }, 'Picture, PDF (first page) or DXF '), this.file), this.fields(this.unit),
         el('p', {}, 'Without a plan: the inside of the outer walls.'), this.fields(this.hallWidth, this.hallHeight),
         el('div', { class: 'row' }, button('Empty hall', 'A hall of this size', () => attempt(() => this.mapOfHall()), { id: 'new-hall' }))),
       this.step('scale', '2. Its scale', el('p', {}, 'Click two points on the plan whose distance you know. The wheel zooms, the right button moves the plan.'), this.fields(this.distance, this.scale)),
       this.step('map', '3. The map', this.fields(this.turn, this.dark, this.cell), el('div', { class: 'row' }, this.makeMap,
-        button('Back to the plan', 'To measure again', () => attempt(() => this.backToPlan()), { id: 'new-back' })), this.tools),
+        button('Back to the plan', 'To measure again', () => attempt(() => this.backToPlan()), { id: 'new-back' })), this.tools.element),
       this.step('robot', '4. Ceiling and robot', this.fields(this.ceiling, this.camera, this.radius),
         el('div', { class: 'fields wide' }, ...[this.base, this.lens].flatMap(({ select, label }) => [el('label', { for: select.id }, label), select])),
         el('p', {}, el('label', { for: 'new-fill' }, this.fills, ' Hang markers wherever the robot needs them'))),
       this.step('site', '5. The site', el('div', { class: 'row' }, this.make)));
-  }
-
-  private pick(tool: Tool, cell: string): void {
-    [this.stage.tool, this.stage.value] = [tool, valueNamed(cell)];
-    for (const one of this.tools.querySelectorAll('[aria-pressed]')) one.setAttribute('aria-pressed', String(one.id === `new-tool-${tool}-${cell}`));
-  }
-
-  private key(e: KeyboardEvent): void {
-    if (!(e.ctrlKey || e.metaKey) || e.key.toLowerCase() !== 'z' || e.target instanceof HTMLInputElement) return;
-    e.preventDefault();
-    if (e.shiftKey) this.paint?.redo();
-    else this.paint?.undo();
   }
 
   /** What a field lacks, in words; empty when it is usable. */
@@ -151,7 +127,7 @@ export class NewSitePage {
     const isScaled = this.lack('scale', measured, plan ? size : 'Nothing to do for a hall');
     const first = [this.turn, this.dark, this.cell].map((field) => this.wrong(field)).find((words) => words !== '') ?? '';
     this.makeMap.disabled = !plan || !isScaled || first !== '';
-    this.tools.hidden = !map;
+    this.tools.element.hidden = !map;
     byId('new-back').hidden = !plan || !map;
     const hasMap = this.lack('map', first !== '' ? first : map ? '' : 'Missing: the map',
       map ? `${(map.columns * map.resolution_m).toFixed(2)} x ${(map.rows * map.resolution_m).toFixed(2)} m. ${map.warnings.join(' ')}` : '');
@@ -212,7 +188,7 @@ export class NewSitePage {
     this.map = made;
     this.paint = new MapPaint(made.columns, made.rows, bytesOf(made.cells));
     this.stage.showMap(this.paint);
-    this.pick('line', 'wall');
+    this.tools.pick('line', 'wall');
     this.open(['plan', 'scale'], false);
     this.refresh();
     return 'Draw what the plan lacks, and take out what is no wall: doors, furniture, dimensions, text';

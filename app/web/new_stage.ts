@@ -19,6 +19,7 @@ export class NewStage {
   tool: Tool = 'line';
   value: Cell = wall;
   onPoints: () => void = () => {};
+  onStroke: () => void = () => {};
   private plan: { image: ImageBitmap; width: number; height: number } | null = null;
   private paint: MapPaint | null = null;
   private readonly tiles = el('canvas');
@@ -28,7 +29,6 @@ export class NewStage {
 
   constructor() {
     byId('stage').append(this.canvas);
-    byId('stage').setAttribute('aria-label', 'The plan, then the map. The fields beside it do the same with the keyboard.');
     new ResizeObserver(() => this.resize()).observe(byId('stage'));
     this.listen();
   }
@@ -45,7 +45,7 @@ export class NewStage {
     this.plan = null;
     [this.tiles.width, this.tiles.height] = [paint.columns, paint.rows];
     this.paintAll(this.tiles.getContext('2d')!, paint);
-    paint.onChange = () => this.redraw();
+    paint.onChange = () => { this.redraw(); this.onStroke(); };
     this.fit();
   }
 
@@ -130,7 +130,9 @@ export class NewStage {
     return { x: e.clientX - box.left, y: e.clientY - box.top };
   }
 
+  /** The stage below has gestures of its own. */
   private listen(): void {
+    for (const name of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel', 'wheel', 'dblclick'] as const) this.canvas.addEventListener(name, (e) => e.stopPropagation());
     this.canvas.addEventListener('pointerdown', (e) => this.press(e));
     this.canvas.addEventListener('pointermove', (e) => this.drag(e));
     for (const name of ['pointerup', 'pointercancel'] as const) this.canvas.addEventListener(name, (e) => this.release(e));

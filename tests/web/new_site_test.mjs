@@ -4,7 +4,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, writeFileSync } fro
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { axeSource, launch, open, serveRobotAt, serveSite } from './browser.mjs';
+import { axeSource, launch, open, serve, serveRobot, serveRobotAt, serveSite } from './browser.mjs';
 import { isIdle, planned, setGoals, until } from './robot_page.mjs';
 
 const pictures = process.env.LODESTAR_PICTURES;
@@ -86,7 +86,7 @@ test('from a plan to the first drive', async () => {
 
   await press(page, 'Make the map');
   await lacks(page, 'map').filter({ hasText: 'm.' }).waitFor();
-  await page.locator('#new-tool-line-wall').waitFor();
+  await page.locator('#map-tool-line-wall').waitFor();
   const at = [Math.round(1.3 / 0.05), Math.round((6 - 4.1) / 0.05)];
   const isWall = async () => (await page.evaluate(([x, y]) => {
     const { paint } = window.lodestar.newSite;
@@ -154,6 +154,52 @@ test('from a plan to the first drive', async () => {
   assert.deepEqual(live.complaints, []);
   await live.context().close();
   await server.stop();
+});
+
+/** Cells of the map that is drawn on, on the screen, and their values. */
+const drawnAt = (page, x, y) => page.evaluate(([cx, cy]) => {
+  const { view, canvas } = window.lodestar.console.map.stage;
+  const at = view.toScreen({ x: cx, y: cy });
+  const box = canvas.getBoundingClientRect();
+  return [box.left + at.x, box.top + at.y];
+}, [x, y]);
+const served = (page, x, y) => page.evaluate(([cx, cy]) => {
+  const { floor } = window.lodestar.console;
+  return floor.cells[cy * floor.info.columns + cx];
+}, [x, y]);
+
+describe('the map of a site that is there', () => {
+  test('is drawn on and saved, the site is loaded anew, and what was before is kept', async () => {
+    const site = await serve();
+    const page = await open(browser, site.url);
+    const [x, y] = [30, 100];  // in the upper left room
+    assert.equal(await served(page, x, y), 0);
+    await press(page, 'Map');
+    await page.getByText('Nothing has changed').waitFor();
+    await press(page, 'Block');
+    await drag(page, await drawnAt(page, x - 2, y - 2), await drawnAt(page, x + 3, y + 2));
+    await page.getByText(/0\.\d\d m² changed/).waitFor();
+    await look(page, 'map');
+    assert.deepEqual(await complaintsOfAxe(page), []);
+    await press(page, 'Save the map');
+    await page.getByText('The map is saved.').waitFor({ timeout: 60_000 });
+    assert.equal(await served(page, x, y), 100);
+    assert.equal(readdirSync(join(site.site, '.history', 'map')).length, 1);
+    assert.deepEqual(page.complaints.filter((words) => !words.includes('ERR_CONNECTION_REFUSED')), []);
+    await page.context().close();
+    await site.stop();
+  });
+
+  test('stays as it is under a robot', async () => {
+    const robot = await serveRobot();
+    const page = await open(browser, robot.url);
+    await until(page, isIdle);
+    await press(page, 'Map');
+    await page.getByText('A robot runs on this map.').waitFor();
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+    await robot.stop();
+  });
 });
 
 describe('what cannot be', () => {
