@@ -187,8 +187,10 @@ export class NewStage {
   }
 
   private stopPainting(): void {
-    if (this.from) this.paint?.end();
+    const { paint } = this;
+    const painted = this.from !== null;
     this.from = this.at = null;
+    if (painted) paint?.end();  // which redraws
   }
 
   private addPoint(at: Point): void {
