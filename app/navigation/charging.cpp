@@ -74,6 +74,8 @@ void Charging::watch_drive(const MissionStep& step, Mission& mission) {
   if (mission.phase() == MissionPhase::settling && mission.current() < dock_) rest_v_ = battery_v_;
   if (step.event == MissionEvent::goal_failed && mission.current() >= dock_) {
     fail(mission.failure());
+  } else if (!mission.finished() && mission.current() > dock_) {
+    enter(ChargingState::none, "driven on");
   } else if (mission.finished()) {
     if (step.event != MissionEvent::goal_arrived || mission.current() != dock_ + 1)
       return fail(mission.failure());

@@ -121,6 +121,21 @@ TEST(ChargingInTheLab, ends_when_somebody_drives_the_robot_off) {
   EXPECT_THAT(course.failure, IsEmpty());
 }
 
+TEST(ChargingInTheLab, a_dock_on_the_way_to_somewhere_else_is_driven_on_from) {
+  const Site site = lab_with_dock();
+  Charging charging(*site.charging);
+  bool has_begun = false;
+  const Course course = drive(site, charging, 25.0, [&](Mission& mission) {
+    if (!std::exchange(has_begun, true)) {
+      charging.begin(mission);
+      mission.append({{.position_m = {2.0, 5.6}}});
+    }
+    return !mission.finished();
+  });
+  EXPECT_EQ(course.states, (std::vector{ChargingState::driving, ChargingState::none}));
+  EXPECT_THAT(course.failure, IsEmpty());
+}
+
 TEST(ChargingInTheLab, a_person_may_stop_it_on_the_way) {
   const Site site = lab_with_dock();
   Charging charging(*site.charging);
