@@ -21,8 +21,8 @@ Charging charging_after(std::vector<Goal>& goals, const Site& site);
 /// Makes it take part in a run or a replay; what took part before goes on.
 template <typename Options>
 void attend_charging(Options& options, Charging& charging) {
-  options.attend = [&charging, others = std::move(options.attend)](const SensorInput& heard,
-                                                                   const MissionStep& step, Mission& mission) {
+  options.attend = [&charging, others = std::move(options.attend)](
+                       const SensorInput& heard, const MissionStep& step, Mission& mission) {
     charging.watch(heard.now, heard.base, step, mission);
     if (others) others(heard, step, mission);
   };

@@ -37,9 +37,8 @@ ExitCode replay_many(const Site& site, SimulatedDriveOptions options, const Repe
   std::vector<RunSummary> runs;
   {
     Progress progress("replay", wanted.quiet);
-    runs = simulate_drives(site, options, wanted.runs, [&](int finished) {
-      progress.show(static_cast<double>(finished) / wanted.runs);
-    });
+    runs = simulate_drives(site, options, wanted.runs,
+                           [&](int finished) { progress.show(static_cast<double>(finished) / wanted.runs); });
   }
   nlohmann::ordered_json report = nlohmann::ordered_json::array();
   for (const RunSummary& run : runs) report.push_back(as_json(run));

@@ -229,11 +229,9 @@ ExitCode replay_as_asked(const Site& site, const SimulatedDriveOptions& options,
   if (arguments.serve) return replay_served(site, options, arguments);
   if (arguments.ros2.takes_commands && arguments.goals.empty()) return replay_waiting(site, options);
   if (arguments.runs == 1) return replay_once(site, options, arguments);
-  return replay_many(site, options,
-                     {.runs = arguments.runs,
-                      .quiet = arguments.quiet,
-                      .json = arguments.json,
-                      .output = arguments.output});
+  return replay_many(
+      site, options,
+      {.runs = arguments.runs, .quiet = arguments.quiet, .json = arguments.json, .output = arguments.output});
 }
 
 ExitCode replay_command(const ReplayArguments& arguments) {
