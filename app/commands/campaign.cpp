@@ -48,7 +48,7 @@ ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const Camp
                  const fs::path& output) {
   CampaignMission mission = mission_of(robot_and_cameras, campaign_ids(), number, world);
   RecordedRun recorded(output / fmt::format("mission-{}", number), mission.site, mission.replay.camera,
-                       {.can_wait = true});
+                       {.seed = mission.replay.seed, .can_wait = true});
   mission.replay.watch = recorded.watcher();
   RunRecord record = simulate_drive(mission.site, mission.replay);
   const MissionOutcome outcome = outcome_of(number, record, world);

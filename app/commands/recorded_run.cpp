@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "app/common/low_priority.hpp"
+#include "app/common/wall_clock.hpp"
 #include "app/navigation/navigation_setup.hpp"
+#include "app/recording/run_origin.hpp"
 #include "app/report/run_folder.hpp"
 #include "maps/input_error.hpp"
 
@@ -34,6 +37,14 @@ RecordedRun::RecordedRun(std::filesystem::path folder, const Site& site, const s
                                      .disk = options.disk}),
       sighting_log_(folder_, site.robot, site.cameras.at(camera),
                     {.can_wait = options.can_wait, .tell = once(options.tell), .disk = options.disk}) {
+  origin_ = std::async(
+      std::launch::async,
+      [&site, folder = folder_,
+       origin = RunOrigin{
+           .started = utc_text(), .program = LODESTAR_VERSION, .site = site.name, .seed = options.seed}] {
+        lower_priority_of_this_thread();
+        write_run_origin(folder, origin, site.map.map, site.registry);
+      });
   if (site.robot.scanner)
     scan_log_.emplace(
         folder_, site.robot.scanner->mount,
@@ -62,6 +73,11 @@ RunFolderEnd RecordedRun::finish(const RunRecord& record) {
   const auto remember = [&end](const std::string& loss) {
     if (!loss.empty()) end.loss += (end.loss.empty() ? "" : "; ") + loss;
   };
+  try {
+    origin_.get();
+  } catch (const InputError& error) {
+    remember(error.what());
+  }
   mcap_.add_truth(record);
   remember(can_log_.finish());
   remember(mcap_.finish());

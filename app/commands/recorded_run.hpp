@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <optional>
 #include <string>
 
@@ -16,7 +17,8 @@
 namespace lodestar {
 
 struct RunFolderOptions {
-  std::string interface = "can0";  ///< as can.log names it
+  std::string interface = "can0";     ///< as can.log names it
+  std::optional<std::uint64_t> seed;  ///< of a simulated world
   bool can_wait = false;  ///< a simulated drive waits for the disk and leaves the same bytes each time
   /// Hears once, in words for people, that the folder is no longer whole; from a thread of its own.
   std::function<void(const std::string&)> tell;
@@ -29,9 +31,9 @@ struct RunFolderEnd {
   std::string loss;         ///< what is missing and why; empty when nothing is
 };
 
-/// The run folder of one drive, real or simulated: run.mcap, can.log, dots.csv, wheels.csv and scans.bin grow
-/// while the robot drives and are readable as far as they go when the program dies; all else is written at
-/// the end.
+/// The run folder of one drive, real or simulated: run.yaml and the map and registry of site/ stand soon;
+/// run.mcap, can.log, dots.csv, wheels.csv and scans.bin grow while the robot drives and are readable as far
+/// as they go when the program dies; all else is written at the end.
 class RecordedRun {
  public:
   /// Makes the folder and these files. Throws InputError when one of them cannot be made.
@@ -57,6 +59,7 @@ class RecordedRun {
   CanLog can_log_;
   SightingLog sighting_log_;
   std::optional<ScanLog> scan_log_;  ///< of a robot with a scanner
+  std::future<void> origin_;         ///< written beside the drive, whose thread no disk may hold up
 };
 
 }  // namespace lodestar

@@ -42,16 +42,17 @@ std::string truth_tum(const RunRecord& record) {
 
 std::string steps_csv(const RunRecord& record) {
   std::string text =
-      "stamp_s,x_m,y_m,yaw_deg,sigma_m,sigma_yaw_deg,commanded_mps,commanded_degps,driven_mps,driven_degps\n";
+      "stamp_s,x_m,y_m,yaw_deg,sigma_m,sigma_yaw_deg,commanded_mps,commanded_degps,driven_mps,driven_degps,"
+      "xx_m2,xy_m2,yy_m2\n";
   for (const StepRecord& step : record.steps) {
     const Pose2& pose = step.estimate.map_from_base;
     const Eigen::Matrix3d& covariance = step.estimate.covariance;
-    text += fmt::format("{:.4f},{:.5f},{:.5f},{:.3f},{:.6f},{:.4f},{:.4f},{:.3f},{:.4f},{:.3f}\n",
-                        seconds(step.estimate.stamp), pose.position_m.x(), pose.position_m.y(),
-                        degrees(pose.yaw_rad), larger_sigma(covariance.topLeftCorner<2, 2>()),
-                        degrees(std::sqrt(covariance(2, 2))), step.commanded.forward_mps,
-                        degrees(step.commanded.turn_radps), step.measured.forward_mps,
-                        degrees(step.measured.turn_radps));
+    text += fmt::format(
+        "{:.4f},{:.5f},{:.5f},{:.3f},{:.6f},{:.4f},{:.4f},{:.3f},{:.4f},{:.3f},{:.4g},{:.4g},{:.4g}\n",
+        seconds(step.estimate.stamp), pose.position_m.x(), pose.position_m.y(), degrees(pose.yaw_rad),
+        larger_sigma(covariance.topLeftCorner<2, 2>()), degrees(std::sqrt(covariance(2, 2))),
+        step.commanded.forward_mps, degrees(step.commanded.turn_radps), step.measured.forward_mps,
+        degrees(step.measured.turn_radps), covariance(0, 0), covariance(0, 1), covariance(1, 1));
   }
   return text;
 }

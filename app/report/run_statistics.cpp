@@ -54,6 +54,7 @@ Json goal_json(const GoalRecord& record, const std::optional<ArrivalScore>& scor
           {"planned_length_m", length_m(record.planned)},
           {"turns", waypoints > 2 ? waypoints - 2 : 0},
           {"travel_time_s", seconds(record.travel_time)},
+          {"ended_s", seconds(record.ended)},
           {"position_error_m", optional_json(position_error)},
           {"heading_error_deg", optional_json(heading_error_deg)}};
 }
@@ -82,6 +83,13 @@ Json waits_json(const std::vector<Wait>& waits) {
   return list;
 }
 
+Json notices_json(const std::vector<NoticeRecord>& notices) {
+  Json list = Json::array();
+  for (const NoticeRecord& notice : notices)
+    list.push_back({{"at_s", seconds(notice.stamp)}, {"words", notice.words}, {"stops", notice.stops}});
+  return list;
+}
+
 Json faults_json(const std::vector<FaultEvent>& faults) {
   Json list = Json::array();
   for (const FaultEvent& fault : faults) {
@@ -93,11 +101,29 @@ Json faults_json(const std::vector<FaultEvent>& faults) {
   return list;
 }
 
+double duration_s(const RunRecord& record) {
+  if (record.steps.empty()) return 0.0;
+  return seconds(record.steps.back().estimate.stamp - record.steps.front().estimate.stamp);
+}
+
+std::optional<double> largest_sigma_m(const RunRecord& record) {
+  std::optional<double> largest;
+  for (const StepRecord& step : record.steps)
+    largest = std::max(largest.value_or(0.0), larger_sigma(step.estimate.covariance.topLeftCorner<2, 2>()));
+  return largest;
+}
+
+/// By the truth, or by the estimate where nobody knows that.
 double driven_m(const RunRecord& record) {
   double total = 0.0;
   for (std::size_t i = 1; i < record.truth.size(); ++i) {
     total += (record.truth[i].map_from_base.position_m - record.truth[i - 1].map_from_base.position_m).norm();
   }
+  if (!record.truth.empty()) return total;
+  for (std::size_t i = 1; i < record.steps.size(); ++i)
+    total += (record.steps[i].estimate.map_from_base.position_m -
+              record.steps[i - 1].estimate.map_from_base.position_m)
+                 .norm();
   return total;
 }
 
@@ -185,10 +211,12 @@ nlohmann::ordered_json summary_of(const RunRecord& record) {
           {"contacts", record.contacts},
           {"driven_m", driven_m(record)},
           {"time_s", record.truth.empty() ? 0.0 : seconds(record.truth.back().stamp)},
+          {"duration_s", duration_s(record)},
           {"goals", goals},
           {"path_distance_m", spread_of(record.path_distances_m)},
           {"estimate_position_error_m", spread_of(position_m)},
           {"estimate_heading_error_deg", spread_of(heading_deg)},
+          {"largest_position_sigma_m", optional_json(largest_sigma_m(record))},
           {"frames", record.frames},
           {"fixes", record.fixes.size()},
           {"fixes_accepted", accepted},
@@ -197,6 +225,7 @@ nlohmann::ordered_json summary_of(const RunRecord& record) {
           {"nees", optional_json(mean_nees(errors))},
           {"distrusted_markers", distrusted_json(record.distrusted)},
           {"waits", waits_json(waits_of(record))},
+          {"notices", notices_json(record.notices)},
           {"faults", faults_json(record.faults)}};
 }
 

@@ -115,11 +115,27 @@ TEST_F(RunFolder, summary_says_what_can_be_worked_out_by_hand) {
   EXPECT_EQ(summary["fixes_accepted"], 1);
   EXPECT_EQ(summary["fixes_refused"], 1);
   EXPECT_NEAR(summary["mean_confidence"], 0.8, 1e-12);
+  EXPECT_EQ(summary["duration_s"], 4.0);
+  EXPECT_NEAR(summary["largest_position_sigma_m"], 0.02, 1e-12);
   ASSERT_EQ(summary["goals"].size(), 2U);
+  EXPECT_EQ(summary["goals"][1]["ended_s"], 4.0);
   EXPECT_EQ(summary["goals"][0]["planned_length_m"], 2.0);
   EXPECT_EQ(summary["goals"][0]["turns"], 0);
   EXPECT_EQ(summary["goals"][0]["position_error_m"], 0.004);
   EXPECT_TRUE(summary["goals"][0]["heading_error_deg"].is_null());
+}
+
+TEST_F(RunFolder, of_a_real_robot_tells_how_far_it_drove_by_its_own_estimate) {
+  RunRecord record = sample::run();
+  record.truth.clear();
+  record.notices = {{sample::at_s(1.5), "something stands in the way", true}, {sample::at_s(2.0), "", false}};
+  write(folder, record);
+  const auto summary = nlohmann::json::parse(content_of(folder / "summary.json"));
+  EXPECT_NEAR(summary["driven_m"], 4.0, 0.01);
+  ASSERT_EQ(summary["notices"].size(), 2U);
+  EXPECT_EQ(summary["notices"][0]["at_s"], 1.5);
+  EXPECT_EQ(summary["notices"][0]["words"], "something stands in the way");
+  EXPECT_EQ(summary["notices"][0]["stops"], true);
 }
 
 TEST_F(RunFolder, a_run_that_went_nowhere_is_told_too) {
