@@ -53,10 +53,23 @@ std::string line_of(const SpeedZone& zone) {
   return fmt::format("{}, max_mps: {}", zone_text(zone.name, zone.corners_m), zone.max_mps);
 }
 
+std::string text_of(const MissionStop& stop) {
+  std::string text = "{place: " + quoted(stop.place);
+  if (stop.wait_s > 0.0) text += fmt::format(", wait_s: {}", tidy(stop.wait_s));
+  if (!stop.action.empty()) text += ", action: " + quoted(stop.action);
+  return text + "}";
+}
+
+/// Names alone, where nothing is done at the stops.
 std::string line_of(const NamedMission& mission) {
-  std::string names;
-  for (const std::string& place : mission.places) names += (names.empty() ? "" : ", ") + quoted(place);
-  return fmt::format("name: {}, places: [{}]", quoted(mission.name), names);
+  const bool is_plain = std::ranges::all_of(mission.stops, [](const MissionStop& stop) {
+    return stop == MissionStop{.place = stop.place, .action = {}};
+  });
+  std::string stops;
+  for (const MissionStop& stop : mission.stops)
+    stops += (stops.empty() ? "" : ", ") + (is_plain ? quoted(stop.place) : text_of(stop));
+  return fmt::format("name: {}, {}: [{}]{}", quoted(mission.name), is_plain ? "places" : "stops", stops,
+                     mission.repeat > 1 ? fmt::format(", repeat: {}", mission.repeat) : "");
 }
 
 template <typename Item>

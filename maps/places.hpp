@@ -46,10 +46,22 @@ struct SpeedZone {
   double max_mps = 0.0;
 };
 
-/// Places in driving order.
+/// A place that a mission drives to, and what is done there before it drives on.
+struct MissionStop {
+  std::string place;
+  double wait_s = 0.0;  ///< at rest
+  std::string action;   ///< a type among the `actions` of site.yaml; empty: none
+
+  friend bool operator==(const MissionStop&, const MissionStop&) = default;
+};
+
+/// Stops in driving order, all of them `repeat` times.
 struct NamedMission {
+  static constexpr int most_goals = 500;  ///< stops times repeat: an operator's console shows them all
+
   std::string name;
-  std::vector<std::string> places;
+  std::vector<MissionStop> stops;
+  int repeat = 1;
 };
 
 /// places.yaml of a site folder. Names are unique among places and nodes together, among the missions, and

@@ -100,15 +100,46 @@ Polygon read_corners(StrictYaml& yaml) {
   return corners_m;
 }
 
+std::string read_place_name(const StrictYaml& yaml, const YAML::Node& entry, const Places& places) {
+  std::string name = entry.IsScalar() ? entry.Scalar() : "";
+  if (places.find(name) == nullptr) yaml.refuse_at(entry, "'" + name + "'", "the name of a place");
+  return name;
+}
+
+/// A type of action as site.yaml and VDA 5050 write it.
+std::string read_action(StrictYaml& yaml) {
+  std::string action = yaml.text("action");
+  if (action.empty() || action.size() > longest_name || !is_text(action))
+    yaml.refuse("action", fmt::format("a name of {} bytes", action.size()),
+                fmt::format("1 to {} bytes of plain text", longest_name));
+  return action;
+}
+
+MissionStop read_stop(StrictYaml& yaml, const Places& places) {
+  constexpr double longest_wait_s = 86400.0;
+  MissionStop stop{.place = read_place_name(yaml, yaml.node("place"), places), .action = {}};
+  if (yaml.has("wait_s")) stop.wait_s = tidy(yaml.number("wait_s", 0.0, longest_wait_s));
+  if (yaml.has("action")) stop.action = read_action(yaml);
+  yaml.finish();
+  return stop;
+}
+
+/// `places`: names alone; `stops`: with what is done there.
 NamedMission read_mission(StrictYaml& yaml, Names& taken, const Places& places) {
-  NamedMission mission{.name = read_name(yaml, taken), .places = {}};
-  const YAML::Node list = yaml.node("places");
-  if (!list.IsSequence() || list.size() == 0) yaml.refuse("places", "none", "names of places");
-  for (const YAML::Node& entry : list) {
-    const std::string name = entry.IsScalar() ? entry.Scalar() : "";
-    if (places.find(name) == nullptr) yaml.refuse_at(entry, "'" + name + "'", "the name of a place");
-    mission.places.push_back(name);
+  NamedMission mission{.name = read_name(yaml, taken), .stops = {}};
+  if (yaml.has("stops")) {
+    for (StrictYaml& stop : yaml.list_of_mappings("stops")) mission.stops.push_back(read_stop(stop, places));
+    if (mission.stops.empty()) yaml.refuse("stops", "none", "stops at places");
+  } else {
+    const YAML::Node list = yaml.node("places");
+    if (!list.IsSequence() || list.size() == 0) yaml.refuse("places", "none", "names of places");
+    for (const YAML::Node& entry : list)
+      mission.stops.push_back({.place = read_place_name(yaml, entry, places), .action = {}});
   }
+  const auto count = static_cast<int>(mission.stops.size());
+  if (count > NamedMission::most_goals)
+    yaml.refuse("name", fmt::format("{} stops", count), fmt::format("at most {}", NamedMission::most_goals));
+  if (yaml.has("repeat")) mission.repeat = yaml.integer("repeat", 1, NamedMission::most_goals / count);
   return mission;
 }
 

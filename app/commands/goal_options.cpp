@@ -1,8 +1,20 @@
 #include "app/commands/goal_options.hpp"
 
+#include <fmt/core.h>
+
 #include "app/site/arguments.hpp"
 
 namespace lodestar {
+namespace {
+
+/// As one word of a command line.
+std::string in_shell(const std::string& text) {
+  std::string word = "'";
+  for (const char letter : text) word += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return word + "'";
+}
+
+}  // namespace
 
 void add_goal_options(CLI::App& command, GoalArguments& arguments, const std::string& otherwise) {
   CLI::Option* goal = command.add_option(
@@ -13,6 +25,17 @@ void add_goal_options(CLI::App& command, GoalArguments& arguments, const std::st
       .add_option("--mission", arguments.mission,
                   "Drive to the places of this mission of places.yaml in turn")
       ->excludes(goal);
+}
+
+std::string words_of(const GoalArguments& arguments, const std::vector<Goal>& goals) {
+  if (!arguments.mission.empty()) return " --mission " + in_shell(arguments.mission);
+  std::string words;
+  for (const Goal& goal : goals) {
+    if (goal.passes) continue;  // a point of the route graph
+    words += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
+    if (goal.heading_rad) words += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
+  }
+  return words;
 }
 
 std::vector<Goal> goals_in(const GoalArguments& arguments, const Places& places) {

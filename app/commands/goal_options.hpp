@@ -21,6 +21,9 @@ struct GoalArguments {
 /// of what is said of --goal.
 void add_goal_options(CLI::App& command, GoalArguments& arguments, const std::string& otherwise = {});
 
+/// The options that lead to these goals again, with a space before each.
+std::string words_of(const GoalArguments& arguments, const std::vector<Goal>& goals);
+
 /// In driving order. Throws InputError where a name is unknown.
 std::vector<Goal> goals_in(const GoalArguments& arguments, const Places& places);
 

@@ -24,6 +24,7 @@
 #include "app/common/log.hpp"
 #include "app/common/program_data.hpp"
 #include "app/common/progress.hpp"
+#include "app/fleet/stop_actions.hpp"
 #include "app/live/operator_session.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "app/simulate/fault_files.hpp"
@@ -108,11 +109,7 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
       fmt::format("lodestar replay{} --seed {} --camera {} --planner {}", site.empty() ? "" : " " + site,
                   options.seed, options.camera, to_string(options.planner));
   command += words_of(arguments.uncertainty_constraint);
-  for (const Goal& goal : options.goals) {
-    if (goal.passes) continue;  // a point of the route graph
-    command += fmt::format(" --goal {},{}", goal.position_m.x(), goal.position_m.y());
-    if (goal.heading_rad) command += fmt::format(",{:.9g}", degrees(*goal.heading_rad));
-  }
+  command += words_of(arguments.goals, options.goals);
   if (arguments.routes) command += " --routes";
   if (arguments.charges) command += " --charge";
   if (arguments.battery_v) command += fmt::format(" --battery {}", *arguments.battery_v);
@@ -131,7 +128,7 @@ DiskState disk_state(const SimulatedDisk& disk) {
 
 ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const ReplayArguments& arguments) {
   RecordedRun recorded(output_folder(site, arguments), site, options.camera,
-                       {.can_wait = true, .disk = disk_state(*options.disk)});
+                       {.seed = options.seed, .can_wait = true, .disk = disk_state(*options.disk)});
   const Interruption interruption;
   options.goes_on = [] { return !Interruption::asked(); };
   std::optional<Charging> charging;
@@ -190,13 +187,17 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
   }
   LiveLink link;
   ConsoleService service(console, &link, survey ? survey->live() : nullptr);
-  OperatorSession session(link, log_info);
+  OperatorSession session(link, [&service](const std::string& words) {
+    log_info(words);
+    service.note(words);
+  });
   std::optional<Charging> charging = charging_of(site, true);
   if (charging) {
     session.use(*charging);
     attend_charging(options, *charging);
   }
-  KeptRuns runs(folder, true, site, options.camera, {.disk = disk_state(*options.disk)});
+  KeptRuns runs(folder, true, site, options.camera,
+                {.seed = options.seed, .disk = disk_state(*options.disk)});
   if (!survey) options.watch = runs.watcher();
   bool all_arrived = true;
 
@@ -240,12 +241,18 @@ ExitCode replay_command(const ReplayArguments& arguments) {
   for (const std::string& warning : site.map.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   SimulatedDriveOptions options = replay_options(arguments, site);
   Ros2Companion ros2(site, arguments.ros2, true);
-  if (ros2.is_wanted()) {
-    options.attend = [&ros2](const SensorInput& heard, const MissionStep& step, Mission& mission) {
-      ros2.attend(heard, step, mission);
+  const bool many = arguments.runs > 1;
+  if (many && std::ranges::any_of(options.goals, [](const Goal& goal) { return !goal.action.empty(); }))
+    throw InputError(
+        "--runs: found a mission with actions, wanted one run: its programs would run many times");
+  options.realtime = options.realtime || arguments.ros2.is_wanted;  // tools of ROS look at it as it goes
+  StopActions stops(site, !arguments.serve && !options.realtime, log_info);
+  if (ros2.is_wanted() || !many) {
+    options.attend = [&](const SensorInput& heard, const MissionStep& step, Mission& mission) {
+      if (ros2.is_wanted()) ros2.attend(heard, step, mission);
+      stops.attend(mission);
     };
   }
-  options.realtime = options.realtime || arguments.ros2.is_wanted;  // tools of ROS look at it as it goes
   const ExitCode code = replay_as_asked(site, options, arguments);
   return ros2.finish() ? code : job_failed;
 }

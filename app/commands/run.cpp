@@ -23,6 +23,7 @@
 #include "app/common/program_data.hpp"
 #include "app/drive/camera_setup.hpp"
 #include "app/drive/operator_input.hpp"
+#include "app/fleet/stop_actions.hpp"
 #include "app/placement/exploration.hpp"
 #include "app/site/arguments.hpp"
 #include "app/site/base_setup.hpp"
@@ -240,11 +241,11 @@ ExitCode run_command(RunArguments arguments) {
   const std::unique_ptr<Scanner> scanner = scanner_of(site);
   options.scanner = scanner.get();
   Ros2Companion ros2(site, arguments.ros2, false);
-  if (ros2.is_wanted()) {
-    options.attend = [&ros2](const SensorInput& heard, const MissionStep& step, Mission& mission) {
-      ros2.attend(heard, step, mission);
-    };
-  }
+  StopActions stops(site, false, log_info);
+  options.attend = [&](const SensorInput& heard, const MissionStep& step, Mission& mission) {
+    if (ros2.is_wanted()) ros2.attend(heard, step, mission);
+    stops.attend(mission);
+  };
   options.until_stopped = arguments.ros2.takes_commands;
   const Interruption interruption;
   const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};

@@ -59,7 +59,7 @@ ordered_json item_json(const SpeedZone& zone) {
 }
 
 ordered_json item_json(const NamedMission& mission) {
-  return {{"name", mission.name}, {"places", mission.places}};
+  return mission_json(mission);
 }
 
 template <typename Item>
@@ -122,6 +122,24 @@ PlacesRefusal refusal_of(const InputError& error, const PrintedDocument& documen
 }
 
 }  // namespace
+
+ordered_json mission_json(const NamedMission& mission) {
+  ordered_json places = ordered_json::array();
+  ordered_json stops = ordered_json::array();
+  bool is_plain = true;
+  for (const MissionStop& stop : mission.stops) {
+    places.push_back(stop.place);
+    ordered_json item{{"place", stop.place}};
+    if (stop.wait_s > 0.0) item["wait_s"] = stop.wait_s;
+    if (!stop.action.empty()) item["action"] = stop.action;
+    is_plain = is_plain && item.size() == 1;
+    stops.push_back(std::move(item));
+  }
+  ordered_json json{{"name", mission.name}};
+  json.update(is_plain ? ordered_json{{"places", places}} : ordered_json{{"stops", stops}});
+  if (mission.repeat > 1) json["repeat"] = mission.repeat;
+  return json;
+}
 
 ordered_json places_json(const Places& places) {
   return {{"format", "lodestar-places"},

@@ -14,6 +14,9 @@ namespace lodestar {
 /// places.yaml as JSON: the same lists and keys, yaw_deg, max_mps and name only where there is one.
 nlohmann::ordered_json places_json(const Places& places);
 
+/// {"name", "places" or "stops", "repeat"}: names alone where nothing is done at the stops, as in the file.
+nlohmann::ordered_json mission_json(const NamedMission& mission);
+
 /// Why a document cannot be used, and the item that is to blame where one is.
 struct PlacesRefusal {
   std::string words;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/console/places_json.hpp"
 #include "maps/tidy.hpp"
 
 namespace lodestar {
@@ -15,8 +16,7 @@ ordered_json routes_json(const Places& places) {
     if (place.yaw_rad) stations.back()["yaw_deg"] = tidy(degrees(*place.yaw_rad));
   }
   ordered_json routes = ordered_json::array();
-  for (const NamedMission& mission : places.missions)
-    routes.push_back({{"name", mission.name}, {"places", mission.places}});
+  for (const NamedMission& mission : places.missions) routes.push_back(mission_json(mission));
   return {{"format", "lodestar-routes"}, {"version", 1}, {"places", stations}, {"routes", routes}};
 }
 

@@ -27,6 +27,8 @@ std::string_view to_string(MissionPhase phase) {
       return "driving";
     case MissionPhase::settling:
       return "coming to rest at the goal";
+    case MissionPhase::at_stop:
+      return "at a stop of the mission";
     case MissionPhase::waiting_for_base:
       return "waiting for the base";
     case MissionPhase::paused:
@@ -129,6 +131,7 @@ MissionPhase Mission::phase() const {
   if (std::holds_alternative<Starting>(state_)) return MissionPhase::starting;
   if (std::holds_alternative<Driving>(state_)) return MissionPhase::driving;
   if (std::holds_alternative<Settling>(state_)) return MissionPhase::settling;
+  if (std::holds_alternative<AtStop>(state_)) return MissionPhase::at_stop;
   if (std::holds_alternative<Held>(state_)) return MissionPhase::waiting_for_base;
   return MissionPhase::stopping;
 }
@@ -276,15 +279,25 @@ MissionEvent Mission::advance(Settling state, const SensorInput& input, const Na
                                        step.stop ? to_string(*step.stop) : "no marker is in view"));
   }
   const double distance_m = distance_to_goal_m(*step.estimate);
-  if (distance_m <= drive_options_.arrival_distance_m) return end_goal(input.now, MissionEvent::goal_arrived);
-  if (++attempt_ >= options_.attempts) {
-    return fail(
-        input.now,
-        fmt::format("not reached: {:.1f} mm from the goal after {} attempts, arrival is within {:.1f} mm",
-                    1e3 * distance_m, attempt_, 1e3 * drive_options_.arrival_distance_m));
-  }
+  if (distance_m <= drive_options_.arrival_distance_m) return arrive(input.now);
+  ++attempt_;
+  const bool ends_short = path_ends_short();
+  if (ends_short || attempt_ >= options_.attempts)
+    return fail(input.now, fmt::format("not reached: {:.1f} mm from the goal{}, arrival is within {:.1f} mm",
+                                       1e3 * distance_m,
+                                       ends_short ? ", which is too near to an obstacle to come nearer"
+                                                  : fmt::format(" after {} attempts", attempt_),
+                                       1e3 * drive_options_.arrival_distance_m));
   state_ = Starting{};
   return MissionEvent::none;
+}
+
+/// A path may end beside a goal that has too little room (MarginPlanner::goal_slack_m). Another attempt helps
+/// only where that leaves the controller, which stops some millimetres off, enough of the arrival distance.
+bool Mission::path_ends_short() const {
+  if (path_.waypoints_m.empty()) return false;
+  const double short_m = (path_.waypoints_m.back() - goals_[current_].position_m).norm();
+  return short_m > 0.5 * drive_options_.arrival_distance_m;
 }
 
 double Mission::distance_to_goal_m(const PoseEstimate& estimate) const {

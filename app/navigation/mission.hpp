@@ -25,6 +25,8 @@ struct MissionOptions {
   /// the time is not counted below. Five minutes a metre are chosen by hand: someone who waits looks after it
   /// then.
   Duration max_hindered = std::chrono::minutes(5);
+  /// Within so long somebody must have begun with a goal's action: else nobody here carries it out.
+  Duration max_action_begin = std::chrono::seconds(5);
   double progress_m = 1.0;
   int attempts = 3;                 ///< to come within epsilon
   bool hold_on_base_fault = false;  ///< keep the goal until the base is ready again; else it fails
@@ -33,7 +35,17 @@ struct MissionOptions {
   Duration max_time_more = std::chrono::seconds(60);
 };
 
-enum class MissionPhase { idle, by_hand, starting, driving, settling, waiting_for_base, paused, stopping };
+enum class MissionPhase {
+  idle,
+  by_hand,
+  starting,
+  driving,
+  settling,
+  at_stop,
+  waiting_for_base,
+  paused,
+  stopping
+};
 /// Text for the operator.
 std::string_view to_string(MissionPhase phase);
 
@@ -67,6 +79,14 @@ class Mission {
   void pause();
   void resume();
   [[nodiscard]] bool paused() const { return paused_; }
+
+  /// The action that is to be carried out where the robot stands now, handed out once; empty for none. Then
+  /// tell its end: empty, or why it failed, which ends the drive.
+  [[nodiscard]] std::string take_action();
+  void action_ended(std::string why_failed);
+  /// One has been handed out, and its end is waited for.
+  [[nodiscard]] bool awaits_action() const;
+
   /// Moves by hand at this velocity until then, as Navigation::steer() does; call only when finished().
   void steer(const BodyVelocity& wanted, Stamp until);
   /// Sets the initial pose, as Navigation::place_robot() does.
@@ -109,25 +129,35 @@ class Mission {
     std::optional<Stamp> since;  ///< arrival at the goal, or the last rest there
     std::optional<Stamp> still_since;
   };
+  /// Reached, but for what is to be done there.
+  struct AtStop {
+    std::optional<Stamp> since;
+    bool action_begun = false;
+    bool action_done = false;
+    std::string failure;  ///< of the action
+  };
   /// Holds the goal while the base has a fault.
   struct Held {};
   /// Cancelled by the operator: brakes to rest, then the goal fails.
   struct Stopping {
     std::optional<Stamp> since;
   };
-  using State = std::variant<Starting, Driving, Settling, Held, Stopping>;
+  using State = std::variant<Starting, Driving, Settling, AtStop, Held, Stopping>;
 
   [[nodiscard]] bool at_rest() const { return rest_.at_rest() || wheels_.holds(); }
   MissionEvent advance(const SensorInput& input, const NavigationStep& step);
   MissionEvent advance(Starting state, const SensorInput& input, const NavigationStep& step);
   MissionEvent advance(Driving state, const SensorInput& input, const NavigationStep& step);
   MissionEvent advance(Settling state, const SensorInput& input, const NavigationStep& step);
+  MissionEvent advance(AtStop state, const SensorInput& input, const NavigationStep& step);
   MissionEvent advance(Held state, const SensorInput& input, const NavigationStep& step);
   MissionEvent advance(Stopping state, const SensorInput& input, const NavigationStep& step);
   MissionEvent wait_to_start(const Starting& state, const SensorInput& input, const NavigationStep& step);
   /// The goals from the present one to the next that is not only passed.
   [[nodiscard]] std::vector<Goal> trip() const;
   MissionEvent end_pass();
+  MissionEvent arrive(Stamp now);
+  [[nodiscard]] bool path_ends_short() const;
   [[nodiscard]] bool is_hindered_too_long(const SensorInput& input, const NavigationStep& step);
   [[nodiscard]] double distance_to_goal_m(const PoseEstimate& estimate) const;
   MissionEvent hold(const SensorInput& input);

@@ -88,6 +88,17 @@ Goal parse_goal(const std::string& option, const std::string& text, const Places
                   text, nearest_names(text, places)));
 }
 
+std::vector<Goal> goals_of(const NamedMission& mission, const Places& places) {
+  std::vector<Goal> goals;
+  for (const MissionStop& stop : mission.stops) {
+    Goal goal = parse_goal("--mission", stop.place, places);
+    goal.wait = from_seconds(stop.wait_s);
+    goal.action = stop.action;
+    goals.push_back(std::move(goal));
+  }
+  return goals;
+}
+
 std::vector<Goal> goals_in(const std::vector<std::string>& goals, const std::string& mission,
                            const Places& places) {
   std::vector<Goal> all;
@@ -101,7 +112,8 @@ std::vector<Goal> goals_in(const std::vector<std::string>& goals, const std::str
     throw InputError(fmt::format("--mission: found '{}', wanted a mission of places.yaml: {}", mission,
                                  names.empty() ? "it has none" : names));
   }
-  for (const std::string& place : named->places) all.push_back(parse_goal("--mission", place, places));
+  const std::vector<Goal> once = goals_of(*named, places);
+  for (int i = 0; i < named->repeat; ++i) all.insert(all.end(), once.begin(), once.end());
   return all;
 }
 

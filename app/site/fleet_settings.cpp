@@ -100,6 +100,12 @@ BrokerAddress broker_address(const std::string& url) {
   return address;
 }
 
+std::vector<ActionHook> read_action_hooks(std::vector<StrictYaml> list, const std::filesystem::path& folder) {
+  std::vector<ActionHook> hooks;
+  for (StrictYaml& action : list) hooks.push_back(read_action_hook(std::move(action), folder));
+  return hooks;
+}
+
 FleetSettings read_fleet_settings(StrictYaml yaml, const std::filesystem::path& folder) {
   FleetSettings settings;
   settings.broker = yaml.text("broker");
@@ -124,9 +130,7 @@ FleetSettings read_fleet_settings(StrictYaml yaml, const std::filesystem::path& 
   if (settings.certificate_file.empty() != settings.key_file.empty())
     yaml.refuse(settings.key_file.empty() ? "certificate_file" : "key_file", "it alone",
                 "certificate_file and key_file together");
-  if (yaml.has("actions"))
-    for (StrictYaml& action : yaml.list_of_mappings("actions"))
-      settings.actions.push_back(read_action_hook(std::move(action), folder));
+  if (yaml.has("actions")) settings.actions = read_action_hooks(yaml.list_of_mappings("actions"), folder);
   yaml.finish();
   return settings;
 }
@@ -134,7 +138,11 @@ FleetSettings read_fleet_settings(StrictYaml yaml, const std::filesystem::path& 
 std::optional<FleetSettings> load_fleet_settings(const std::filesystem::path& folder) {
   StrictYaml yaml = StrictYaml::load(folder / "site.yaml");
   if (!yaml.has("fleet")) return std::nullopt;
-  return read_fleet_settings(yaml.mapping("fleet"), folder);
+  FleetSettings settings = read_fleet_settings(yaml.mapping("fleet"), folder);
+  if (!yaml.has("actions")) return settings;
+  const std::vector<ActionHook> of_site = read_action_hooks(yaml.list_of_mappings("actions"), folder);
+  settings.actions.insert(settings.actions.end(), of_site.begin(), of_site.end());
+  return settings;
 }
 
 double BatteryCurve::percent_at(double battery_v) const {

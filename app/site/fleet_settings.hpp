@@ -10,7 +10,8 @@
 
 namespace lodestar {
 
-/// A type of action that a program of the site carries out: an item of `actions`.
+/// A type of action that a program of the site carries out, for a mission or a fleet manager: an item of
+/// `actions`.
 struct ActionHook {
   std::string type;
   std::vector<std::string>
@@ -34,7 +35,11 @@ struct FleetSettings {
   std::vector<ActionHook> actions;
 };
 
-/// Of a site folder; nothing where its site.yaml has no `fleet`. load_site() has checked it before.
+/// The list `actions` of site.yaml, or of its `fleet`.
+std::vector<ActionHook> read_action_hooks(std::vector<StrictYaml> list, const std::filesystem::path& folder);
+
+/// Of a site folder, with the actions of the site itself; nothing where its site.yaml has no `fleet`.
+/// load_site() has checked it before.
 std::optional<FleetSettings> load_fleet_settings(const std::filesystem::path& folder);
 
 /// Where the broker listens.

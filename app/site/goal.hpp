@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "maps/geometry.hpp"
+#include "maps/stamp.hpp"
 
 namespace lodestar {
 
@@ -20,6 +22,8 @@ struct Goal {
   std::optional<double> max_mps = std::nullopt;
   /// The way to it is the straight line from the goal before; where that is not clear, the goal fails.
   bool on_line = false;
+  Duration wait{};     ///< to stand there before it counts as reached
+  std::string action;  ///< to be carried out there before; empty: none. See StopActions
 };
 
 }  // namespace lodestar

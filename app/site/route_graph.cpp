@@ -85,6 +85,8 @@ std::optional<std::vector<Goal>> RouteGraph::over_edges(const Vec2& from_m, cons
   goals.back().position_m = to.position_m;
   goals.back().heading_rad = to.heading_rad;
   goals.back().passes = to.passes;
+  goals.back().wait = to.wait;
+  goals.back().action = to.action;
   return goals;
 }
 

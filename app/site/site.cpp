@@ -4,9 +4,9 @@
 #include <array>
 #include <cctype>
 #include <fmt/format.h>
+#include <set>
 #include <utility>
 
-#include "app/site/fleet_settings.hpp"
 #include "app/site/places_limits.hpp"
 #include "maps/camera_file.hpp"
 #include "maps/input_error.hpp"
@@ -219,14 +219,16 @@ ChargingSettings read_charging(StrictYaml yaml, const Site& site) {
   return charging;
 }
 
-void check_actions(const FleetSettings& fleet, const Site& site) {
-  const auto charges = [](const ActionHook& hook) {
-    return hook.type == "startCharging" || hook.type == "stopCharging";
-  };
-  const auto hook = std::ranges::find_if(fleet.actions, charges);
-  if (site.charging && hook != fleet.actions.end())
-    throw InputError(site.folder / "site.yaml", 0, "a program for " + hook->type + " beside charging:",
-                     "one of them: with charging: the robot carries that action out itself");
+void check_actions(const Site& site) {
+  std::set<std::string> types;
+  for (const ActionHook& hook : site.actions) {
+    if (!types.insert(hook.type).second)
+      throw InputError(site.folder / "site.yaml", 0, "the action " + hook.type + " twice", "each once");
+    const bool charges = hook.type == "startCharging" || hook.type == "stopCharging";
+    if (site.charging && charges)
+      throw InputError(site.folder / "site.yaml", 0, "a program for " + hook.type + " beside charging:",
+                       "one of them: with charging: the robot carries that action out itself");
+  }
 }
 
 }  // namespace
@@ -257,6 +259,17 @@ Robot load_robot(const std::filesystem::path& file) {
     robot.pass_corners_within_m = yaml.number("pass_corners_within_m", 0.0, 1.0);
   yaml.finish();
   return robot;
+}
+
+std::optional<std::string> unknown_action(const Places& places, const Site& site) {
+  for (const NamedMission& mission : places.missions) {
+    for (const MissionStop& stop : mission.stops) {
+      const bool is_known = stop.action.empty() || std::ranges::find(site.actions, stop.action,
+                                                                     &ActionHook::type) != site.actions.end();
+      if (!is_known) return "the action '" + stop.action + "' in mission '" + mission.name + "'";
+    }
+  }
+  return std::nullopt;
 }
 
 Site load_site(const std::filesystem::path& folder) {
@@ -302,8 +315,14 @@ Site load_site(const std::filesystem::path& folder) {
   }
   if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
   if (yaml.has("charging")) site.charging = read_charging(yaml.mapping("charging"), site);
-  if (yaml.has("fleet"))  // kept by who asks for it
-    check_actions(read_fleet_settings(yaml.mapping("fleet"), folder), site);
+  if (yaml.has("actions")) site.actions = read_action_hooks(yaml.list_of_mappings("actions"), folder);
+  if (yaml.has("fleet")) {  // kept by who asks for it
+    const FleetSettings fleet = read_fleet_settings(yaml.mapping("fleet"), folder);
+    site.actions.insert(site.actions.end(), fleet.actions.begin(), fleet.actions.end());
+  }
+  check_actions(site);
+  if (const auto why = unknown_action(site.places, site))
+    throw InputError(folder / places_file_name, 0, *why, "one of the actions of site.yaml");
   yaml.finish();
   return site;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/site/charging_settings.hpp"
+#include "app/site/fleet_settings.hpp"
 #include "app/site/goal.hpp"
 #include "drivers/base/base_state.hpp"
 #include "maps/camera_model.hpp"
@@ -110,11 +111,15 @@ struct Site {
   std::string scanner;                 ///< where the robot's scanner is; empty when the site names none
   std::optional<BaseConnection> base;  ///< nothing when the site is for simulation only
   std::optional<ChargingSettings> charging;
+  std::vector<ActionHook> actions;  ///< that missions may ask for: those of a fleet, too
 };
 
 /// Reads `folder`/site.yaml, all files that it names, and places.yaml beside it if there is one. Throws
 /// InputError with file and line.
 Site load_site(const std::filesystem::path& folder);
+
+/// Of a mission over these places that the site has no program for, in words.
+std::optional<std::string> unknown_action(const Places& places, const Site& site);
 
 Robot load_robot(const std::filesystem::path& file);
 

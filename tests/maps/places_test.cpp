@@ -61,7 +61,7 @@ TEST(Places, are_written_as_they_are_read_one_item_a_line) {
   EXPECT_EQ(places.keep_out[0].corners_m[2], Vec2(1.0, 1.5));
   EXPECT_EQ(places.keep_out[1].name, "");
   EXPECT_EQ(places.speed_zones[0].max_mps, 0.25);
-  EXPECT_EQ(places.missions[0].places.size(), 3U);
+  EXPECT_EQ(places.missions[0].stops.size(), 3U);
   EXPECT_EQ(places_text(places), whole);
 }
 
@@ -99,6 +99,30 @@ TEST(Places, refuse_ways_that_lead_nowhere) {
   EXPECT_THAT(refusal("[\"Türe\", \"desk: \\\"A\\\"\", \"Türe\"]", "[]"), HasSubstr("found none"));
 }
 
+TEST(Places, missions_say_what_is_done_at_their_stops) {
+  const std::string stops =
+      "stops: [{place: \"Türe\", wait_s: 2.5}, {place: \"desk: \\\"A\\\"\", action: "
+      "\"pick\"}, {place: \"Türe\"}], repeat: 3";
+  const std::string text = with(whole, "places: [\"Türe\", \"desk: \\\"A\\\"\", \"Türe\"]", stops);
+  const Places places = parse_places(text, "places.yaml");
+  const NamedMission& mission = places.missions.at(0);
+  EXPECT_EQ(mission.repeat, 3);
+  EXPECT_EQ(mission.stops.at(0), (MissionStop{.place = "Türe", .wait_s = 2.5, .action = ""}));
+  EXPECT_EQ(mission.stops.at(1), (MissionStop{.place = "desk: \"A\"", .wait_s = 0.0, .action = "pick"}));
+  EXPECT_EQ(places_text(places), text);
+}
+
+TEST(Places, refuse_stops_that_are_none) {
+  const std::string list = "places: [\"Türe\", \"desk: \\\"A\\\"\", \"Türe\"]";
+  EXPECT_THAT(refusal(list, "stops: []"), HasSubstr("places.yaml:17: found none"));
+  EXPECT_THAT(refusal(list, "stops: [{place: N1}]"), HasSubstr("found 'N1', wanted the name of a place"));
+  EXPECT_THAT(refusal(list, "stops: [{place: Türe, wait_s: -1}]"), HasSubstr("wanted 0 to 86400"));
+  EXPECT_THAT(refusal(list, "stops: [{place: Türe, waits: 1}]"), HasSubstr("unknown key 'waits'"));
+  EXPECT_THAT(refusal(list, "stops: [{place: Türe, action: \"\"}]"), HasSubstr("found ''"));
+  EXPECT_THAT(refusal(list, list + ", repeat: 167"), HasSubstr("1 to 166"));
+  EXPECT_THAT(refusal(list, list + ", stops: [{place: Türe}]"), HasSubstr("unknown key"));
+}
+
 TEST(Places, refuse_polygons_that_are_none) {
   EXPECT_THAT(refusal("[1, 0], [1, 1.5]]", "[1, 0]]"), HasSubstr("places.yaml:12: found 2 corners"));
   EXPECT_THAT(refusal("[5, 6], [6, 6], [6, 5]", "[6, 6], [5, 6], [6, 5]"), HasSubstr("crossing itself"));
@@ -114,7 +138,7 @@ TEST(Places, of_a_site_that_keeps_the_older_file_move_when_they_are_first_writte
 
   const Places places = load_places(site.path());
   ASSERT_EQ(places.missions.size(), 1U);
-  EXPECT_EQ(places.missions[0].places, (std::vector<std::string>{"door", "desk"}));
+  EXPECT_EQ(places.missions[0].stops, (std::vector<MissionStop>{{.place = "door"}, {.place = "desk"}}));
   EXPECT_FALSE(fs::exists(site / "places.yaml"));  // reading changes nothing
 
   save_places(places, site.path());

@@ -74,6 +74,36 @@ TEST_F(PlacesCommands, export_and_import_keep_the_graph_and_what_the_format_has_
   EXPECT_EQ(read_text(site() / "places.yaml"), whole);
 }
 
+/// A program of the site that keeps what it is given and ends with this code.
+void write_program(const fs::path& file, const std::string& last_line) {
+  write_text(file, "#!/bin/sh\ncat >> picked\n" + last_line + "\n");
+  fs::permissions(file, fs::perms::owner_all);
+}
+
+TEST_F(PlacesCommands, a_mission_waits_acts_and_repeats) {
+  write_places(whole, "places: [\"door\", \"desk\"]",
+               "stops: [{place: desk, wait_s: 3}, {place: desk, action: pick}], repeat: 2");
+  const Ran unknown = run("replay site --mission round");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err,
+              HasSubstr("found the action 'pick' in mission 'round', wanted one of the actions"));
+
+  write_text(site() / "site.yaml",
+             read_text(site() / "site.yaml") + "actions:\n  - {type: pick, run: [./pick], timeout_s: 10}\n");
+  write_program(site() / "pick", "echo two boxes");
+  const Ran done = run("replay site --mission round --json --quiet -o out");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const std::string given = read_text(site() / "picked");
+  EXPECT_THAT(given, HasSubstr(R"("actionId":"stop-2","actionType":"pick")")) << "twice";
+  EXPECT_THAT(given, HasSubstr(R"("x":"2.5")"));
+  EXPECT_THAT(read_text(scratch_.path() / "out/summary.json"), HasSubstr("--mission 'round'"));
+
+  write_program(site() / "pick", "echo no box; exit 3");
+  const Ran failed = run("replay site --mission round --quiet -o out");
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.out, HasSubstr("pick: exit code 3: no box"));
+}
+
 TEST_F(PlacesCommands, replay_goes_to_a_place_by_name) {
   write_places(whole);
   const Ran there = run("replay site --goal desk --quiet -o out");
