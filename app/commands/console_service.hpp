@@ -31,6 +31,9 @@ class ConsoleService {
 
   [[nodiscard]] unsigned short port() const { return server_->port(); }
 
+  /// Something that happened to the robot, for the log of who drove. May be called from any thread.
+  void note(const std::string& words) { documents_.audit().note({.what = words, .document = {}}); }
+
   /// A client has saved another map.
   [[nodiscard]] bool has_new_map() const { return has_new_map_; }
 

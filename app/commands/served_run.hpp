@@ -33,7 +33,7 @@ class ServedRun {
  private:
   bool surveys_ = false;
   LiveLink link_;
-  OperatorSession session_{link_};
+  OperatorSession session_{link_, [this](const std::string& words) { service_.note(words); }};
   ConsoleService service_;
   KeptRuns runs_;
   bool all_arrived_ = true;

@@ -1,15 +1,18 @@
 #include "app/console/document_api.hpp"
 
 #include <charconv>
-#include <cstring>
 #include <fmt/format.h>
 
 #include "app/common/json_parse.hpp"
+#include "app/common/wall_clock.hpp"
 #include "app/common/whole_number.hpp"
+#include "app/console/history_json.hpp"
+#include "app/console/map_json.hpp"
 #include "app/console/page_file.hpp"
 #include "app/console/registry_edit.hpp"
 #include "app/console/registry_json.hpp"
 #include "app/placement/formats.hpp"
+#include "app/placement/installation.hpp"
 #include "app/placement/sheet.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
@@ -22,16 +25,12 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr const char* history_path = "/api/markers/history";
-constexpr const char* runs_path = "/api/runs";
 
+/// Names that people give themselves may be no UTF-8.
 HttpResponse document(const ordered_json& content) {
-  HttpResponse response{.body = content.dump()};
+  HttpResponse response{.body = content.dump(-1, ' ', false, json::error_handler_t::replace)};
   response.etag = etag_of(response.body);
   return response;
-}
-
-ordered_json pose_json(const Pose2& pose) {
-  return {{"x_m", pose.position_m.x()}, {"y_m", pose.position_m.y()}, {"yaw_deg", degrees(pose.yaw_rad)}};
 }
 
 ordered_json robot_json(const Robot& robot) {
@@ -40,26 +39,6 @@ ordered_json robot_json(const Robot& robot) {
     for (const Vec2& corner : robot.footprint->corners_m()) outline.push_back({corner.x(), corner.y()});
   }
   return {{"name", robot.name}, {"radius_m", robot.radius_m}, {"footprint_m", outline}};
-}
-
-/// Percent-decodes the text; empty when an escape is malformed or decodes to NUL.
-std::string decoded(const std::string& text) {
-  std::string plain;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      plain += text[i];
-      continue;
-    }
-    unsigned code = 0;
-    const char* const digits = text.data() + i + 1;
-    if (i + 2 >= text.size() || std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2 ||
-        code == 0) {
-      return "";
-    }
-    plain += static_cast<char>(code);
-    i += 2;
-  }
-  return plain;
 }
 
 ordered_json heights_json(const std::optional<HeightBands>& heights) {
@@ -107,11 +86,12 @@ DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::fi
     : site_(load_site(site_folder)),
       registry_file_(site_.registry_file),
       history_(registry_file_.parent_path() / ".history"),
-      runs_(runs_folder),
+      audit_(site_.folder),
+      runs_(runs_folder, site_.name),
       coverage_(site_),
-      places_(site_),
-      hanging_(site_),
-      map_(site_) {}
+      places_(site_, audit_),
+      hanging_(site_, audit_),
+      map_(site_, audit_) {}
 
 HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   const std::string& target = request.target;
@@ -131,7 +111,8 @@ HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   if (target == "/api/map/heights") response = heights();
   if (target == "/api/markers") response = markers();
   if (target.starts_with(history_path)) response = history(target);
-  if (target == runs_path || target.starts_with(std::string(runs_path) + "/")) response = runs(target);
+  if (target == "/api/log") response = document(audit_.newest());
+  if (!response) response = runs_.answer(request);
   if (!response) return refusal(404, "found no such document");
   return unless_known(*response, request);
 }
@@ -150,7 +131,10 @@ HttpResponse DocumentApi::site_document() const {
   for (const Goal& goal : site_.goals) {
     goals.push_back({{"x_m", goal.position_m.x()}, {"y_m", goal.position_m.y()}});
   }
+  ordered_json actions = ordered_json::array();
+  for (const ActionHook& hook : site_.actions) actions.push_back(hook.type);
   return document({{"name", site_.name},
+                   {"actions", actions},
                    {"robot", robot_json(site_.robot)},
                    {"start", pose_json(site_.start)},
                    {"goals", goals},
@@ -160,12 +144,9 @@ HttpResponse DocumentApi::site_document() const {
 }
 
 HttpResponse DocumentApi::map() const {
-  const OccupancyMap& map = site_.map.map;
-  return document({{"columns", map.columns},
-                   {"rows", map.rows},
-                   {"resolution_m", map.resolution_m},
-                   {"origin", pose_json(map.map_from_grid)},
-                   {"heights", heights_json(coverage_.floor().heights)}});
+  ordered_json map = map_json(site_.map.map);
+  map["heights"] = heights_json(coverage_.floor().heights);
+  return document(map);
 }
 
 std::optional<HttpResponse> DocumentApi::heights() const {
@@ -199,10 +180,15 @@ HttpResponse DocumentApi::save_markers(const HttpRequest& request) const {
     if (const std::optional<int> id = repeated_id(after)) {
       return refusal(422, fmt::format("found marker {} twice, wanted each ID once", *id));
     }
-    const std::string text = edited_registry_text(before, load_registry(registry_file_), after);
+    const MarkerRegistry present = load_registry(registry_file_);
+    const std::string text = edited_registry_text(before, present, after);
     if (text != before) {
-      history_.keep(before);
+      const int state = history_.keep(before);
       write_file_atomically(registry_file_, text);
+      audit_.note({.by = name_of(request),
+                   .what = "saved the markers: " + changes_in_words(present, after),
+                   .document = "markers",
+                   .state = state});
       if (on_saved_) on_saved_(after);
     }
   } catch (const InputError& error) {
@@ -213,7 +199,7 @@ HttpResponse DocumentApi::save_markers(const HttpRequest& request) const {
 
 HttpResponse DocumentApi::history(const std::string& target) const {
   const std::string rest = target.substr(std::string(history_path).size());
-  if (rest.empty()) return document(history_.numbers());
+  if (rest.empty()) return document(history_json(history_, audit_, "markers"));
   int number = 0;
   const char* const end = rest.data() + rest.size();
   const auto [stop, error] = std::from_chars(rest.data() + 1, end, number);
@@ -221,24 +207,6 @@ HttpResponse DocumentApi::history(const std::string& target) const {
   const std::optional<std::string> text = history_.text(number);
   if (!text) return refusal(404, "found no such state");
   return document(registry_json(parse_markers(*text, MarkerFormat::lodestar, "history")));
-}
-
-HttpResponse DocumentApi::runs(const std::string& target) const {
-  const std::string rest = target.substr(std::string(runs_path).size());
-  if (rest.empty()) return document(runs_.names());
-  const std::size_t picture = rest.find("/pictures/");
-  try {
-    if (picture != std::string::npos) {
-      const std::optional<std::string> jpeg = runs_.picture(decoded(rest.substr(1, picture - 1)),
-                                                            rest.substr(picture + std::strlen("/pictures/")));
-      if (!jpeg) return refusal(404, "found no such picture");
-      return {.content_type = "image/jpeg", .body = *jpeg, .etag = etag_of(*jpeg)};
-    }
-    const std::optional<ordered_json> run = runs_.run(decoded(rest.substr(1)));
-    return run ? document(*run) : refusal(404, "found no such run");
-  } catch (const InputError& error) {
-    return refusal(422, error.what());
-  }
 }
 
 HttpResponse DocumentApi::post(const HttpRequest& request) const {
@@ -249,6 +217,12 @@ HttpResponse DocumentApi::post(const HttpRequest& request) const {
     if (request.target == "/api/markers/deviations") {
       return {.body =
                   coverage_.deviations(site_, registry_from_json(request.body), request.cancelled).dump()};
+    }
+    if (request.target == "/api/markers/plan") {
+      const std::string day = utc_text().substr(0, std::string_view("2026-11-26").size());
+      return {.body = json{{"text", installation_csv(registry_from_json(request.body), site_.map.map,
+                                                     site_.name, day)}}
+                          .dump(-1, ' ', false, json::error_handler_t::replace)};
     }
     const json body = parse_json(request.body);
     if (request.target == "/api/markers/export") return exported(body);

@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <functional>
 
+#include "app/console/audit_log.hpp"
 #include "app/console/document_history.hpp"
 #include "app/console/hanging_api.hpp"
 #include "app/console/map_api.hpp"
 #include "app/console/places_api.hpp"
-#include "app/console/run_archive.hpp"
+#include "app/console/runs_api.hpp"
 #include "app/console/site_coverage.hpp"
 #include "app/net/http.hpp"
 #include "app/site/site.hpp"
@@ -24,17 +25,18 @@ namespace lodestar {
 ///   GET  /api/map/heights          of an OctoMap: four bytes a cell, little-endian
 ///   GET  /api/markers              the registry
 ///   PUT  /api/markers              saves it, with If-Match: 412 when someone else saved
-///   GET  /api/markers/history      numbers of earlier versions
+///   GET  /api/markers/history      earlier versions: [{number, at, by}], the newest first
 ///   GET  /api/markers/history/N    one of them
 ///   POST /api/markers/check        the issues of a draft
 ///   POST /api/markers/deviations   expected standard deviation of a fix under a draft
 ///   POST /api/markers/export       {format, registry} -> {text}
 ///   POST /api/markers/import       {name, text} -> a registry
 ///   POST /api/markers/print        {ids, paper} -> a PDF
+///   POST /api/markers/plan         where a draft's markers hang -> {text}: the table of `markers plan`
 ///   /api/places..., /api/routes    what people name on the map: PlacesApi
 ///   /api/hanging...                what hangs already: HangingApi
-///   GET  /api/runs                 names of runs;  /api/runs/NAME  one of them
-///   GET  /api/runs/NAME/pictures/T.jpg
+///   GET  /api/log                  who drove and who saved: AuditLog
+///   /api/runs..., /api/heat        former runs: RunsApi
 ///
 /// Documents have an ETag; GET with If-None-Match gives 304. Anything else is 404.
 class DocumentApi {
@@ -63,6 +65,9 @@ class DocumentApi {
 
   [[nodiscard]] const Site& site() const { return site_; }
 
+  /// Who drove and who saved.
+  [[nodiscard]] AuditLog& audit() const { return audit_; }
+
  private:
   [[nodiscard]] HttpResponse site_document() const;
   [[nodiscard]] HttpResponse map() const;
@@ -71,13 +76,13 @@ class DocumentApi {
   [[nodiscard]] HttpResponse markers() const;
   HttpResponse save_markers(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse history(const std::string& target) const;
-  [[nodiscard]] HttpResponse runs(const std::string& target) const;
   [[nodiscard]] HttpResponse post(const HttpRequest& request) const;
 
   Site site_;
   std::filesystem::path registry_file_;
   DocumentHistory history_;
-  RunArchive runs_;
+  mutable AuditLog audit_;
+  RunsApi runs_;
   std::function<void(const MarkerRegistry&)> on_saved_;
   SiteCoverage coverage_;
   PlacesApi places_;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/common/wall_clock.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 
@@ -64,13 +65,20 @@ std::optional<std::string> DocumentHistory::text(int number) const {
   return read_document(file_of(number));
 }
 
-void DocumentHistory::keep(const std::string& text) const {
+int DocumentHistory::keep(const std::string& text) const {
   std::error_code exists;
   fs::create_directories(folder_, exists);
   std::vector<int> all = numbers();
   const int next = all.empty() ? 1 : all.front() + 1;
   write_file_atomically(file_of(next), text);
   for (std::size_t i = most_kept - 1; i < all.size(); ++i) fs::remove(file_of(all[i]));
+  return next;
+}
+
+std::string DocumentHistory::ended(int number) const {
+  std::error_code none;
+  const fs::file_time_type time = fs::last_write_time(file_of(number), none);
+  return none ? "" : utc_text(std::chrono::file_clock::to_sys(time));
 }
 
 fs::path DocumentHistory::file_of(int number) const {

@@ -33,12 +33,15 @@ class DocumentHistory {
   /// Numbers of the versions kept, newest first.
   [[nodiscard]] std::vector<int> numbers() const;
 
+  /// When a version was saved over, in UTC; empty for a number that is not kept.
+  [[nodiscard]] std::string ended(int number) const;
+
   /// Nothing for a number that is not kept.
   [[nodiscard]] std::optional<std::string> text(int number) const;
 
-  /// Keeps a text under the next number and deletes the oldest beyond 50. Throws InputError when it cannot be
-  /// written.
-  void keep(const std::string& text) const;
+  /// Keeps a text under the next number, which it returns, and deletes the oldest beyond 50. Throws
+  /// InputError when it cannot be written.
+  int keep(const std::string& text) const;
 
  private:
   [[nodiscard]] std::filesystem::path file_of(int number) const;

@@ -1,12 +1,12 @@
 #include "app/console/hanging_api.hpp"
 
 #include <charconv>
-#include <chrono>
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/common/base64.hpp"
 #include "app/common/json_parse.hpp"
+#include "app/common/wall_clock.hpp"
 #include "app/console/document_history.hpp"
 #include "app/placement/hanging.hpp"
 #include "app/placement/installation.hpp"
@@ -41,11 +41,6 @@ ordered_json marker_json(const MarkerRegistry& registry, const RegisteredMarker&
             {"right", metres(walls.right_m)},
             {"below", metres(walls.below_m)},
             {"above", metres(walls.above_m)}}}};
-}
-
-std::string now_text() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                     std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
 }
 
 /// The whole number that the text is.
@@ -117,8 +112,9 @@ HttpResponse HangingApi::set(int id, const HttpRequest& request) const {
   if (std::ranges::find(registry.markers, id, &RegisteredMarker::id) == registry.markers.end())
     return refusal(422, fmt::format("found marker {}, which is not among the saved ones", id));
   std::map<int, HungMarker> hung = load_hanging(site_.folder);
-  hung[id] = {.state = *state, .by = by, .at = now_text()};
+  hung[id] = {.state = *state, .by = by, .at = utc_text()};
   save_hanging(hung, site_.folder);
+  audit_.note({.by = by, .what = fmt::format("marker {}: {}", id, word), .document = {}});
   return list();
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "app/console/audit_log.hpp"
 #include "app/net/http.hpp"
 #include "app/site/site.hpp"
 
@@ -20,7 +21,7 @@ namespace lodestar {
 class HangingApi {
  public:
   /// `site` must outlive this. Photos are kept in photos/ of its folder.
-  explicit HangingApi(const Site& site) : site_(site) {}
+  HangingApi(const Site& site, AuditLog& audit) : site_(site), audit_(audit) {}
 
   /// Nothing for another document.
   [[nodiscard]] std::optional<HttpResponse> answer(const HttpRequest& request) const;
@@ -33,6 +34,7 @@ class HangingApi {
   [[nodiscard]] std::filesystem::path photo_file(int id) const;
 
   const Site& site_;
+  AuditLog& audit_;
 };
 
 }  // namespace lodestar

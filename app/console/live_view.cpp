@@ -18,11 +18,6 @@ constexpr std::size_t most_previews = 8;  ///< that wait; later ones wait in the
 
 enum Slot : int { state_slot, path_slot, picture_slot, preview_slot, survey_slot, seen_slot };
 
-/// "client 2", or "client 2 (Ada)".
-std::string in_words(int client, const std::string& name) {
-  return name.empty() ? fmt::format("client {}", client) : fmt::format("client {} ({})", client, name);
-}
-
 bool is_for_once(const std::string& type) {
   return type == "place" || type == "clear_fault";
 }
@@ -54,6 +49,7 @@ LiveView::LiveView(const Site& site, LiveLink* link, const LiveSurvey* survey, c
       link_(link),
       survey_(survey),
       registry_(site.registry),
+      places_(site.places),
       routes_(site.places, site.robot.max_forward_mps),
       options_(options),
       preview_(std::make_unique<const PathPreview>(site, site.places)),
@@ -103,7 +99,7 @@ std::optional<std::string> LiveView::handle(Client& client, const std::string& t
                                             Stamp now) {
   if (link_ == nullptr) return "no robot is connected";
   if (type == "stop") {
-    link_->stop();
+    link_->stop(in_words(client.number, client.name));
     return std::nullopt;
   }
   if (type == "camera") {
@@ -187,45 +183,6 @@ std::optional<std::string> LiveView::answer_request(const Client& driver, const 
   return std::nullopt;
 }
 
-std::optional<std::string> LiveView::give_order(const Client& client, const std::string& type,
-                                                const json& message) {
-  Order order{.by = in_words(client.number, client.name), .what = PauseOrder{}};
-  if (type == "hold") return std::nullopt;
-  if (type == "go") {
-    order.what = go_order(message);
-  } else if (type == "charge") {
-    if (!site_.charging) return "found no charging in site.yaml: the robot has no dock";
-    order.what = ChargeOrder{};
-  } else if (type == "resume") {
-    order.what = ResumeOrder{};
-  } else if (type == "clear_fault") {
-    order.what = ClearFaultOrder{};
-  } else if (type == "place") {
-    order.what = PlaceOrder{pose_from_json(message.at("pose"))};
-  } else if (type == "steer") {
-    order.what = SteerOrder{velocity_from_json(message)};
-  } else if (type != "pause") {
-    return "found an unknown message type";
-  }
-  if (link_->give(std::move(order))) return std::nullopt;
-  return "too many orders are still waiting for the robot";
-}
-
-LiveView::Wish LiveView::wish_from(const json& message) {
-  return {.goals = goals_from_json(message.at("goals")), .along_routes = message.value("routes", false)};
-}
-
-/// Throws InputError where no edges lead there.
-GoOrder LiveView::go_order(const json& message) const {
-  const Wish wish = wish_from(message);
-  const bool is_more = message.value("more", false);
-  if (!wish.along_routes) return {.goals = wish.goals, .is_more = is_more};
-  if (!estimate_) throw InputError("the robot does not know where it is");
-  const Vec2 from_m = is_more ? last_goal_m_.value_or(estimate_->map_from_base.position_m)
-                              : estimate_->map_from_base.position_m;
-  return {.goals = routes_.over_edges(from_m, wish.goals), .is_more = is_more};
-}
-
 void LiveView::pump(Stamp now, const RobotState* fresh) {
   if (fresh != nullptr) show(*fresh, now);
   show_camera(now);
@@ -295,6 +252,7 @@ void LiveView::take_markers(const MarkerRegistry& saved) {
 
 void LiveView::take_places(const Places& saved) {
   saved_places_ = saved;
+  places_ = saved;
   routes_ = RouteGraph(saved, site_.robot.max_forward_mps);
   tell_saved("places");
 }

@@ -24,6 +24,9 @@ struct LiveViewOptions {
   Duration seen_period = std::chrono::milliseconds(200);    ///< of what the scanner sees
 };
 
+/// A client for people: "client 2", or "client 2 (Ada)".
+std::string in_words(int client, const std::string& name);
+
 /// The page's own subprotocol, `lodestar.v1`: JSON both ways, pictures as binary messages (see
 /// CameraPicture).
 ///
@@ -40,10 +43,10 @@ struct LiveViewOptions {
 ///   ask                                   asks the driver for it
 ///   hand_over {client}, keep {client}     the driver's answer
 ///   clear_fault, place {pose}             while no other client has the lease; they take none
-///   go {goals, routes, more}, charge, pause, resume, steer {forward_mps, turn_degps}    only from the client
-///   that has the lease
+///   go {goals or mission, routes, more}, charge, pause, resume, steer {forward_mps, turn_degps}    only from
+///   the client that has the lease
 /// `routes`, which may be left out: true for a way along the edges of the site's places; `more`: likewise,
-/// behind the goals of the present drive.
+/// behind the goals of the present drive; `mission`: the name of a saved one, with what is done at its stops.
 class LiveView : public LiveChannel {
  public:
   /// `link`: null when no robot is connected. `survey`: the one under way; null when there is none. All must
@@ -106,12 +109,14 @@ class LiveView : public LiveChannel {
   [[nodiscard]] nlohmann::ordered_json preview_of(const Wish& wish,
                                                   const std::optional<PoseEstimate>& robot) const;
   static Wish wish_from(const nlohmann::json& message);
+  [[nodiscard]] Wish order_from(const nlohmann::json& message) const;
   [[nodiscard]] GoOrder go_order(const nlohmann::json& message) const;
 
   const Site& site_;
   LiveLink* link_;
   const LiveSurvey* survey_;
   MarkerRegistry registry_;
+  Places places_;  ///< as saved
   RouteGraph routes_;
   LiveViewOptions options_;
   std::unique_ptr<const PathPreview> preview_;  ///< once constructed, only the worker uses it

@@ -7,6 +7,7 @@
 #include "app/common/base64.hpp"
 #include "app/common/json_parse.hpp"
 #include "app/console/document_history.hpp"
+#include "app/console/history_json.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -60,6 +61,7 @@ HttpResponse MapApi::save(const HttpRequest& request) const {
     keep_present();
     save_map(after, site_.map_file, site_.map.info.other_keys);
     is_saved_ = true;
+    audit_.note({.by = name_of(request), .what = "saved the map", .document = {}});
     on_saved_();
   }
   return {.body = "{}"};

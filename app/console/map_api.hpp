@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/console/audit_log.hpp"
 #include "app/net/http.hpp"
 #include "app/site/site.hpp"
 
@@ -18,7 +19,7 @@ namespace lodestar {
 class MapApi {
  public:
   /// `site` must outlive this.
-  explicit MapApi(const Site& site) : site_(site) {}
+  MapApi(const Site& site, AuditLog& audit) : site_(site), audit_(audit) {}
 
   /// Nothing for another document.
   [[nodiscard]] std::optional<HttpResponse> answer(const HttpRequest& request) const;
@@ -32,6 +33,7 @@ class MapApi {
   void keep_present() const;
 
   const Site& site_;
+  AuditLog& audit_;
   std::function<void()> on_saved_;
   mutable std::atomic<bool> is_saved_ = false;
 };

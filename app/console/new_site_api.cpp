@@ -73,7 +73,7 @@ std::string png_of(const cv::Mat& gray) {
   return {bytes.begin(), bytes.end()};
 }
 
-ordered_json map_json(const OccupancyMap& map) {
+ordered_json map_with_cells_json(const OccupancyMap& map) {
   return {{"columns", map.columns},
           {"rows", map.rows},
           {"resolution_m", map.resolution_m},
@@ -180,7 +180,7 @@ ordered_json NewSiteApi::map_of(const json& sent) const {
     const json& sides = sent.at("hall_m");
     if (!sides.is_array() || sides.size() != 2) throw InputError("hall_m: wanted [width, height]");
     const OccupancyMap hall = empty_hall(sides[0].get<double>(), sides[1].get<double>(), options.cell_m);
-    return {{"map", map_json(hall)}, {"warnings", ordered_json::array()}};
+    return {{"map", map_with_cells_json(hall)}, {"warnings", ordered_json::array()}};
   }
   if (sheet_.gray.empty()) throw InputError("found no plan, wanted one first");
   options.rotate_rad = radians(number_in(sent, "rotate_deg", -360.0, 360.0));
@@ -188,7 +188,7 @@ ordered_json NewSiteApi::map_of(const json& sent) const {
   PlanSheet scaled = sheet_;
   scaled.metres_per_px = number_in(sent, "metres_per_px", 1e-6, 1000.0);
   const MapFromPlan made = map_from_sheet(scaled, options);
-  return {{"map", map_json(made.map)}, {"warnings", made.warnings}};
+  return {{"map", map_with_cells_json(made.map)}, {"warnings", made.warnings}};
 }
 
 ordered_json NewSiteApi::make(const json& sent) {

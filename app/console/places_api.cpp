@@ -3,6 +3,7 @@
 #include <charconv>
 #include <utility>
 
+#include "app/console/history_json.hpp"
 #include "app/console/places_json.hpp"
 #include "app/console/routes.hpp"
 #include "app/placement/places_check.hpp"
@@ -18,7 +19,7 @@ constexpr const char* routes_path = "/api/routes";
 constexpr const char* places_history_path = "/api/places/history";
 
 HttpResponse tagged_document(const ordered_json& content, const std::string& etag) {
-  return {.body = content.dump(), .etag = etag};
+  return {.body = content.dump(-1, ' ', false, ordered_json::error_handler_t::replace), .etag = etag};
 }
 
 HttpResponse refused(const PlacesRefusal& why) {
@@ -35,8 +36,10 @@ std::variant<Places, PlacesRefusal> sent_places(const HttpRequest& request, cons
   }
 }
 
-/// Without it the site could not be loaded again.
-std::optional<PlacesRefusal> dock_missing(const Places& places, const Site& site) {
+/// With it the site could not be loaded again.
+std::optional<PlacesRefusal> site_refuses(const Places& places, const Site& site) {
+  if (const std::optional<std::string> action = unknown_action(places, site))
+    return PlacesRefusal{"found " + *action + ", wanted one of the actions of site.yaml", "", 0};
   if (!site.charging || charging_at(site.charging, places)) return std::nullopt;
   return PlacesRefusal{
       "found no place '" + site.charging->place + "' with a heading, wanted it: the robot charges there", "",
@@ -45,7 +48,8 @@ std::optional<PlacesRefusal> dock_missing(const Places& places, const Site& site
 
 }  // namespace
 
-PlacesApi::PlacesApi(const Site& site) : site_(site), history_(site.folder / ".history" / "places") {}
+PlacesApi::PlacesApi(const Site& site, AuditLog& audit)
+    : site_(site), audit_(audit), history_(site.folder / ".history" / "places") {}
 
 std::optional<HttpResponse> PlacesApi::answer(const HttpRequest& request) const {
   const std::string& target = request.target;
@@ -76,10 +80,12 @@ HttpResponse PlacesApi::save(const HttpRequest& request, const Places& before) c
   const auto sent = sent_places(request, before, site_.robot);
   if (const auto* why = std::get_if<PlacesRefusal>(&sent)) return refused(*why);
   const Places& after = std::get<Places>(sent);
-  if (const auto why = dock_missing(after, site_)) return refused(*why);
+  if (const auto why = site_refuses(after, site_)) return refused(*why);
   if (places_text(after) != text_before) {
-    history_.keep(text_before);
+    const int state = history_.keep(text_before);
     save_places(after, site_.folder);
+    audit_.note(
+        {.by = name_of(request), .what = "saved places and zones", .document = "places", .state = state});
     if (on_saved_) on_saved_(after);
   }
   return request.target == routes_path ? routes() : places();
@@ -89,7 +95,7 @@ HttpResponse PlacesApi::save(const HttpRequest& request, const Places& before) c
 HttpResponse PlacesApi::check(const HttpRequest& request) const {
   auto sent = places_from_json(request.body, site_.robot);
   if (const auto* why = std::get_if<PlacesRefusal>(&sent)) return refused(*why);
-  if (const auto why = dock_missing(std::get<Places>(sent), site_)) return refused(*why);
+  if (const auto why = site_refuses(std::get<Places>(sent), site_)) return refused(*why);
   Site draft = site_;
   draft.places = std::move(std::get<Places>(sent));
   ordered_json issues = ordered_json::array();
@@ -98,7 +104,7 @@ HttpResponse PlacesApi::check(const HttpRequest& request) const {
 }
 
 HttpResponse PlacesApi::history(const std::string& rest) const {
-  if (rest.empty()) return tagged_document(history_.numbers(), "");
+  if (rest.empty()) return tagged_document(history_json(history_, audit_, "places"), "");
   int number = 0;
   const char* const end = rest.data() + rest.size();
   const auto [stop, error] = std::from_chars(rest.data() + 1, end, number);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/console/audit_log.hpp"
 #include "app/console/document_history.hpp"
 #include "app/net/http.hpp"
 #include "app/site/site.hpp"
@@ -14,13 +15,13 @@ namespace lodestar {
 ///
 ///   GET  /api/places               all of it as JSON; PUT saves it, with If-Match: 412 when someone else
 ///                                  saved, 422 with the item to blame
-///   GET  /api/places/history       numbers of earlier versions;  /api/places/history/N  one of them
+///   GET  /api/places/history       earlier versions, as of markers;  /api/places/history/N  one of them
 ///   POST /api/places/check         the issues of a draft, as of `lodestar places check`
 ///   GET  /api/routes               places and missions only; PUT likewise
 class PlacesApi {
  public:
-  /// `site` must outlive this. Earlier versions are kept in .history/places of its folder.
-  explicit PlacesApi(const Site& site);
+  /// Both must outlive this. Earlier versions are kept in .history/places of the site's folder.
+  PlacesApi(const Site& site, AuditLog& audit);
 
   /// Nothing for another document.
   [[nodiscard]] std::optional<HttpResponse> answer(const HttpRequest& request) const;
@@ -36,6 +37,7 @@ class PlacesApi {
   [[nodiscard]] HttpResponse history(const std::string& rest) const;
 
   const Site& site_;
+  AuditLog& audit_;
   DocumentHistory history_;
   std::function<void(const Places&)> on_saved_;
 };

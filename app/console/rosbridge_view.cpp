@@ -223,7 +223,7 @@ void RosbridgeView::drive_to(Client& client, const Goal& goal, const Drive& driv
 
 void RosbridgeView::cancel(Client& client) {
   client.drive->is_cancelled = true;
-  link_.stop();
+  link_.stop("a program of ROS");
 }
 
 void RosbridgeView::end_drive(Client& client, int status, const std::string& why) {

@@ -8,8 +8,14 @@
 
 #include "app/common/rounding.hpp"
 #include "app/console/document_history.hpp"
+#include "app/console/map_json.hpp"
+#include "app/console/registry_json.hpp"
+#include "app/console/run_facts.hpp"
+#include "app/recording/run_origin.hpp"
 #include "maps/geometry.hpp"
 #include "maps/input_error.hpp"
+#include "maps/map_file.hpp"
+#include "maps/path_kind.hpp"
 
 namespace lodestar {
 namespace {
@@ -20,8 +26,8 @@ using nlohmann::ordered_json;
 constexpr std::size_t most_rows = 20'000;
 
 bool is_run(const fs::directory_entry& entry) {
-  return !entry.is_symlink() && entry.is_directory() && fs::is_regular_file(entry.path() / "summary.json") &&
-         fs::is_regular_file(entry.path() / "estimate.tum");
+  return !entry.is_symlink() && entry.is_directory() &&
+         (is_complete(entry.path()) || is_file(entry.path() / "run.yaml"));
 }
 
 /// Names of a run's pictures, in the order of their stamps. Files of more than 4 MiB are ignored.
@@ -89,9 +95,9 @@ std::vector<std::string> RunArchive::names() const {
   std::vector<std::pair<fs::file_time_type, std::string>> runs;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, none)) {
-    if (is_run(entry))
-      runs.emplace_back(fs::last_write_time(entry.path() / "summary.json", none),
-                        entry.path().filename().string());
+    if (!is_run(entry)) continue;
+    const fs::path newest = entry.path() / (is_complete(entry.path()) ? "summary.json" : "run.yaml");
+    runs.emplace_back(fs::last_write_time(newest, none), entry.path().filename().string());
   }
   std::ranges::sort(runs);
   std::vector<std::string> names;
@@ -99,19 +105,71 @@ std::vector<std::string> RunArchive::names() const {
   return names;
 }
 
+RunArchive::Known& RunArchive::known(const std::string& name) const {
+  const fs::path folder = folder_ / name;
+  std::error_code none;
+  const fs::file_time_type written = fs::last_write_time(folder / "summary.json", none);
+  const auto found = known_.find(name);
+  if (found != known_.end() && found->second.written == written) return found->second;
+  Known fresh{.written = written, .facts = {{"name", name}}, .heat = std::nullopt};
+  try {
+    fresh.facts = facts_of_run(folder);
+  } catch (const InputError& error) {
+    fresh.facts["why"] = error.what();
+  } catch (const nlohmann::json::exception& error) {
+    fresh.facts["why"] = error.what();
+  }
+  return known_.insert_or_assign(name, std::move(fresh)).first->second;
+}
+
+ordered_json RunArchive::list() const {
+  ordered_json runs = ordered_json::array();
+  const std::vector<std::string> present = names();
+  for (const std::string& name : present) runs.push_back(known(name).facts);
+  std::erase_if(known_,
+                [&](const auto& item) { return std::ranges::find(present, item.first) == present.end(); });
+  return runs;
+}
+
+ordered_json RunArchive::heat(const std::string& site) const {
+  constexpr std::size_t most_runs = 50;
+  RunHeat all;
+  std::size_t runs = 0;
+  std::vector<std::string> newest = names();
+  std::ranges::reverse(newest);
+  for (const std::string& name : newest) {
+    Known& one = known(name);
+    if (!one.facts.contains("site") || one.facts["site"] != site || !is_complete(folder_ / name)) continue;
+    if (runs == most_runs) break;
+    try {
+      if (!one.heat) one.heat.emplace().add(run(name).value());
+    } catch (const std::exception&) {
+      one.heat.emplace();  // a run that cannot be read says nothing; opening it says why
+    }
+    all.add(*one.heat);
+    ++runs;
+  }
+  ordered_json heat = all.json();
+  heat["runs"] = runs;
+  return heat;
+}
+
 std::optional<fs::path> RunArchive::folder_of(const std::string& name) const {
   const std::vector<std::string> all = names();
   const auto found = std::ranges::find(all, name);
-  if (found == all.end()) return std::nullopt;
+  if (found == all.end() || !is_complete(folder_ / *found)) return std::nullopt;
   return folder_ / *found;
 }
 
 std::optional<ordered_json> RunArchive::run(const std::string& name) const {
   const std::optional<fs::path> folder = folder_of(name);
   if (!folder) return std::nullopt;
-  const ordered_json summary = ordered_json::parse(read_document(*folder / "summary.json"), nullptr, false);
-  if (summary.is_discarded()) throw InputError(*folder / "summary.json", 0, "broken JSON", "a summary");
-  ordered_json run{{"name", name}, {"summary", summary}};
+  ordered_json run{
+      {"name", name}, {"started", nullptr}, {"summary", summary_of_run(*folder / "summary.json")}};
+  if (const std::optional<RunOrigin> origin = origin_if_any(*folder)) run["started"] = origin->started;
+  const bool has_site = is_file(*folder / map_of_run) && is_file(*folder / markers_of_run);
+  run["map"] = has_site ? map_json(load_map(*folder / map_of_run).map) : ordered_json(nullptr);
+  run["registry"] = has_site ? registry_json(load_registry(*folder / markers_of_run)) : ordered_json(nullptr);
   const auto add = [&](const char* which, const char* extension, auto read) {
     const fs::path file = *folder / (std::string(which) + extension);
     run[which] =
@@ -123,6 +181,13 @@ std::optional<ordered_json> RunArchive::run(const std::string& name) const {
   add("fixes", ".csv", numbers_json);
   run["pictures"] = pictures_in(*folder);
   return run;
+}
+
+std::optional<std::string> RunArchive::cells(const std::string& name) const {
+  const std::optional<fs::path> folder = folder_of(name);
+  if (!folder || !is_file(*folder / map_of_run)) return std::nullopt;
+  const OccupancyMap map = load_map(*folder / map_of_run).map;
+  return std::string(map.cells.begin(), map.cells.end());
 }
 
 std::optional<std::string> RunArchive::picture(const std::string& name, const std::string& picture) const {

@@ -18,6 +18,17 @@ std::vector<Order> LiveLink::take_orders() {
   return std::exchange(orders_, {});
 }
 
+std::string LiveLink::stopped_by() {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  return lock ? std::exchange(stopped_by_, {}) : "";
+}
+
+void LiveLink::stop(std::string by) {
+  stop_.store(true);  // before the lock, which the name alone needs
+  const std::lock_guard lock(mutex_);
+  stopped_by_ = std::move(by);
+}
+
 std::optional<RobotState> LiveLink::newest() {
   const std::lock_guard lock(mutex_);
   return std::exchange(state_, std::nullopt);

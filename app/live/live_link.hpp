@@ -3,6 +3,7 @@
 #include <atomic>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/live/order.hpp"
@@ -24,6 +25,8 @@ class LiveLink {
   [[nodiscard]] std::vector<Order> take_orders();
   /// Was a stop requested since the last call?
   [[nodiscard]] bool take_stop() { return stop_.exchange(false); }
+  /// Who requested the newest; empty where nobody said, or while the other thread holds the lock.
+  [[nodiscard]] std::string stopped_by();
   /// Does a client hold the control lease at this time of monotonic_now()?
   [[nodiscard]] bool is_held(Stamp now) const { return now.time_since_epoch().count() < held_until_.load(); }
 
@@ -34,8 +37,8 @@ class LiveLink {
   [[nodiscard]] std::optional<RobotState> newest();
   /// False when the queue is full.
   [[nodiscard]] bool give(Order order);
-  /// Not queued, so it is never refused.
-  void stop() { stop_.store(true); }
+  /// Not queued, so it is never refused. `by`: who, in words.
+  void stop(std::string by = {});
   void hold_until(Stamp stamp) { held_until_.store(stamp.time_since_epoch().count()); }
 
  private:
@@ -45,6 +48,7 @@ class LiveLink {
   std::mutex mutex_;  ///< of all below
   std::optional<RobotState> state_;
   std::vector<Order> orders_;
+  std::string stopped_by_;
 };
 
 }  // namespace lodestar

@@ -49,7 +49,8 @@ void OperatorSession::apply_orders(Mission& mission, BaseDriver& base, Stamp now
   if (link_.take_stop()) {
     forget_next("stopped before it began");
     mission.stop();
-    say(now, "stop");
+    const std::string by = link_.stopped_by();
+    say(now, by.empty() ? "stop" : by + ": stop");
   }
   if (by_console_ && !mission.finished() && !mission.paused() && !link_.is_held(clock)) {
     mission.pause();

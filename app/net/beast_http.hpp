@@ -31,6 +31,7 @@ inline HttpRequest head_of(const Parser& parser) {
           .origin = text(fields[http::field::origin]),
           .content_type = text(fields[http::field::content_type]),
           .console_header = text(fields["X-Lodestar"]),
+          .client_name = text(fields["X-Lodestar-Name"]),
           .authorization = text(fields[http::field::authorization]),
           .cookie = text(fields[http::field::cookie]),
           .if_match = text(fields[http::field::if_match]),

@@ -17,6 +17,7 @@ struct HttpRequest {
   std::string origin;  ///< empty when the client sent none
   std::string content_type;
   std::string console_header;  ///< X-Lodestar: pages of other origins cannot send it unasked
+  std::string client_name;     ///< X-Lodestar-Name, percent-encoded: what the client's user goes by
   std::string authorization;
   std::string cookie;
   std::string if_match;

@@ -13,7 +13,7 @@ const usualHeightM = 2.6;
 const proposedIds = 8;
 
 export class Actions {
-  constructor(private readonly editor: Editor, private readonly coverage: Coverage, private readonly say: (words: string) => void) {}
+  constructor(private readonly editor: Editor, private readonly coverage: Coverage, private readonly say: (words: string, bad?: boolean) => void) {}
 
   private picker(): IdPicker { return new IdPicker([...this.editor.markers.values()].map((m) => m.id)); }
 
@@ -38,6 +38,14 @@ export class Actions {
     if (!place) return this.say('The robot sees a marker from every position where it can be');
     this.addAll([place]);
     this.say('Placed a marker where it closes most of the gaps');
+  }
+
+  /** A marker that the robot sees at this spot, and at as many badly covered ones as possible. */
+  suggestNear(spot: Point): void {
+    const place = this.coverage.suggestionNear(spot, this.usualHeight());
+    if (!place) return this.say('No position on the ceiling is seen from there at the height of the other markers', true);
+    this.addAll([place]);
+    this.say('Placed a marker that the robot sees there; undo takes it away, Save keeps it');
   }
 
   /** Adds markers, few by a greedy search, until every position sees the wanted number. */

@@ -1,7 +1,8 @@
 // The server's documents. A refused request throws a Refusal with the server's message.
 import { base64 } from './base64.js';
 import type { Registry } from './editor.js';
-import type { ListName, PlacesDocument } from './places_doc.js';
+import { myName } from './my_name.js';
+import type { ListName, NamedMission, PlacesDocument } from './places_doc.js';
 
 export class Refusal extends Error {
   /** `item`: of the document sent, that is to blame. */
@@ -10,6 +11,7 @@ export class Refusal extends Error {
 
 export interface Site {
   name: string;
+  actions: string[];  // that a mission may have carried out at its stops
   robot: { name: string; radius_m: number; footprint_m: [number, number][] | null };  // the outline; null for a disc
   start: { x_m: number; y_m: number; yaw_deg: number };
   goals: { x_m: number; y_m: number }[];
@@ -44,7 +46,7 @@ async function request(method: string, target: string, body?: unknown, headers: 
   const init: RequestInit = { method, headers: { ...headers } };
   if (body !== undefined) {
     init.body = JSON.stringify(body);
-    init.headers = { ...headers, 'Content-Type': 'application/json', 'X-Lodestar': '1' };
+    init.headers = { ...headers, 'Content-Type': 'application/json', 'X-Lodestar': '1', 'X-Lodestar-Name': encodeURIComponent(myName()) };
   }
   const response = await fetch(target, init).catch(() => { throw new Refusal(0, 'the server does not answer'); });
   if (!response.ok) {
@@ -122,13 +124,17 @@ export const exportMarkers = (format: string, registry: Registry): Promise<{ tex
   json(request('POST', '/api/markers/export', { format, registry }));
 export const importMarkers = (name: string, text: string): Promise<Registry> =>
   json(request('POST', '/api/markers/import', { name, text }));
+/** The table of `lodestar markers plan`, as CSV. */
+export const planOf = (registry: Registry): Promise<{ text: string }> => json(request('POST', '/api/markers/plan', registry));
 export const printSheets = async (ids: number[], paper: string): Promise<Blob> =>
   (await request('POST', '/api/markers/print', { ids, paper })).blob();
-export const getHistory = (): Promise<number[]> => json(request('GET', '/api/markers/history'));
+/** A state of a document that was saved over: when (UTC), and by whom if that is known. */
+export interface FormerState { number: number; at: string; by: string }
+export const getHistory = (): Promise<FormerState[]> => json(request('GET', '/api/markers/history'));
 export const getFormer = (number: number): Promise<Registry> => json(request('GET', `/api/markers/history/${number}`));
 
 export interface Place { name: string; x_m: number; y_m: number; yaw_deg?: number }
-export interface Routes { format: string; version: number; places: Place[]; routes: { name: string; places: string[] }[] }
+export interface Routes { format: string; version: number; places: Place[]; routes: NamedMission[] }
 export interface TaggedRoutes { routes: Routes; etag: string }
 
 const taggedRoutes = async (response: Response): Promise<TaggedRoutes> =>
@@ -139,8 +145,24 @@ export const putRoutes = async (routes: Routes, etag: string): Promise<TaggedRou
 
 /** Seconds, x and y in metres, yaw in degrees. */
 export type Row = [number, number, number, number];
-export interface Run { name: string; summary: Record<string, unknown>; estimate: Row[]; truth: Row[]; steps: number[][]; fixes: number[][]; pictures: string[] }
-export const getRuns = (): Promise<string[]> => json(request('GET', '/api/runs'));
+export interface Run {
+  name: string; started: string | null; summary: Record<string, unknown>; map: Omit<MapInfo, 'heights'> | null; registry: Registry | null;
+  estimate: Row[]; truth: Row[]; steps: number[][]; fixes: number[][]; pictures: string[];
+}
+/** Of a run without a report all but name, started and site are null: it is under way, or its program ended in the middle. */
+export interface RunFacts {
+  name: string; started: string | null; ended: string | null; site: string | null; goals: number | null; arrived: number | null; why: string | null;
+  contacts: number | null; duration_s: number | null; driven_m: number | null; worst_error_mm: number | null; worst_3_sigma_mm: number | null;
+}
+export const getRuns = (): Promise<RunFacts[]> => json(request('GET', '/api/runs'));
+export const getCellsOfRun = async (name: string): Promise<Int8Array> =>
+  new Int8Array(await (await request('GET', `/api/runs/${encodeURIComponent(name)}/cells`)).arrayBuffer());
+/** Of each square: x and y of its middle, worst 3 sigma (mm), worst error (mm), seconds without a marker, seconds of waiting. */
+export type HeatSquare = [number, number, number, number | null, number, number];
+export interface Heat { square_m: number; squares: HeatSquare[]; runs: number }
+export const getHeat = (): Promise<Heat> => json(request('GET', '/api/heat'));
+export interface LogEntry { at: string; by: string; what: string }
+export const getLog = (): Promise<LogEntry[]> => json(request('GET', '/api/log'));
 export const pictureOfRun = (run: string, picture: string): string => `/api/runs/${encodeURIComponent(run)}/pictures/${encodeURIComponent(picture)}`;
 export const getRun = (name: string): Promise<Run> => json(request('GET', `/api/runs/${encodeURIComponent(name)}`));
 
@@ -152,5 +174,5 @@ export const getPlaces = async (): Promise<TaggedPlaces> => taggedPlaces(await r
 export const putPlaces = async (places: PlacesDocument, etag: string): Promise<TaggedPlaces> =>
   taggedPlaces(await request('PUT', '/api/places', places, { 'If-Match': etag }));
 export const checkPlaces = (places: PlacesDocument): Promise<PlacesIssue[]> => json(request('POST', '/api/places/check', places));
-export const getPlacesHistory = (): Promise<number[]> => json(request('GET', '/api/places/history'));
+export const getPlacesHistory = (): Promise<FormerState[]> => json(request('GET', '/api/places/history'));
 export const getFormerPlaces = (number: number): Promise<PlacesDocument> => json(request('GET', `/api/places/history/${number}`));

@@ -57,7 +57,7 @@ export class Console implements Page {
     this.coverage = new Coverage(floor, site);
     this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage, this.layers);
     this.pointer = new Pointer(this.stage);
-    this.replay = new Replay(this.stage, site.robot, complain);
+    this.replay = new Replay(this.stage, site, { goTo: (points) => this.goTo(points), suggestNear: (spot) => this.suggestNear(spot) }, complain);
     this.live = new Live(this.stage, site, say);
     this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.actions.suggest(),
       fill: () => attempt(() => this.actions.fill()), pickId: () => attempt(() => this.actions.pickId()) });
@@ -69,7 +69,7 @@ export class Console implements Page {
     this.stage.painters.push((c) => { if (this.layers.shown.route && this.modes.now === 'edit') paintRoutes(c, this.stage, this.routes); });
     this.places = new SitePlaces({ stage: this.stage, snap: this.pointer.snap, goTo: (points) => this.goTo(points), refresh: () => this.refreshTools(),
       hasRobot: () => this.live.hello?.robot === true, lanesAre: (there) => this.live.lanesAre(there), list: this.live.places, isOn: () => this.modes?.now === 'places',
-      shows: () => this.layers.shown.zones && this.modes?.now !== 'replay' }, site.name);
+      shows: () => this.layers.shown.zones && this.modes?.now !== 'replay' }, site.name, site.actions);
     this.commands = [...this.places.commands(), ...pageCommands(this)];
     this.makeTools();
     this.hang = new Hang(this.stage, this.live);
@@ -161,6 +161,13 @@ export class Console implements Page {
     if (points.length === 0) return;
     this.view.fit(points, 3);
     this.stage.redraw();
+  }
+
+  /** In the markers' mode, where it can be moved or undone. */
+  private suggestNear(spot: Point): void {
+    this.modes.enter('edit');
+    this.actions.suggestNear(spot);
+    this.goTo([spot]);
   }
 
   changeTheme(): void {

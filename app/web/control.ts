@@ -1,9 +1,9 @@
 // Who is at the wheel: this page's lease, when it ends, and requests for it.
 import { button, byId } from './dom.js';
 import type { State } from './live_socket.js';
+import { keepName, myName } from './my_name.js';
 
 const startsWithinMs = 3000;  // after an order; else the robot has not taken it
-const nameKey = 'lodestar-name';
 
 interface Wheel {
   readonly atWheel: boolean;
@@ -18,20 +18,22 @@ export const nameOf = (client: number, name: string): string => client < 0 ? nam
 
 export class Control {
   private wanted = false;
+  private givenBack = false;  // the newest state may not know it yet
   private hasDriven = false;
   private orderedAt = 0;
 
   constructor(private readonly wheel: Wheel) {}
 
-  get name(): string { return localStorage.getItem(nameKey) ?? ''; }
+  get name(): string { return myName(); }
   set name(name: string) {
-    localStorage.setItem(nameKey, name);
+    keepName(name);
     this.wheel.send({ type: 'name', name });
   }
 
   /** An order of a drive: takes the wheel for as long as the drive lasts. */
   order(message: Record<string, unknown>): void {
-    if (!this.wheel.atWheel) this.wheel.send({ type: 'take' });
+    if (!this.wheel.atWheel || this.givenBack) this.wheel.send({ type: 'take' });
+    this.givenBack = false;
     this.wanted = true;
     this.hasDriven = false;
     this.orderedAt = performance.now();
@@ -45,6 +47,7 @@ export class Control {
 
   release(): void {
     this.lose();
+    this.givenBack = true;
     this.wheel.send({ type: 'release' });
   }
 

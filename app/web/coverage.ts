@@ -6,6 +6,7 @@ import type { Marker, Point, Pose } from './geometry.js';
 
 const occupiedFrom = 50;
 const enoughMarkers = 2;
+const aboutSpotM = 0.25;  // a spot stands for what is around it
 
 export class Floor {
   readonly origin: Pose;
@@ -178,6 +179,28 @@ export class Coverage {
         const at = this.floor.centerOfCell(index);
         const gain = this.visibleFrom(at, z).filter((cell) => this.counts[cell] === 0).length;
         if (gain > bestGain) [best, bestGain] = [at, gain];
+      }
+    }
+    return best;
+  }
+
+  /** The position of a marker at this height that is well seen from a spot and about it, and serves the most cells that see fewer than two;
+   *  null when there is none. */
+  suggestionNear(spot: Point, z: number): Point | null {
+    const { columns, rows, resolution_m: r } = this.floor.info;
+    const at = this.floor.toGrid(spot);
+    const reach = Math.max(this.reachM(z) - aboutSpotM, 0.5 * this.reachM(z)) / r;
+    const stride = Math.max(1, Math.round(0.3 / r));
+    let best: Point | null = null;
+    let bestGain = -1;
+    for (let row = Math.max(0, Math.floor(at.y - reach)); row < Math.min(rows, at.y + reach); row += stride) {
+      for (let column = Math.max(0, Math.floor(at.x - reach)); column < Math.min(columns, at.x + reach); column += stride) {
+        const there = { x: column + 0.5, y: row + 0.5 };
+        const apart = Math.hypot(there.x - at.x, there.y - at.y);
+        if (apart > reach || !this.floor.isFree(row * columns + column) || !this.floor.sees(at, this.site.coverage.camera_height_m, there, z)) continue;
+        const middle = this.floor.centerOfCell(row * columns + column);
+        const gain = this.visibleFrom(middle, z).filter((cell) => this.counts[cell]! < enoughMarkers).length - apart / (1 + reach);
+        if (gain > bestGain) [best, bestGain] = [middle, gain];
       }
     }
     return best;

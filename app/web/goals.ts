@@ -14,13 +14,16 @@ export const goalJson = (goal: Goal): number[] => goal.yawDeg === null ? [goal.x
 /** A drag starts on a goal (moves it) or at the end of its arrow (rotates it). */
 export class Goals {
   list: Goal[] = [];
+  /** The mission that they are of, with what is done at its stops; '' where they were set otherwise. */
+  mission = '';
   onChange: () => void = () => {};
   private held: { index: number; turns: boolean } | null = null;
 
   constructor(private readonly view: View) {}
 
-  set(list: Goal[]): void {
+  set(list: Goal[], mission = ''): void {
     this.list = list;
+    this.mission = mission;
     this.onChange();
   }
 

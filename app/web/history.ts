@@ -1,12 +1,9 @@
 // Compares two versions of the registry, in words.
-import * as api from './api.js';
-import { ask, el } from './dom.js';
-import type { Editor, Registry } from './editor.js';
+import type { Registry } from './editor.js';
 
 type Entry = Registry['markers'][number];
 const byIdOf = (registry: Registry): Map<number, Entry> => new Map(registry.markers.map((m) => [m.id, m]));
 const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
-const mostLines = 200;
 
 /** One line for each marker that differs, by ID. */
 export function differences(from: Registry, to: Registry): string[] {
@@ -51,28 +48,4 @@ export function merged(base: Registry, mine: Registry, theirs: Registry): Regist
     alignment: same(base.alignment, mine.alignment) ? theirs.alignment : mine.alignment,
     markers: [...result.values()],
   };
-}
-
-/** Shows the differences between an earlier version and the present one, and loads it into the editor if wanted, without
- *  saving. */
-export async function openHistory(editor: Editor): Promise<string> {
-  const numbers = await api.getHistory();
-  if (numbers.length === 0) return 'Nothing has been saved over yet';
-  const select = el('select', { id: 'history-number' }, ...numbers.map((n) => el('option', { value: String(n) }, String(n))));
-  const words = el('p', { id: 'history-words', role: 'status' });
-  const list = el('ul', { class: 'plain', id: 'history-list' });
-  const show = async (): Promise<void> => {
-    const former = await api.getFormer(Number(select.value));
-    const lines = differences(former, editor.registry());
-    words.textContent = `Since then: ${summary(former, editor.registry())}.`;
-    list.replaceChildren(...lines.slice(0, mostLines).map((line) => el('li', {}, line)));
-  };
-  select.addEventListener('change', () => { show().catch((error: unknown) => { words.textContent = String(error); }); });
-  await show();
-  const row = el('p', {}, el('label', { for: 'history-number' }, 'Saved state '), select);
-  if (await ask('Earlier states', [el('p', {}, 'The highest number is the one before the last save.'), row, words, list],
-    [['go', 'Bring back'], ['', 'Cancel']]) !== 'go') return '';
-  const number = select.value;
-  editor.replaceAll(await api.getFormer(Number(number)));
-  return `State ${number} brought back; save to keep it`;
 }

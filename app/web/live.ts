@@ -211,7 +211,12 @@ export class Live implements Guest, Listener {
   drive(): void {
     if (this.goals.list.length === 0) return;
     this.sent = JSON.stringify(this.goals.list);
-    this.control.order({ type: 'go', goals: this.goals.list.map(goalJson), routes: this.alongRoutes });
+    this.control.order({ type: 'go', ...this.wanted(), routes: this.alongRoutes });
+  }
+
+  /** A mission by its name, so that the robot also waits and acts at its stops. */
+  private wanted(): Record<string, unknown> {
+    return this.goals.mission === '' ? { goals: this.goals.list.map(goalJson) } : { mission: this.goals.mission };
   }
 
   /** Has the user set goals for after the present drive? */
@@ -219,7 +224,7 @@ export class Live implements Guest, Listener {
 
   /** The goals come behind those of the present drive. */
   driveNext(): void {
-    this.control.order({ type: 'go', goals: this.goals.list.map(goalJson), routes: this.alongRoutes, more: true });
+    this.control.order({ type: 'go', ...this.wanted(), routes: this.alongRoutes, more: true });
     this.goals.set([]);
   }
 

@@ -10,9 +10,11 @@ import { say } from './words.js';
 
 /** A link with #t=TOKEN becomes a session; the token leaves the address bar. */
 async function useTokenOfAddress(): Promise<void> {
-  const token = new URLSearchParams(location.hash.slice(1)).get('t');
+  const parts = new URLSearchParams(location.hash.slice(1));
+  const token = parts.get('t');
   if (!token) return;
-  history.replaceState(null, '', location.pathname);
+  parts.delete('t');
+  history.replaceState(null, '', location.pathname + (parts.size > 0 ? `#${parts}` : ''));
   await api.openSession(token);
 }
 

@@ -6,6 +6,8 @@ import type { Live } from './live.js';
 import type { MapMode } from './map_mode.js';
 import type { Guest, Pointer } from './pointer.js';
 import type { Replay } from './replay.js';
+import { linkIn } from './run_link.js';
+import type { RunLink } from './run_link.js';
 import type { SitePlaces } from './site_places.js';
 import type { Stage } from './stage.js';
 import { attempt } from './words.js';
@@ -33,13 +35,15 @@ interface Parts {
 
 export class Modes {
   now: Mode = 'edit';
+  private link: RunLink | null = null;  // that the page was opened with, until it is left
   private readonly seen = new Set<Mode>();
 
   constructor(private readonly parts: Parts) {
     byId('modes').append(...titles.map(([mode, text, title]) => button(text, title, () => this.enter(mode), { id: `tool-${mode}` })));
     parts.replay.onClose = () => this.enter(parts.live.hello?.robot ? 'live' : 'edit');
-    parts.live.onRobot = () => this.enter(parts.live.hello?.survey ? 'survey' : 'live');
-    this.enter('edit');
+    parts.live.onRobot = () => { if (!this.link) this.enter(parts.live.hello?.survey ? 'survey' : 'live'); };
+    this.link = linkIn(location.hash);
+    this.enter(this.link ? 'replay' : 'edit');
   }
 
   enter(mode: Mode): void {
@@ -63,13 +67,14 @@ export class Modes {
     this.parts.refreshTools();
     stage.paintRaster();
     stage.redraw();
-    if (mode === 'replay') attempt(() => this.openReplay());
-    else if (before === 'replay') replay.leave();
+    if (mode === 'replay') return attempt(() => this.openReplay());
+    if (before === 'replay') replay.leave();
+    this.link = null;
   }
 
   private async openReplay(): Promise<string> {
     const first = !this.seen.has('replay');
-    const words = await this.parts.replay.open();
+    const words = await this.parts.replay.open(this.link);
     if (first && this.now === 'replay') this.fitAtFirst('replay');
     return words;
   }

@@ -4,7 +4,10 @@ import type { Site } from './api.js';
 import type { Command } from './commands.js';
 import { exportTo, importFrom, pickFile, printChosen, showHelp } from './dialogs.js';
 import type { Documents } from './documents.js';
-import { openHistory } from './history.js';
+import type { Floor } from './coverage.js';
+import { offerPlan } from './installation_plan.js';
+import { openLog } from './log_dialog.js';
+import { openHistory } from './marker_history.js';
 import type { Layers } from './layers.js';
 import { markerCommands } from './marker_commands.js';
 import type { MarkerTools } from './marker_commands.js';
@@ -12,6 +15,7 @@ import type { Stage } from './stage.js';
 import { attempt, say } from './words.js';
 
 export interface Page extends MarkerTools {
+  readonly floor: Floor;
   readonly site: Site;
   readonly documents: Documents;
   readonly layers: Layers;
@@ -43,9 +47,11 @@ export function pageCommands(page: Page): Command[] {
     { name: 'import', button: 'Import', title: 'read markers of another format', run: () => pickFile((file) => attempt(() => importFrom(editor, file))) },
     { name: 'export', button: 'Export', title: 'write markers in another format', run: () => attempt(() => exportTo(editor, page.site.formats)) },
     { name: 'print', button: 'Print', key: 'Ctrl+P', title: 'print sheets of the selected markers', run: () => attempt(() => printChosen(editor)) },
-    { name: 'history', button: 'History', title: 'restore an earlier version', run: () => attempt(() => openHistory(editor)) },
+    { name: 'plan', button: 'Plan', title: 'where to hang the markers, with distances to the walls', run: () => attempt(() => offerPlan(editor, page.floor, page.site.name)) },
+    { name: 'history', button: 'History', title: 'restore an earlier version', run: () => attempt(() => openHistory(editor, page.floor)) },
     { name: 'reload', button: 'Reload', title: 'reload the markers; unsaved changes are lost', run: () => attempt(() => page.documents.reload()) },
     { name: 'save', surveying: true, button: 'Save', key: 'Ctrl+S', title: 'save', run: () => attempt(() => page.documents.save()), possible: () => editor.dirty },
+    { name: 'log', everywhere: true, button: 'Log', title: 'who drove and who saved', run: () => attempt(() => openLog()) },
     { name: 'theme', everywhere: true, button: 'Light/dark', title: 'light or dark', run: () => page.changeTheme() },
     { name: 'help', everywhere: true, button: 'Help', key: '?', title: 'this help', run: () => attempt(() => showHelp(page.commands)) },
   ];

@@ -29,6 +29,8 @@ interface ListRow { row: HTMLTableRowElement; id: HTMLButtonElement; cells: HTML
 
 export class Panel {
   private shownSelection = '';
+  private issues: Issue[] = [];
+  private kind = '';  // of the issues listed; '' for all
   private readonly coverageWords = el('p', { id: 'coverage-words' });
   private readonly reason = el('p', { class: 'error', id: 'field-reason', role: 'alert' });
   private readonly rows = new Map<number, ListRow>();
@@ -120,11 +122,30 @@ export class Panel {
     const gaps = issues.filter((i) => i.kind === 'gap').length;
     this.gapWords.className = gaps === 0 ? 'fine' : 'warning';
     this.gapWords.textContent = gaps === 0 ? 'No gaps.' : `${plural(gaps, 'gap')} without any marker in view; short ones are bridged by odometry.`;
-    const worstFirst = [...issues].sort((a, b) => a.severity.localeCompare(b.severity));
+    this.issues = [...issues].sort((a, b) => a.severity.localeCompare(b.severity));
+    this.listIssues();
+  }
+
+  /** Of the chosen kind, the errors first. */
+  private listIssues(): void {
+    const { issues } = this;
+    const counts = new Map<string, number>();
+    for (const { kind } of issues) counts.set(kind, (counts.get(kind) ?? 0) + 1);
+    if (!counts.has(this.kind)) this.kind = '';
+    const choice = el('select', { id: 'issue-kind', 'aria-label': 'Kind of issue' }, el('option', { value: '' }, `all kinds (${issues.length})`),
+      ...[...counts].sort().map(([kind, count]) => el('option', { value: kind }, `${kind.replaceAll('-', ' ')} (${count})`)));
+    choice.value = this.kind;
+    choice.addEventListener('change', () => {
+      this.kind = choice.value;
+      this.listIssues();
+      byId('issue-kind').focus();
+    });
     const errors = issues.filter((i) => i.severity === 'error').length;
+    const fitting = issues.filter((i) => this.kind === '' || i.kind === this.kind);
     byId('issues').replaceChildren(
       issues.length === 0 ? el('p', { class: 'fine' }, 'None found.') : el('p', {}, `${plural(errors, 'error')}, ${plural(issues.length - errors, 'warning')}`),
-      listOf(worstFirst.slice(0, mostIssues).map((issue) => this.issueRow(issue))));
+      ...(counts.size > 1 ? [choice] : []), listOf(fitting.slice(0, mostIssues).map((issue) => this.issueRow(issue))),
+      ...(fitting.length > mostIssues ? [el('p', { class: 'faint' }, `and ${fitting.length - mostIssues} more`)] : []));
   }
 
   showUnchecked(why: string): void {

@@ -3,6 +3,13 @@ import { getRoutes, putRoutes } from './api.js';
 import type { Routes } from './api.js';
 import { ask, button, byId, el } from './dom.js';
 import type { Goal, Goals } from './goals.js';
+import { stopsOf } from './places_doc.js';
+import type { NamedMission } from './places_doc.js';
+
+function wordsOf(mission: NamedMission): string {
+  const stops = stopsOf(mission).map((stop) => `${stop.place}${stop.wait_s === undefined ? '' : ` (${stop.wait_s} s)`}${stop.action === undefined ? '' : ` (${stop.action})`}`);
+  return `${stops.join(' → ')}${mission.repeat === undefined ? '' : `, ${mission.repeat} times`}`;
+}
 
 export class Places {
   private routes: Routes = { format: 'lodestar-routes', version: 1, places: [], routes: [] };
@@ -36,23 +43,23 @@ export class Places {
       const place = this.routes.places.find((p) => p.name === name);
       return place && { x: place.x_m, y: place.y_m, yawDeg: place.yaw_deg ?? null };
     };
-    const line = (name: string, words: string, goals: (Goal | undefined)[], remove: () => void) => el('li', { class: 'place' },
-      button(name, words, () => this.goals.set(goals.filter((g) => g !== undefined))),
+    const line = (name: string, words: string, goals: (Goal | undefined)[], remove: () => void, mission = '') => el('li', { class: 'place' },
+      button(name, words, () => this.goals.set(goals.filter((g) => g !== undefined), mission)),
       button('×', `Remove ${name}`, () => this.attempt(() => this.removeIfWanted(name, remove)), { 'aria-label': `Remove ${name}` }));
     byId('places').replaceChildren(
       el('ul', { class: 'plain' },
         ...this.routes.places.map((p) => line(p.name, 'Use this place as the goal', [goalOf(p.name)], () => this.forgetPlace(p.name))),
-        ...this.routes.routes.map((r) => line(`${r.name}: ${r.places.join(' → ')}`, 'Use this route', r.places.map(goalOf),
-          () => { this.routes.routes = this.routes.routes.filter((other) => other !== r); }))),
+        ...this.routes.routes.map((r) => line(`${r.name}: ${wordsOf(r)}`, 'Set the goals of this mission; Drive also waits and acts at its stops', stopsOf(r).map((stop) => goalOf(stop.place)),
+          () => { this.routes.routes = this.routes.routes.filter((other) => other !== r); }, r.name))),
       el('div', { class: 'row' },
         button('Keep as place', 'Keep the last goal under a name', () => this.attempt(() => this.keepPlace()), { id: 'place-keep' }),
-        button('Keep as route', 'Keep all goals, in order, under a name', () => this.attempt(() => this.keepRoute()), { id: 'route-keep' })));
+        button('Keep as mission', 'Keep all goals, in order, under a name; Zones has waits, actions and repetitions', () => this.attempt(() => this.keepRoute()), { id: 'route-keep' })));
   }
 
   /** Saved at once, so it is asked for. */
   private async removeIfWanted(name: string, remove: () => void): Promise<void> {
-    const routes = this.routes.routes.filter((r) => r.places.includes(name)).map((r) => r.name);
-    const words = routes.length > 0 ? `The routes over it go too: ${routes.join(', ')}.` : 'Earlier states of all places stay in the history (Zones).';
+    const routes = this.routes.routes.filter((r) => stopsOf(r).some((stop) => stop.place === name)).map((r) => r.name);
+    const words = routes.length > 0 ? `The missions over it go too: ${routes.join(', ')}.` : 'Earlier states of all places stay in the history (Zones).';
     if (await ask(`Remove ${name}?`, [el('p', {}, words)], [['go', 'Remove'], ['', 'Keep']]) !== 'go') return;
     remove();
     this.save();
@@ -60,7 +67,7 @@ export class Places {
 
   private forgetPlace(name: string): void {
     this.routes.places = this.routes.places.filter((p) => p.name !== name);
-    this.routes.routes = this.routes.routes.filter((r) => !r.places.includes(name));
+    this.routes.routes = this.routes.routes.filter((r) => !stopsOf(r).some((stop) => stop.place === name));
   }
 
   private async nameFor(what: string): Promise<string> {
@@ -87,7 +94,7 @@ export class Places {
 
   private async keepRoute(): Promise<void> {
     if (this.goals.list.length < 2) return this.say('Set two or more goals first: Shift+click on the map', true);
-    const name = await this.nameFor('route');
+    const name = await this.nameFor('mission');
     if (!name) return;
     const same = (g: Goal) => this.routes.places.find((p) => p.x_m === g.x && p.y_m === g.y && (p.yaw_deg ?? null) === g.yawDeg);
     const places = this.goals.list.map((goal, i) => {

@@ -20,11 +20,18 @@ export interface PlacesDocument {
   edges: { from: string; to: string; one_way?: boolean; max_mps?: number }[];
   keep_out: { name?: string; corners_m: [number, number][] }[];
   speed_zones: { name?: string; corners_m: [number, number][]; max_mps: number }[];
-  missions: { name: string; places: string[] }[];
+  missions: NamedMission[];
 }
+/** Names alone, or with what is done at each stop; all of it `repeat` times. */
+export interface NamedMission { name: string; places?: string[]; stops?: { place: string; wait_s?: number; action?: string }[]; repeat?: number }
+export const stopsOf = (mission: NamedMission): { place: string; wait_s?: number; action?: string }[] => mission.stops ?? (mission.places ?? []).map((place) => ({ place }));
+
 export type ListName = 'places' | 'nodes' | 'edges' | 'keep_out' | 'speed_zones';
 
-export interface State { readonly items: readonly Item[]; readonly missions: readonly { name: string; places: number[] }[] }
+export interface Stop { readonly place: number; readonly waitS: number; readonly action: string }
+/** Places are keys of spots, so that a mission follows when they are renamed. */
+export interface MissionItem { readonly key: number; readonly name: string; readonly stops: readonly Stop[]; readonly repeat: number }
+export interface State { readonly items: readonly Item[]; readonly missions: readonly MissionItem[] }
 
 export const isZone = (item: Item): item is Zone => item.kind === 'keep_out' || item.kind === 'speed_zone';
 export const isSpot = (item: Item): item is Spot => item.kind === 'place' || item.kind === 'node';
@@ -105,9 +112,9 @@ export class PlacesEditor {
   /** With its lanes, and the routes over it; in words what went with it. */
   remove(key: number): string {
     const lanes = this.state.items.filter((i) => isLane(i) && (i.from === key || i.to === key));
-    const routes = this.state.missions.filter((m) => m.places.includes(key));
+    const routes = this.state.missions.filter((m) => m.stops.some((stop) => stop.place === key));
     this.perform({ items: this.state.items.filter((i) => i.key !== key && !lanes.includes(i)), missions: this.state.missions.filter((m) => !routes.includes(m)) });
-    const with_ = [...(lanes.length > 0 ? [`${lanes.length} of its lanes`] : []), ...routes.map((r) => `the route ${r.name}`)];
+    const with_ = [...(lanes.length > 0 ? [`${lanes.length} of its lanes`] : []), ...routes.map((r) => `the mission ${r.name}`)];
     return with_.length > 0 ? `Deleted, with ${with_.join(' and ')}; undo brings them back` : 'Deleted; undo brings it back';
   }
 
@@ -144,7 +151,7 @@ export class PlacesEditor {
       edges: of<Lane>('edge').map((e) => ({ from: names.get(e.from)!, to: names.get(e.to)!, ...(e.oneWay ? { one_way: true } : {}), ...(e.maxMps === null ? {} : { max_mps: e.maxMps }) })),
       keep_out: of<Zone>('keep_out').map(zone),
       speed_zones: of<Zone>('speed_zone').map((z) => ({ ...zone(z), max_mps: z.maxMps! })),
-      missions: state.missions.map((m) => ({ name: m.name, places: m.places.map((key) => names.get(key)!) })),
+      missions: state.missions.map((m) => missionOf(m, names)),
     };
   }
 
@@ -156,6 +163,24 @@ export class PlacesEditor {
     const corners = (list: [number, number][]) => list.map(([x, y]) => ({ x: tidy(x), y: tidy(y) }));
     const out = document.keep_out.map((z): Zone => ({ key: this.key(), kind: 'keep_out', name: z.name ?? '', corners: corners(z.corners_m), maxMps: null }));
     const slow = document.speed_zones.map((z): Zone => ({ key: this.key(), kind: 'speed_zone', name: z.name ?? '', corners: corners(z.corners_m), maxMps: z.max_mps }));
-    return { items: [...place, ...node, ...lanes, ...out, ...slow], missions: document.missions.map((m) => ({ name: m.name, places: m.places.map((name) => keys.get(name)!) })) };
+    return { items: [...place, ...node, ...lanes, ...out, ...slow], missions: document.missions.map((m) => ({ key: this.key(), name: m.name, repeat: m.repeat ?? 1,
+      stops: stopsOf(m).map((stop) => ({ place: keys.get(stop.place)!, waitS: stop.wait_s ?? 0, action: stop.action ?? '' })) })) };
   }
+
+  /** Replaces the mission with its key, or adds it. */
+  setMission(mission: MissionItem): void {
+    const { missions } = this.state;
+    const isThere = missions.some((m) => m.key === mission.key);
+    this.perform({ ...this.state, missions: isThere ? missions.map((m) => m.key === mission.key ? mission : m) : [...missions, mission] });
+  }
+
+  removeMission(key: number): void { this.perform({ ...this.state, missions: this.state.missions.filter((m) => m.key !== key) }); }
+}
+
+/** As the file has it: names alone where nothing is done at the stops. */
+function missionOf(mission: MissionItem, names: Map<number, string>): NamedMission {
+  const repeat = mission.repeat > 1 ? { repeat: mission.repeat } : {};
+  const name = (stop: Stop) => names.get(stop.place)!;
+  if (mission.stops.every((stop) => stop.waitS === 0 && stop.action === '')) return { name: mission.name, places: mission.stops.map(name), ...repeat };
+  return { name: mission.name, stops: mission.stops.map((stop) => ({ place: name(stop), ...(stop.waitS > 0 ? { wait_s: stop.waitS } : {}), ...(stop.action === '' ? {} : { action: stop.action }) })), ...repeat };
 }

@@ -3,7 +3,7 @@ import type { PlacesDocument } from './places_doc.js';
 
 type Entry = Record<string, unknown>;
 const lists = ['places', 'nodes', 'edges', 'keep_out', 'speed_zones', 'missions'] as const;
-const words: Record<typeof lists[number], string> = { places: 'place', nodes: 'node', edges: 'lane', keep_out: 'keep-out', speed_zones: 'speed zone', missions: 'route' };
+const words: Record<typeof lists[number], string> = { places: 'place', nodes: 'node', edges: 'lane', keep_out: 'keep-out', speed_zones: 'speed zone', missions: 'mission' };
 
 /** What makes an item the same in two versions: its name, the ends of a lane; of a zone without a name all of it. */
 const identity = (entry: Entry): string => entry['from'] !== undefined ? `${String(entry['from'])} → ${String(entry['to'])}` : entry['name'] !== undefined ? String(entry['name']) : JSON.stringify(entry);

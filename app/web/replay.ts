@@ -1,13 +1,19 @@
-// Plays back a run folder on the map: track, robot pose over time, plots and camera pictures, with a time
-// bar.
+// Plays back a run folder on the map that it was driven on: track, robot pose over time, plots, events and camera pictures,
+// with a time bar; a second run beside it.
 import { getRun, getRuns, pictureOfRun } from './api.js';
-import type { Row, Run } from './api.js';
+import type { Row, Run, Site } from './api.js';
 import { button, byId, el, positive } from './dom.js';
+import { HeatLayer } from './heat_layer.js';
+import type { HeatActions } from './heat_layer.js';
 import { DrivePlots } from './plots.js';
 import { poseAt } from './poses.js';
-import { drawRobot, drawWay, inkNow } from './robot_paint.js';
-import type { RobotShape } from './robot_paint.js';
-import { columnsOf, lastNotAfter } from './run_plots.js';
+import { drawEllipse, drawRobot, drawWay, inkNow } from './robot_paint.js';
+import { linkTo } from './run_link.js';
+import type { RunLink } from './run_link.js';
+import { RunEvents } from './run_events.js';
+import { RunList } from './run_list.js';
+import { columnsOf, covarianceAt, lastNotAfter } from './run_plots.js';
+import { sceneOf } from './run_scene.js';
 import { showSummary } from './run_summary.js';
 import type { Stage } from './stage.js';
 
@@ -17,6 +23,7 @@ const speeds = ['0.2', '1', '2', '5', '10', '50'];
 export class Replay {
   time = 0;
   run: Run | null = null;
+  second: Run | null = null;
   onClose: () => void = () => {};
   private opened = false;
   private watching = 0;
@@ -26,6 +33,10 @@ export class Replay {
   private plots: DrivePlots | null = null;
   private columns: (number | null)[][] = [[]];
   private shownPicture = '';
+  private wanted: RunLink | null = null;
+  private readonly list = new RunList({ open: (name) => { this.load(name).catch(this.fail); }, beside: (name) => { this.loadSecond(name).catch(this.fail); } });
+  private readonly events = new RunEvents((time) => this.settleAt(time));
+  private readonly heat: HeatLayer;
   private readonly runs = el('select', { 'aria-label': 'Run' });
   private readonly slider = el('input', { type: 'range', min: '0', step: '0.01', value: '0', 'aria-label': 'Time' });
   private readonly speed = el('select', { 'aria-label': 'Speed' }, ...speeds.map((s) => el('option', { value: s }, `${s} ×`)));
@@ -34,20 +45,24 @@ export class Replay {
   private readonly noPicture = el('p', { class: 'faint' }, 'No pictures: lodestar replay --pictures 2 keeps two per second');
   private readonly picture = el('img', { id: 'replay-picture', alt: 'Camera picture of that time', hidden: '' });
 
-  constructor(private readonly stage: Stage, private readonly robot: RobotShape, private readonly fail: (error: unknown) => void) {
+  constructor(private readonly stage: Stage, private readonly site: Site, heatActions: HeatActions, private readonly fail: (error: unknown) => void) {
+    this.heat = new HeatLayer(stage, heatActions);
     byId('replay').append(this.runs, this.play, this.slider, this.speed, this.words,
       button('Close', 'Close the playback', () => this.onClose()));
     byId('picture-box').append(this.picture, this.noPicture);
     this.speed.value = '1';
     this.runs.addEventListener('change', () => { this.load(this.runs.value).catch(this.fail); });
     this.slider.addEventListener('input', () => this.goTo(this.slider.valueAsNumber));
+    this.slider.addEventListener('change', () => this.keepLink());
     addEventListener('keydown', (e) => this.key(e));
     stage.painters.push((c) => this.paint(c));
   }
 
-  /** Shows the bar with the latest run, or reports that there is none; new runs are added as they appear. */
-  async open(): Promise<string> {
+  /** Shows the bar with the latest run, or the one that is wanted, or reports that there is none; new runs are added as they
+   *  appear. */
+  async open(wanted: RunLink | null = null): Promise<string> {
     this.opened = true;
+    this.wanted = wanted;
     clearInterval(this.watching);
     this.watching = setInterval(() => { this.look().catch(this.fail); }, lookEveryMs);
     await this.look();
@@ -55,25 +70,38 @@ export class Replay {
   }
 
   private async look(): Promise<void> {
-    const names = await getRuns();
-    if (!this.opened || names.length === 0 || names.join() === this.listed) return;
-    this.listed = names.join();
-    const chosen = this.run?.name ?? names.at(-1)!;
+    const runs = await getRuns();
+    const listed = JSON.stringify(runs);
+    if (!this.opened || listed === this.listed) return;
+    this.listed = listed;
+    this.list.show(runs);
+    const names = runs.filter((run) => run.goals !== null).map((run) => run.name);
+    if (names.length === 0) return;
+    this.heat.load().catch(this.fail);
+    const { wanted } = this;
+    if (wanted && !names.includes(wanted.run)) this.fail(new Error(`There is no run '${wanted.run}' any more`));
+    const chosen = this.run?.name ?? (wanted && names.includes(wanted.run) ? wanted.run : names.at(-1)!);
     this.runs.replaceChildren(...names.map((name) => el('option', { value: name }, name)));
     this.runs.value = chosen;
     if (this.run) return;
     byId('replay').hidden = byId('replay-plots').hidden = false;
-    this.plots ??= new DrivePlots(byId('replay-plots'), (time) => this.goTo(time));
+    this.plots ??= new DrivePlots(byId('replay-plots'), (time) => this.settleAt(time));
     await this.load(chosen);
+    this.wanted = null;
+    if (wanted?.run !== chosen) return;
+    if (wanted.at !== null) this.settleAt(wanted.at);
+    if (wanted.beside !== null && names.includes(wanted.beside)) await this.loadSecond(wanted.beside);
   }
 
   leave(): void {
     this.opened = false;
     clearInterval(this.watching);
     this.listed = '';
-    this.run = null;
+    this.run = this.second = null;
     this.playing = false;
+    this.stage.scene = null;
     byId('replay').hidden = byId('replay-plots').hidden = true;
+    linkTo(null);
     this.stage.redraw();
   }
 
@@ -82,17 +110,43 @@ export class Replay {
     this.slider.value = String(this.time);
     this.words.textContent = this.report();
     this.plots?.tell(lastNotAfter(this.columns[0]!, this.time), true);
+    this.events.mark(this.time);
     this.showPicture();
     this.stage.redrawOverlay();
   }
 
+  /** Of the robot standing at a time that somebody chose: the address leads there. */
+  private settleAt(time: number): void {
+    this.goTo(time);
+    this.keepLink();
+  }
+
+  private keepLink(): void {
+    if (this.run) linkTo({ run: this.run.name, at: this.time, beside: this.second?.name ?? null });
+  }
+
   private async load(name: string): Promise<void> {
-    this.run = await getRun(name);
+    const run = await getRun(name);
+    const { scene, words } = await sceneOf(run, this.stage, this.site);
+    if (!this.opened) return;
+    this.run = run;
+    if (this.second?.name === name) this.second = null;
+    this.stage.scene = scene;
+    this.runs.value = name;
+    this.list.mark(name, this.second?.name ?? null);
+    this.events.show(run, this.start());
     [this.slider.min, this.slider.max] = [String(Math.floor(100 * this.start()) / 100), String(this.end())];
-    this.columns = columnsOf(this.run);
+    this.columns = columnsOf(run);
     this.plots?.set(this.columns);
-    showSummary(this.run);
-    this.goTo(this.start());
+    showSummary(run, words);
+    this.stage.redraw();
+    this.settleAt(this.start());
+  }
+
+  private async loadSecond(name: string | null): Promise<void> {
+    this.second = name === null ? null : await getRun(name);
+    this.list.mark(this.run?.name ?? '', name);
+    this.settleAt(this.time);
   }
 
   /** Stamps continue from drive to drive, so a run does not start at zero. */
@@ -104,8 +158,8 @@ export class Replay {
     if (!this.run || onControl) return;
     const step = e.shiftKey ? 5 : 0.5;
     if (e.key === ' ' || e.key === 'p') this.toggle();
-    else if (e.key === 'ArrowLeft') this.goTo(this.time - step);
-    else if (e.key === 'ArrowRight') this.goTo(this.time + step);
+    else if (e.key === 'ArrowLeft') this.settleAt(this.time - step);
+    else if (e.key === 'ArrowRight') this.settleAt(this.time + step);
     else return;
     e.preventDefault();
   }
@@ -115,6 +169,7 @@ export class Replay {
     this.play.textContent = this.playing ? 'Pause' : 'Play';
     if (this.playing && this.time >= this.end()) this.goTo(this.start());
     this.lastFrame = performance.now();
+    if (!this.playing) this.keepLink();
     if (this.playing) requestAnimationFrame((now) => this.advance(now));
   }
 
@@ -144,18 +199,31 @@ export class Replay {
     const truth = poseAt(this.run?.truth ?? [], this.time);
     if (!estimate) return '';
     const place = `${this.time.toFixed(1)} of ${this.end().toFixed(1)} s: ${estimate[1].toFixed(3)}, ${estimate[2].toFixed(3)} m, ${positive(estimate[3].toFixed(1))}°`;
-    if (!truth) return place;
-    return `${place}; error ${(1000 * Math.hypot(estimate[1] - truth[1], estimate[2] - truth[2])).toFixed(1)} mm`;
+    const error = truth ? `; error ${(1000 * Math.hypot(estimate[1] - truth[1], estimate[2] - truth[2])).toFixed(1)} mm` : '';
+    const other = this.secondNow();
+    return place + error + (other ? `; ${this.second!.name} is ${Math.hypot(estimate[1] - other[1], estimate[2] - other[2]).toFixed(2)} m away` : '');
+  }
+
+  /** Where the second run was as long after its start. */
+  private secondNow(): Row | null {
+    const begun = this.second?.estimate[0]?.[0];
+    return begun === undefined ? null : poseAt(this.second!.estimate, begun + this.time - this.start());
   }
 
   private paint(c: CanvasRenderingContext2D): void {
     if (!this.run) return;
     const colours = inkNow();
     const { view } = this.stage;
+    this.heat.paint(c);
     const points = (rows: Row[]) => rows.map(([, x, y]) => ({ x, y }));
     drawWay(c, view, points(this.run.truth), colours.truth, 1.5, [4, 4]);
     drawWay(c, view, points(this.run.estimate), colours.track, 2);
     const pose = poseAt(this.run.estimate, this.time);
-    if (pose) drawRobot(c, view, { x: pose[1], y: pose[2], yawDeg: pose[3] }, this.robot, colours.robot);
+    const covariance = covarianceAt(this.run, this.time);
+    if (pose && covariance) drawEllipse(c, view, { x: pose[1], y: pose[2] }, covariance, colours.goal);
+    const other = this.secondNow();
+    if (this.second) drawWay(c, view, points(this.second.estimate), colours.preview, 2, [8, 4]);
+    if (other) drawRobot(c, view, { x: other[1], y: other[2], yawDeg: other[3] }, this.site.robot, colours.preview);
+    if (pose) drawRobot(c, view, { x: pose[1], y: pose[2], yawDeg: pose[3] }, this.site.robot, colours.robot);
   }
 }

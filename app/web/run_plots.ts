@@ -4,6 +4,7 @@ import { poseAt } from './poses.js';
 
 const mostRows = 1500;
 const seenForS = 0.5;
+const covarianceFrom = 10;  // columns of steps.csv
 
 /** Rows of time, 3 sigma (mm), error (mm), commanded, driven (m/s), confidence, markers, as for DrivePlots. */
 export function columnsOf(run: Run): (number | null)[][] {
@@ -25,6 +26,20 @@ function errorAt(truth: Row[], time: number, x: number, y: number): number | nul
   if (truth.length === 0 || time < truth[0]![0] || time > truth.at(-1)![0]) return null;
   const pose = poseAt(truth, time)!;
   return 1000 * Math.hypot(pose[1] - x, pose[2] - y);
+}
+
+/** Of the position at a time, as xx, xy, yy (m²); null of runs that did not keep it. */
+export function covarianceAt(run: Run, time: number): [number, number, number] | null {
+  let low = 0;
+  let high = run.steps.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (run.steps[middle]![0]! <= time) low = middle;
+    else high = middle - 1;
+  }
+  const step = run.steps[low];
+  if (!step || step.length < covarianceFrom + 3) return null;
+  return [step[covarianceFrom]!, step[covarianceFrom + 1]!, step[covarianceFrom + 2]!];
 }
 
 /** The index of the last value that is not greater; 0 before the first. */

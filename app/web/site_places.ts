@@ -5,9 +5,11 @@ import { ask, byId, el } from './dom.js';
 import { isSpot, isZone } from './places_doc.js';
 import { PlacesEditor } from './places_doc.js';
 import type { Kind, PlacesDocument } from './places_doc.js';
-import { askAboutPlaces, changesOfPlaces, openPlacesHistory } from './places_dialogs.js';
+import { askAboutPlaces, changesOfPlaces } from './places_dialogs.js';
+import { openPlacesHistory } from './places_history.js';
 import { mergedPlaces, placesDifferences } from './places_merge.js';
 import { paintDrawing, paintPlaces } from './places_paint.js';
+import { MissionsPanel } from './missions_panel.js';
 import { PlacesPanel } from './places_panel.js';
 import { PlacesTools } from './places_tools.js';
 import { Latest } from './latest.js';
@@ -39,6 +41,7 @@ export class SitePlaces {
   readonly editor = new PlacesEditor();
   readonly tools: PlacesTools;
   private readonly panel: PlacesPanel;
+  private readonly missions: MissionsPanel;
   private base: PlacesDocument | null = null;
   private etag = '';
   private marks: Point[] = [];
@@ -47,11 +50,12 @@ export class SitePlaces {
   private readonly checking = new Latest(followEveryMs, () => this.check(), complain);
   private readonly keeping = new Latest(keepEveryMs, async () => this.keep(), complain);
 
-  constructor(private readonly host: PlacesHost, site: string) {
+  constructor(private readonly host: PlacesHost, site: string, actions: string[]) {
     const { stage } = host;
     this.draftKey = `lodestar-places-draft: ${site}`;
     this.tools = new PlacesTools(this.editor, stage.view, host.snap, () => this.redraw(), say);
     this.panel = new PlacesPanel(this.editor, { add: (kind) => this.addByNumbers(kind), goTo: (points) => host.goTo(points), remove: () => this.remove() });
+    this.missions = new MissionsPanel(this.editor, actions);
     this.editor.onChange = () => this.changed();
     stage.painters.push((c) => {
       if (!host.shows()) return;
@@ -71,6 +75,7 @@ export class SitePlaces {
   private changed(): void {
     this.redraw();
     this.panel.show();
+    this.missions.show();
     this.keeping.want();
     if (this.host.isOn()) this.judge();
   }
@@ -128,7 +133,7 @@ export class SitePlaces {
       { name: 'places-back', placing: true, key: 'Backspace', onMap: true, title: 'Places: take back the last corner', run: () => tools.takeBack() },
       { name: 'places-none', placing: true, key: 'Escape', title: 'Places: end drawing; clear the selection', run: () => this.escape() },
       { name: 'places-delete', placing: true, button: 'Delete', key: 'Delete', title: 'Places: delete the selection, or its chosen corner (with the map in focus)', run: () => this.removeOrCorner(), possible: any },
-      { name: 'places-history', placing: true, button: 'History', title: 'Places: restore an earlier version', run: () => attempt(() => openPlacesHistory(editor)) },
+      { name: 'places-history', placing: true, button: 'History', title: 'Places: restore an earlier version', run: () => attempt(() => openPlacesHistory(editor, this.host.stage.floor)) },
       { name: 'places-reload', placing: true, button: 'Reload', title: 'Places: reload them from the site', run: () => attempt(() => this.reload()) },
       { name: 'places-save', placing: true, button: 'Save', key: 'Ctrl+S', title: 'Places: save', run: () => attempt(() => this.save()), possible: () => editor.dirty },
       ...nudges,

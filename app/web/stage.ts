@@ -21,6 +21,8 @@ export class Stage {
   /** Drawing callbacks for the overlay. */
   painters: ((c: CanvasRenderingContext2D) => void)[] = [];
   showsSelection = true;
+  /** Shown in place of the site's map and markers: those that a run was driven on. */
+  scene: { floor: FloorPaint; markers: Marker[] } | null = null;
   readonly floorPaint: FloorPaint;
   private shift: Point = { x: 0, y: 0 };
   private readonly floorLayer: CanvasRenderingContext2D;
@@ -71,7 +73,10 @@ export class Stage {
   }
 
   /** Call when coverage, theme or the floor's colouring has changed. */
-  paintRaster(): void { this.floorPaint.paint(); }
+  paintRaster(): void {
+    this.floorPaint.paint();
+    this.scene?.floor.paint();
+  }
 
   /** Draws everything with the next frame. */
   redraw(): void {
@@ -87,7 +92,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.wanted = false;
       this.shiftLayers({ x: 0, y: 0 });
-      this.floorPaint.draw(this.floorLayer, this.view);
+      (this.scene?.floor ?? this.floorPaint).draw(this.floorLayer, this.view);
       if (this.ceilingWanted) this.drawCeiling();
       this.drawOverlay();
       this.ceilingWanted = false;
@@ -118,7 +123,7 @@ export class Stage {
     c.font = '11px system-ui, sans-serif';
     c.textAlign = 'center';
     const few = this.editor.markers.size < 400;
-    for (const marker of this.editor.shown()) {
+    for (const marker of this.scene?.markers ?? this.editor.shown()) {
       const middle = view.toScreen(centerOf(marker));
       if (middle.x < -sidePx || middle.y < -sidePx || middle.x > view.width + sidePx || middle.y > view.height + sidePx) continue;
       const chosen = this.showsSelection && this.editor.selection.has(marker.key);

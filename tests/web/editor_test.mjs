@@ -1,7 +1,7 @@
 // What the editor offers beyond dragging: arrays, walls, measures, IDs, filled gaps, issues, history. Judged by the state
 // and by the saved file.
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, open, serve } from './browser.mjs';
@@ -366,6 +366,32 @@ describe('other programs and other times', () => {
     await page.getByRole('button', { name: 'Bring back' }).click();
     await stateIs(page, 'brought back');
     assert.notEqual((await page.evaluate(() => window.lodestar.marker(1887))).x, 9.5);
+  });
+
+  story('the installation plan has a line for each marker, on paper and as CSV', async (page) => {
+    await page.evaluate(() => { window.print = () => { window.printed = document.getElementById('paper').innerHTML.length; }; });
+    await page.locator('#tool-plan').click();
+    await page.getByRole('button', { name: 'Print', exact: true }).last().click();
+    await page.waitForFunction(() => window.printed > 0, undefined, { polling: 50 });
+    const count = await page.evaluate(() => window.lodestar.console.editor.markers.size);
+    assert.equal(await page.locator('#paper tbody tr').count(), count);
+    const line = await page.evaluate(() => [...document.querySelectorAll('#paper tbody tr')].find((row) => row.cells[0].textContent === '447').innerText || [...document.querySelectorAll('#paper tbody tr')].find((row) => row.cells[0].textContent === '447').textContent);
+    assert.match(line, /left: 1\.\d{3} m/);
+    assert.ok((await page.pdf()).length > 10_000);
+    await page.locator('#tool-plan').click();
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download as CSV' }).click()]);
+    const file = join(server.site, '..', download.suggestedFilename());
+    await download.saveAs(file);
+    assert.equal(readFileSync(file, 'utf8').trim().split('\n').length, count + 1);
+  });
+
+  story('issues can be narrowed down to one kind', async (page) => {
+    await page.locator('#issue-kind').waitFor();
+    const [kind, count] = await page.evaluate(() => { const o = document.querySelector('#issue-kind option:nth-child(2)'); return [o.value, Number(o.textContent.match(/\((\d+)\)/)[1])]; });
+    await page.locator('#issue-kind').selectOption(kind);
+    const shown = await page.evaluate(() => [...document.querySelectorAll('#issues button')].map((b) => b.dataset.kind));
+    assert.equal(shown.length, count);
+    assert.ok(shown.every((k) => k === kind));
   });
 
   story('a script in an imported file stays text', async (page) => {

@@ -77,7 +77,8 @@ class HangingApiTest : public testing::Test {
 
   TemporaryFolder folder_;
   Site site_;
-  HangingApi api_{site_};
+  AuditLog audit_{folder_ / "site"};
+  HangingApi api_{site_, audit_};
 };
 
 TEST_F(HangingApiTest, lists_all_saved_markers_with_the_walls_about_them) {
