@@ -11,7 +11,7 @@
 namespace lodestar {
 namespace {
 
-constexpr int turns_for_the_answer = 20;  // of 50 ms, before the server that gave it makes way for another
+constexpr int turns_for_the_answer = 40;  // of 50 ms, before the server that gave it makes way for another
 
 struct ServeArguments {
   ConsoleServiceOptions console;

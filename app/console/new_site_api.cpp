@@ -206,14 +206,18 @@ ordered_json NewSiteApi::make(const json& sent) {
                                  ceiling_m, *site.camera_height_m));
   const bool is_filled = sent.at("fill").get<bool>();
   make_site(site, folder_);
-  is_made_ = true;
-  if (!is_filled) return {{"markers", 0}, {"uncovered_m2", 0.0}, {"why", ""}};
+  ordered_json made{{"markers", 0}, {"uncovered_m2", 0.0}, {"why", ""}};
   try {
-    const Filling filling = filled(folder_, ceiling_m);
-    return {{"markers", filling.added.size()}, {"uncovered_m2", filling.uncovered_m2}, {"why", ""}};
+    if (is_filled) {
+      const Filling filling = filled(folder_, ceiling_m);
+      made["markers"] = filling.added.size();
+      made["uncovered_m2"] = filling.uncovered_m2;
+    }
   } catch (const InputError& error) {  // the site is there all the same
-    return {{"markers", 0}, {"uncovered_m2", 0.0}, {"why", error.what()}};
+    made["why"] = error.what();
   }
+  is_made_ = true;  // not before: then the server makes way for the site's own
+  return made;
 }
 
 }  // namespace lodestar
