@@ -65,6 +65,7 @@ TEST(AuditLog, of_a_console_tells_who_saved_what_and_when) {
   const TemporaryFolder folder;
   const fs::path site = folder / "site";
   fs::copy(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", site, fs::copy_options::recursive);
+  fs::remove_all(site / ".history");  // of whoever served it there
   std::optional<DocumentApi> console(std::in_place, site, folder / "runs");
   const auto get = [&](const char* target) { return console->answer({.method = "GET", .target = target}); };
   json registry = json::parse(get("/api/markers").body);
