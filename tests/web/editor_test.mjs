@@ -371,7 +371,7 @@ describe('other programs and other times', () => {
   story('the installation plan has a line for each marker, on paper and as CSV', async (page) => {
     await page.evaluate(() => { window.print = () => { window.printed = document.getElementById('paper').innerHTML.length; }; });
     await page.locator('#tool-plan').click();
-    await page.getByRole('button', { name: 'Print', exact: true }).last().click();
+    await page.getByRole('dialog').getByRole('button', { name: 'Print', exact: true }).click();
     await page.waitForFunction(() => window.printed > 0, undefined, { polling: 50 });
     const count = await page.evaluate(() => window.lodestar.console.editor.markers.size);
     assert.equal(await page.locator('#paper tbody tr').count(), count);

@@ -15,7 +15,7 @@ before(async () => {
   writeFileSync(join(place.site, 'pick'), '#!/bin/sh\ncat >> picked\necho taken\n');
   chmodSync(join(place.site, 'pick'), 0o755);
   writeFileSync(join(place.site, 'places.yaml'), 'format: lodestar-places\nversion: 1\nplaces:\n  - {name: shelf, x_m: 2.2, y_m: 5.2}\n  - {name: desk, x_m: 1.6, y_m: 5.6}\n');
-  robot = await serveRobotAt(place);
+  robot = await serveRobotAt(place, '--realtime');
   browser = await launch();
 });
 after(async () => {
