@@ -29,8 +29,8 @@ class AuditLog {
   explicit AuditLog(const std::filesystem::path& site_folder);
 
   /// Holds nobody up: it is written on a thread of its own. May be called from any thread. A line that cannot
-  /// be written, as in a site that may not be, is lost from the file, not from what is shown until the program
-  /// ends.
+  /// be written, as in a site that may not be, is lost from the file, not from what is shown until the
+  /// program ends.
   void note(AuditEntry entry);
 
   /// [{"at", "by", "what"}], the newest first.
