@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/tidy.hpp"
+#include "maps/yaml_quoting.hpp"
 
 namespace lodestar {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string quoted(const std::string& text) {
-  YAML::Emitter emitter;
-  emitter << YAML::DoubleQuoted << text;
-  return emitter.c_str();
-}
 
 std::string position_text(const Vec2& position_m) {
   return fmt::format("x_m: {}, y_m: {}", tidy(position_m.x()), tidy(position_m.y()));
@@ -25,16 +19,16 @@ std::string position_text(const Vec2& position_m) {
 
 std::string line_of(const Place& place) {
   const std::string yaw = place.yaw_rad ? fmt::format(", yaw_deg: {}", tidy(degrees(*place.yaw_rad))) : "";
-  return fmt::format("name: {}, {}{}", quoted(place.name), position_text(place.position_m), yaw);
+  return fmt::format("name: {}, {}{}", yaml_quoted(place.name), position_text(place.position_m), yaw);
 }
 
 std::string line_of(const RouteNode& node) {
-  return fmt::format("name: {}, {}", quoted(node.name), position_text(node.position_m));
+  return fmt::format("name: {}, {}", yaml_quoted(node.name), position_text(node.position_m));
 }
 
 std::string line_of(const RouteEdge& edge) {
   const std::string limit = edge.max_mps ? fmt::format(", max_mps: {}", *edge.max_mps) : "";
-  return fmt::format("from: {}, to: {}{}{}", quoted(edge.from), quoted(edge.to),
+  return fmt::format("from: {}, to: {}{}{}", yaml_quoted(edge.from), yaml_quoted(edge.to),
                      edge.one_way ? ", one_way: true" : "", limit);
 }
 
@@ -42,7 +36,7 @@ std::string zone_text(const std::string& name, const Polygon& corners_m) {
   std::string corners;
   for (const Vec2& corner : corners_m)
     corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", tidy(corner.x()), tidy(corner.y()));
-  return fmt::format("{}corners_m: [{}]", name.empty() ? "" : "name: " + quoted(name) + ", ", corners);
+  return fmt::format("{}corners_m: [{}]", name.empty() ? "" : "name: " + yaml_quoted(name) + ", ", corners);
 }
 
 std::string line_of(const KeepOut& zone) {
@@ -54,9 +48,9 @@ std::string line_of(const SpeedZone& zone) {
 }
 
 std::string text_of(const MissionStop& stop) {
-  std::string text = "{place: " + quoted(stop.place);
+  std::string text = "{place: " + yaml_quoted(stop.place);
   if (stop.wait_s > 0.0) text += fmt::format(", wait_s: {}", tidy(stop.wait_s));
-  if (!stop.action.empty()) text += ", action: " + quoted(stop.action);
+  if (!stop.action.empty()) text += ", action: " + yaml_quoted(stop.action);
   return text + "}";
 }
 
@@ -67,8 +61,8 @@ std::string line_of(const NamedMission& mission) {
   });
   std::string stops;
   for (const MissionStop& stop : mission.stops)
-    stops += (stops.empty() ? "" : ", ") + (is_plain ? quoted(stop.place) : text_of(stop));
-  return fmt::format("name: {}, {}: [{}]{}", quoted(mission.name), is_plain ? "places" : "stops", stops,
+    stops += (stops.empty() ? "" : ", ") + (is_plain ? yaml_quoted(stop.place) : text_of(stop));
+  return fmt::format("name: {}, {}: [{}]{}", yaml_quoted(mission.name), is_plain ? "places" : "stops", stops,
                      mission.repeat > 1 ? fmt::format(", repeat: {}", mission.repeat) : "");
 }
 

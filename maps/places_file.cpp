@@ -6,6 +6,7 @@
 #include "maps/places.hpp"
 #include "maps/strict_yaml.hpp"
 #include "maps/tidy.hpp"
+#include "maps/yaml_quoting.hpp"
 
 namespace lodestar {
 namespace {
@@ -28,10 +29,8 @@ bool looks_like_a_point(const std::string& name) {
 bool is_text(const std::string& name) {
   if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7f; }))
     return false;
-  YAML::Emitter emitter;
-  emitter << YAML::DoubleQuoted << name;
   try {
-    return YAML::Load(emitter.c_str()).Scalar() == name;
+    return YAML::Load(yaml_quoted(name)).Scalar() == name;
   } catch (const YAML::Exception&) {
     return false;
   }

@@ -2,19 +2,10 @@
 
 #include <fmt/core.h>
 
+#include "app/commands/shell_quoting.hpp"
 #include "app/site/arguments.hpp"
 
 namespace lodestar {
-namespace {
-
-/// As one word of a command line.
-std::string in_shell(const std::string& text) {
-  std::string word = "'";
-  for (const char letter : text) word += letter == '\'' ? "'\\''" : std::string(1, letter);
-  return word + "'";
-}
-
-}  // namespace
 
 void add_goal_options(CLI::App& command, GoalArguments& arguments, const std::string& otherwise) {
   CLI::Option* goal = command.add_option(
@@ -28,7 +19,7 @@ void add_goal_options(CLI::App& command, GoalArguments& arguments, const std::st
 }
 
 std::string words_of(const GoalArguments& arguments, const std::vector<Goal>& goals) {
-  if (!arguments.mission.empty()) return " --mission " + in_shell(arguments.mission);
+  if (!arguments.mission.empty()) return " --mission " + shell_quoted(arguments.mission);
   std::string words;
   for (const Goal& goal : goals) {
     if (goal.passes) continue;  // a point of the route graph

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/shell_quoting.hpp"
 #include "app/common/program_data.hpp"
 #include "app/site/floor_plan.hpp"
 #include "app/site/new_site.hpp"
@@ -78,12 +79,10 @@ NewSite chosen_site(const SiteNewArguments& arguments) {
 }
 
 std::string shell_word(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   const bool is_plain = word.find_first_not_of(
                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                             "0123456789_-./") == std::string::npos;
-  return is_plain ? word : text + "'";
+  return is_plain ? word : shell_quoted(word);
 }
 
 void say_next(const SiteNewArguments& arguments, const OccupancyMap& map) {

@@ -91,6 +91,32 @@ ordered_json numbers_json(const std::string& csv, const fs::path& file, std::siz
   return rows;
 }
 
+namespace {
+
+/// The content of RunArchive::run() of a run that is complete.
+ordered_json run_in(const fs::path& folder) {
+  ordered_json run{{"name", folder.filename().string()},
+                   {"started", nullptr},
+                   {"summary", summary_of_run(folder / "summary.json")}};
+  if (const std::optional<RunOrigin> origin = origin_if_any(folder)) run["started"] = origin->started;
+  const bool has_site = is_file(folder / map_of_run) && is_file(folder / markers_of_run);
+  run["map"] = has_site ? map_json(load_map(folder / map_of_run).map) : ordered_json(nullptr);
+  run["registry"] = has_site ? registry_json(load_registry(folder / markers_of_run)) : ordered_json(nullptr);
+  const auto add = [&](const char* which, const char* extension, auto read) {
+    const fs::path file = folder / (std::string(which) + extension);
+    run[which] =
+        fs::is_regular_file(file) ? read(read_document(file), file, most_rows) : ordered_json::array();
+  };
+  add("estimate", ".tum", trajectory_json);
+  add("truth", ".tum", trajectory_json);
+  add("steps", ".csv", numbers_json);
+  add("fixes", ".csv", numbers_json);
+  run["pictures"] = pictures_in(folder);
+  return run;
+}
+
+}  // namespace
+
 std::vector<std::string> RunArchive::names() const {
   std::vector<std::pair<fs::file_time_type, std::string>> runs;
   std::error_code none;
@@ -142,7 +168,7 @@ ordered_json RunArchive::heat(const std::string& site) const {
     if (!one.facts.contains("site") || one.facts["site"] != site || !is_complete(folder_ / name)) continue;
     if (runs == most_runs) break;
     try {
-      if (!one.heat) one.heat.emplace().add(run(name).value());
+      if (!one.heat) one.heat.emplace().add(run_in(folder_ / name));
     } catch (const std::exception&) {
       one.heat.emplace();  // a run that cannot be read says nothing; opening it says why
     }
@@ -163,24 +189,7 @@ std::optional<fs::path> RunArchive::folder_of(const std::string& name) const {
 
 std::optional<ordered_json> RunArchive::run(const std::string& name) const {
   const std::optional<fs::path> folder = folder_of(name);
-  if (!folder) return std::nullopt;
-  ordered_json run{
-      {"name", name}, {"started", nullptr}, {"summary", summary_of_run(*folder / "summary.json")}};
-  if (const std::optional<RunOrigin> origin = origin_if_any(*folder)) run["started"] = origin->started;
-  const bool has_site = is_file(*folder / map_of_run) && is_file(*folder / markers_of_run);
-  run["map"] = has_site ? map_json(load_map(*folder / map_of_run).map) : ordered_json(nullptr);
-  run["registry"] = has_site ? registry_json(load_registry(*folder / markers_of_run)) : ordered_json(nullptr);
-  const auto add = [&](const char* which, const char* extension, auto read) {
-    const fs::path file = *folder / (std::string(which) + extension);
-    run[which] =
-        fs::is_regular_file(file) ? read(read_document(file), file, most_rows) : ordered_json::array();
-  };
-  add("estimate", ".tum", trajectory_json);
-  add("truth", ".tum", trajectory_json);
-  add("steps", ".csv", numbers_json);
-  add("fixes", ".csv", numbers_json);
-  run["pictures"] = pictures_in(*folder);
-  return run;
+  return folder ? std::optional(run_in(*folder)) : std::nullopt;
 }
 
 std::optional<std::string> RunArchive::cells(const std::string& name) const {

@@ -7,6 +7,7 @@
 #include "maps/map_file.hpp"
 #include "maps/path_kind.hpp"
 #include "maps/strict_yaml.hpp"
+#include "maps/yaml_quoting.hpp"
 
 namespace lodestar {
 namespace {
@@ -14,16 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* file_name = "run.yaml";
-
-/// In double quotes, as YAML reads it back; a site may have any name.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') result += '\\';
-    result += static_cast<unsigned char>(letter) < ' ' ? ' ' : letter;
-  }
-  return result + '"';
-}
 
 std::uint64_t seed_in(StrictYaml& yaml) {
   const std::string text = yaml.text("seed");
@@ -45,7 +36,7 @@ void write_run_origin(const fs::path& folder, const RunOrigin& origin, const Occ
   save_registry(registry, folder / markers_of_run);
   write_file_atomically(folder / file_name,
                         fmt::format("format: lodestar-run\nversion: 1\nstarted: {}\nprogram: {}\nsite: {}\n",
-                                    origin.started, quoted(origin.program), quoted(origin.site)) +
+                                    origin.started, yaml_quoted(origin.program), yaml_quoted(origin.site)) +
                             (origin.seed ? fmt::format("seed: {}\n", *origin.seed) : ""));
 }
 

@@ -9,7 +9,7 @@ const suffixes: Record<string, string> = {
   lodestar: '.yaml', csv: '.csv', stargazer: '.yaml', apriltag: '.json', fiducial_slam: '.txt', geojson: '.geojson',
 };
 
-function download(name: string, blob: Blob): void {
+export function download(name: string, blob: Blob): void {
   const link = el('a', { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);

@@ -1,6 +1,7 @@
 // The installation plan: where each marker hangs, with the distances to the walls, to be printed and taken along, or as CSV.
 import * as api from './api.js';
 import type { Floor } from './coverage.js';
+import { download } from './dialogs.js';
 import { ask, byId, el, plural } from './dom.js';
 import type { Editor } from './editor.js';
 import { centerOf } from './geometry.js';
@@ -41,18 +42,12 @@ function picture(editor: Editor, floor: Floor): HTMLCanvasElement {
   return canvas;
 }
 
-function download(text: string): void {
-  const link = el('a', { href: URL.createObjectURL(new Blob([text], { type: 'text/csv' })), download: 'plan.csv' });
-  link.click();
-  URL.revokeObjectURL(link.href);
-}
-
 export async function offerPlan(editor: Editor, floor: Floor, site: string): Promise<string> {
   if (editor.markers.size === 0) return 'There are no markers to hang yet';
   const { text } = await api.planOf(editor.draft());
   const answer = await ask('Installation plan', [el('p', {}, `Where ${plural(editor.markers.size, 'marker')} ${editor.markers.size === 1 ? 'hangs' : 'hang'}: position and height of the centre, the way the arrow from dot O to X points, and the distances to the two nearer walls, with a map and a box to tick.`)],
     [['print', 'Print'], ['csv', 'Download as CSV'], ['', 'Cancel']]);
-  if (answer === 'csv') download(text);
+  if (answer === 'csv') download('plan.csv', new Blob([text], { type: 'text/csv' }));
   if (answer !== 'print') return '';
   const rows = rowsOf(text);
   const table = el('table', {}, el('thead', {}, el('tr', {}, ...columns.map(([name]) => el('th', { scope: 'col' }, name)))),

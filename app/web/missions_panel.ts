@@ -1,6 +1,6 @@
 // Missions: places in driving order, with how long the robot waits there and what it has done there, and how often all of it.
 import { button, byId, el } from './dom.js';
-import { isSpot } from './places_doc.js';
+import { isSpot, missionOf, missionWords } from './places_doc.js';
 import type { MissionItem, PlacesEditor, Spot, Stop } from './places_doc.js';
 
 const longestWaitS = 86_400, mostGoals = 500, longestName = 80;
@@ -32,12 +32,7 @@ export class MissionsPanel {
   }
 
   private places(): Spot[] { return this.editor.state.items.filter(isSpot).filter((s) => s.kind === 'place'); }
-  private nameOf(stop: Stop): string { return this.editor.spot(stop.place)?.name ?? '?'; }
-
-  private words(mission: MissionItem): string {
-    const stops = mission.stops.map((stop) => `${this.nameOf(stop)}${stop.waitS > 0 ? ` (${stop.waitS} s)` : ''}${stop.action === '' ? '' : ` (${stop.action})`}`);
-    return `${stops.join(' → ')}${mission.repeat > 1 ? `, ${mission.repeat} times` : ''}`;
-  }
+  private words(mission: MissionItem): string { return missionWords(missionOf(mission, new Map(this.places().map((p) => [p.key, p.name])))); }
 
   private open(key: number | null): void {
     this.opened = key;

@@ -3,13 +3,7 @@ import { getRoutes, putRoutes } from './api.js';
 import type { Routes } from './api.js';
 import { ask, button, byId, el } from './dom.js';
 import type { Goal, Goals } from './goals.js';
-import { stopsOf } from './places_doc.js';
-import type { NamedMission } from './places_doc.js';
-
-function wordsOf(mission: NamedMission): string {
-  const stops = stopsOf(mission).map((stop) => `${stop.place}${stop.wait_s === undefined ? '' : ` (${stop.wait_s} s)`}${stop.action === undefined ? '' : ` (${stop.action})`}`);
-  return `${stops.join(' → ')}${mission.repeat === undefined ? '' : `, ${mission.repeat} times`}`;
-}
+import { missionWords, stopsOf } from './places_doc.js';
 
 export class Places {
   private routes: Routes = { format: 'lodestar-routes', version: 1, places: [], routes: [] };
@@ -49,7 +43,7 @@ export class Places {
     byId('places').replaceChildren(
       el('ul', { class: 'plain' },
         ...this.routes.places.map((p) => line(p.name, 'Use this place as the goal', [goalOf(p.name)], () => this.forgetPlace(p.name))),
-        ...this.routes.routes.map((r) => line(`${r.name}: ${wordsOf(r)}`, 'Set the goals of this mission; Drive also waits and acts at its stops', stopsOf(r).map((stop) => goalOf(stop.place)),
+        ...this.routes.routes.map((r) => line(`${r.name}: ${missionWords(r)}`, 'Set the goals of this mission; Drive also waits and acts at its stops', stopsOf(r).map((stop) => goalOf(stop.place)),
           () => { this.routes.routes = this.routes.routes.filter((other) => other !== r); }, r.name))),
       el('div', { class: 'row' },
         button('Keep as place', 'Keep the last goal under a name', () => this.attempt(() => this.keepPlace()), { id: 'place-keep' }),

@@ -26,6 +26,11 @@ export interface PlacesDocument {
 export interface NamedMission { name: string; places?: string[]; stops?: { place: string; wait_s?: number; action?: string }[]; repeat?: number }
 export const stopsOf = (mission: NamedMission): { place: string; wait_s?: number; action?: string }[] => mission.stops ?? (mission.places ?? []).map((place) => ({ place }));
 
+/** "round: A (5 s) → B (pick), 2 times" without the name. */
+export function missionWords(mission: NamedMission): string {
+  const stops = stopsOf(mission).map((stop) => `${stop.place}${stop.wait_s === undefined ? '' : ` (${stop.wait_s} s)`}${stop.action === undefined ? '' : ` (${stop.action})`}`);
+  return `${stops.join(' → ')}${mission.repeat === undefined ? '' : `, ${mission.repeat} times`}`;
+}
 export type ListName = 'places' | 'nodes' | 'edges' | 'keep_out' | 'speed_zones';
 
 export interface Stop { readonly place: number; readonly waitS: number; readonly action: string }
@@ -178,7 +183,7 @@ export class PlacesEditor {
 }
 
 /** As the file has it: names alone where nothing is done at the stops. */
-function missionOf(mission: MissionItem, names: Map<number, string>): NamedMission {
+export function missionOf(mission: MissionItem, names: Map<number, string>): NamedMission {
   const repeat = mission.repeat > 1 ? { repeat: mission.repeat } : {};
   const name = (stop: Stop) => names.get(stop.place)!;
   if (mission.stops.every((stop) => stop.waitS === 0 && stop.action === '')) return { name: mission.name, places: mission.stops.map(name), ...repeat };

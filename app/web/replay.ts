@@ -6,13 +6,13 @@ import { button, byId, el, positive } from './dom.js';
 import { HeatLayer } from './heat_layer.js';
 import type { HeatActions } from './heat_layer.js';
 import { DrivePlots } from './plots.js';
-import { poseAt } from './poses.js';
+import { lastNotAfter, poseAt } from './poses.js';
 import { drawEllipse, drawRobot, drawWay, inkNow } from './robot_paint.js';
 import { linkTo } from './run_link.js';
 import type { RunLink } from './run_link.js';
 import { RunEvents } from './run_events.js';
 import { RunList } from './run_list.js';
-import { columnsOf, covarianceAt, lastNotAfter } from './run_plots.js';
+import { columnsOf, covarianceAt } from './run_plots.js';
 import { sceneOf } from './run_scene.js';
 import { showSummary } from './run_summary.js';
 import type { Stage } from './stage.js';
@@ -109,7 +109,7 @@ export class Replay {
     this.time = Math.min(this.end(), Math.max(this.start(), time));
     this.slider.value = String(this.time);
     this.words.textContent = this.report();
-    this.plots?.tell(lastNotAfter(this.columns[0]!, this.time), true);
+    this.plots?.tell(lastNotAfter(this.columns[0]!.length, (i) => this.columns[0]![i]!, this.time), true);
     this.events.mark(this.time);
     this.showPicture();
     this.stage.redrawOverlay();
@@ -184,7 +184,7 @@ export class Replay {
   /** Shows the last picture taken before the present time. */
   private showPicture(): void {
     const names = this.run?.pictures ?? [];
-    const at = lastNotAfter(names.map((name) => parseFloat(name)), this.time);
+    const at = lastNotAfter(names.length, (i) => parseFloat(names[i]!), this.time);
     this.picture.hidden = names.length === 0;
     this.noPicture.hidden = names.length > 0;
     const name = names[at];

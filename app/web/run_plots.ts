@@ -1,6 +1,6 @@
 // Plot data of a run: steps, fixes and errors on a common time axis.
 import type { Row, Run } from './api.js';
-import { poseAt } from './poses.js';
+import { lastNotAfter, poseAt } from './poses.js';
 
 const mostRows = 1500;
 const seenForS = 0.5;
@@ -30,26 +30,7 @@ function errorAt(truth: Row[], time: number, x: number, y: number): number | nul
 
 /** Of the position at a time, as xx, xy, yy (m²); null of runs that did not keep it. */
 export function covarianceAt(run: Run, time: number): [number, number, number] | null {
-  let low = 0;
-  let high = run.steps.length - 1;
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (run.steps[middle]![0]! <= time) low = middle;
-    else high = middle - 1;
-  }
-  const step = run.steps[low];
+  const step = run.steps[lastNotAfter(run.steps.length, (i) => run.steps[i]![0]!, time)];
   if (!step || step.length < covarianceFrom + 3) return null;
   return [step[covarianceFrom]!, step[covarianceFrom + 1]!, step[covarianceFrom + 2]!];
-}
-
-/** The index of the last value that is not greater; 0 before the first. */
-export function lastNotAfter(values: (number | null)[], value: number): number {
-  let low = 0;
-  let high = values.length - 1;
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (values[middle]! <= value) low = middle;
-    else high = middle - 1;
-  }
-  return low;
 }
