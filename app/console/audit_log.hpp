@@ -10,7 +10,7 @@
 
 namespace lodestar {
 
-/// Something that somebody did to a site, or the robot did there.
+/// An event of a site: what a person saved or ordered, or what the robot did.
 struct AuditEntry {
   std::string at;        ///< UTC in ISO 8601; filled in by the log
   std::string by;        ///< the name that the person goes by; may be empty

@@ -25,7 +25,7 @@ struct MissionOptions {
   /// the time is not counted below. Five minutes a metre are chosen by hand: someone who waits looks after it
   /// then.
   Duration max_hindered = std::chrono::minutes(5);
-  /// Within so long somebody must have begun with a goal's action: else nobody here carries it out.
+  /// A goal's action that has not been taken (take_action) by then fails: this program carries none out.
   Duration max_action_begin = std::chrono::seconds(5);
   double progress_m = 1.0;
   int attempts = 3;                 ///< to come within epsilon
