@@ -2,9 +2,10 @@
 # bring headers and libraries only, so each module becomes an imported target here: opencv_core, opencv_imgproc, ...
 
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-# find_package(Lodestar) reads this file too: the libraries do without videoio.
-if(NOT DEFINED lodestar_opencv_modules)
-  set(lodestar_opencv_modules core imgproc imgcodecs features2d calib3d videoio)
+# No imgcodecs and no videoio: the tests alone use them, as writers that are not ours.
+set(lodestar_opencv_modules core imgproc features2d calib3d)
+if(LODESTAR_TESTS OR LODESTAR_BENCH)
+  list(APPEND lodestar_opencv_modules imgcodecs videoio)
 endif()
 foreach(module IN LISTS lodestar_opencv_modules)
   find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
@@ -15,8 +16,8 @@ foreach(module IN LISTS lodestar_opencv_modules)
     INTERFACE_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE_DIR})
 endforeach()
 target_link_libraries(opencv_imgproc INTERFACE opencv_core)
-target_link_libraries(opencv_imgcodecs INTERFACE opencv_imgproc)
 if(TARGET opencv_videoio)
+  target_link_libraries(opencv_imgcodecs INTERFACE opencv_imgproc)
   target_link_libraries(opencv_videoio INTERFACE opencv_imgcodecs)
 endif()
 target_link_libraries(opencv_features2d INTERFACE opencv_imgproc)

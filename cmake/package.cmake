@@ -40,6 +40,7 @@ set(CPACK_DEBIAN_LODESTAR_PACKAGE_NAME lodestar)
 set(CPACK_DEBIAN_LODESTAR_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_LODESTAR_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LODESTAR_PACKAGE_DEPENDS adduser)
+set(CPACK_DEBIAN_LODESTAR_PACKAGE_SUGGESTS "ffmpeg, poppler-utils")  # videos, plans in PDF
 # CPack indents the lines.
 set(CPACK_DEBIAN_LODESTAR_DESCRIPTION "indoor navigation for mobile robots under ceiling markers
 A camera that looks up sees infrared-retroreflective dot markers on the
@@ -56,8 +57,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblodestar-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # The libraries are static: what they use must be there to link.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libopencv-core-dev, libopencv-imgproc-dev, \
-libopencv-imgcodecs-dev, libopencv-features2d-dev, libopencv-calib3d-dev, libfmt-dev, libyaml-cpp-dev, liboctomap-dev, \
-libompl-dev, libceres-dev, libgoogle-glog-dev")
+libopencv-features2d-dev, libopencv-calib3d-dev, libpng-dev, libturbojpeg0-dev, libtiff-dev, libwebp-dev, libexif-dev, \
+libfmt-dev, libyaml-cpp-dev, liboctomap-dev, libompl-dev, libceres-dev, libgoogle-glog-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "indoor navigation for mobile robots (libraries)
 Headers and static libraries of Lodestar for C++20: maps and markers, the pose
 of a camera under ceiling markers, path planning over occupancy maps, and

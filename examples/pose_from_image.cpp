@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <opencv2/imgcodecs.hpp>
 
 #include "localization/detection/marker_detector.hpp"
 #include "localization/pose/pose_fix.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/marker_registry.hpp"
+#include "maps/picture.hpp"
 
 int main(int argc, char** argv) try {
   if (argc != 4) {
@@ -18,11 +18,7 @@ int main(int argc, char** argv) try {
   }
   const lodestar::MarkerRegistry registry = lodestar::load_registry(argv[1]);
   const lodestar::CameraModel camera = lodestar::load_camera(argv[2]);
-  const cv::Mat gray = cv::imread(argv[3], cv::IMREAD_GRAYSCALE);
-  if (gray.empty()) {
-    std::fprintf(stderr, "%s: no picture that can be read\n", argv[3]);
-    return 2;
-  }
+  const cv::Mat gray = lodestar::gray_picture_in(argv[3]);
 
   lodestar::MarkerDetector detector(lodestar::expecting(registry));
   const auto markers = detector.detect(gray);

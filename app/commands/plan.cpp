@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/planner_options.hpp"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "app/common/picture_file.hpp"
 #include "app/common/rounding.hpp"
+#include "maps/picture.hpp"
 
 namespace lodestar {
 namespace {

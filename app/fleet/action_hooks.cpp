@@ -10,13 +10,14 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sched.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
+
+#include "app/common/spawn_attributes.hpp"
 
 namespace lodestar {
 namespace {
@@ -59,7 +60,6 @@ class MemoryFile {
   int fd_;
 };
 
-/// In a process group of its own, with default signals and ordinary priority, however the control loop runs.
 std::optional<pid_t> spawned(std::vector<std::string> command, const std::filesystem::path& folder, int in,
                              int out) {
   posix_spawn_file_actions_t files;
@@ -67,26 +67,13 @@ std::optional<pid_t> spawned(std::vector<std::string> command, const std::filesy
   posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
   posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t signals;
-  sigfillset(&signals);
-  posix_spawnattr_setsigdefault(&attributes, &signals);
-  sigemptyset(&signals);
-  posix_spawnattr_setsigmask(&attributes, &signals);
-  const sched_param ordinary{};
-  posix_spawnattr_setschedpolicy(&attributes, SCHED_OTHER);
-  posix_spawnattr_setschedparam(&attributes, &ordinary);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF |
-                                            POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSCHEDULER);
+  const SpawnAttributes attributes;
   std::vector<char*> words;
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
   pid_t pid = 0;
-  const int error = posix_spawn(&pid, words.front(), &files, &attributes, words.data(), environ);
+  const int error = posix_spawn(&pid, words.front(), &files, attributes.get(), words.data(), environ);
   posix_spawn_file_actions_destroy(&files);
-  posix_spawnattr_destroy(&attributes);
   return error == 0 ? std::optional(pid) : std::nullopt;
 }
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <fmt/format.h>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "app/frames/csv_numbers.hpp"
+#include "app/frames/image_files.hpp"
 #include "maps/input_error.hpp"
 #include "maps/path_kind.hpp"
 
@@ -92,13 +92,7 @@ DriveLog load_drive_log(const fs::path& folder) {
 }
 
 cv::Mat read_logged_image(const fs::path& file, const CameraModel& camera) {
-  cv::Mat gray;
-  try {
-    gray = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {
-    gray = cv::Mat();  // the decoder's message adds nothing to the one below
-  }
-  if (gray.empty()) throw InputError(file, 0, "no image that can be decoded", "PNG, PGM, BMP, JPEG or TIFF");
+  cv::Mat gray = read_gray(file);
   if (gray.cols != camera.width_px || gray.rows != camera.height_px) {
     throw InputError(file, 0, fmt::format("{} x {} pixels", gray.cols, gray.rows),
                      fmt::format("the camera's {} x {}", camera.width_px, camera.height_px));

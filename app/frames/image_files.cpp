@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
 #include "maps/input_error.hpp"
+#include "maps/picture.hpp"
 
 namespace lodestar {
 namespace {
@@ -73,18 +73,6 @@ bool comes_before(const fs::path& left, const fs::path& right) {
   return a_name < b_name;  // they differ in leading zeros at most
 }
 
-std::vector<std::uint8_t> bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-  if (size < 0) throw InputError(file, 0, "a file that cannot be read", readable_images);
-  if (size == 0) throw InputError(file, 0, "an empty file", readable_images);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-  stream.seekg(0);
-  stream.read(reinterpret_cast<char*>(bytes.data()), size);
-  if (!stream) throw InputError(file, 0, "a file that cannot be read", readable_images);
-  return bytes;
-}
-
 /// Does a JPEG file end before its end marker? The decoder fills what is missing with gray and reports
 /// nothing. A file is a sequence of segments with their lengths, and of pixel data in which 0xff is followed
 /// by 0 or a restart marker.
@@ -108,18 +96,15 @@ bool is_cut_jpeg(const std::vector<std::uint8_t>& bytes) {
   return true;
 }
 
-cv::Mat decoded(const std::vector<std::uint8_t>& bytes) {
-  try {
-    return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
-  } catch (const cv::Exception&) {
-    return {};  // the decoder's message adds nothing to the caller's
-  }
-}
-
 }  // namespace
 
 bool is_image(const fs::path& file) {
-  return has_image_ending(file) || cv::haveImageReader(file.string());
+  if (has_image_ending(file)) return true;
+  std::array<char, 16> head{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), head.size());
+  return begins_picture(
+      {reinterpret_cast<const std::uint8_t*>(head.data()), static_cast<std::size_t>(stream.gcount())});
 }
 
 void sort_as_taken(std::vector<fs::path>& files) {
@@ -146,15 +131,14 @@ std::vector<fs::path> images_in(const fs::path& folder) {
 }
 
 cv::Mat read_gray(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = bytes_of(file);
-  const cv::Mat image = decoded(bytes);
-  if (image.empty()) throw InputError(file, 0, "no image that can be decoded", readable_images);
-  if (is_cut_jpeg(bytes)) throw InputError(file, 0, "a JPEG image that is cut short", "a whole one");
-  if (image.type() == CV_8UC1) return image;
-  if (image.type() != CV_16UC1) throw InputError(file, 0, "floating-point pixels", "8 or 16 bits a pixel");
-  cv::Mat gray;
-  image.convertTo(gray, CV_8U, 255.0 / 65535.0);
-  return gray;
+  try {
+    const std::vector<std::uint8_t> bytes = picture_bytes_in(file);
+    cv::Mat gray = decode_gray(bytes);
+    if (is_cut_jpeg(bytes)) throw PictureError("a JPEG image that is cut short");
+    return gray;
+  } catch (const PictureError& error) {
+    throw InputError(file, 0, error.what(), fmt::format("{} of 8 or 16 bits a pixel", readable_images));
+  }
 }
 
 std::optional<SourceFrame> ImageFiles::next() {

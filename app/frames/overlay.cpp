@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
+#include <fstream>
 #include <opencv2/imgproc.hpp>
 
 #include "maps/input_error.hpp"
+#include "maps/picture.hpp"
 
 namespace lodestar {
 namespace {
@@ -191,13 +192,9 @@ void OverlayFolder::write(const SourceFrame& frame, const cv::Mat& picture) {
   for (int again = 2; !written_.insert(name).second; ++again)
     name = fmt::format("{}-{}", frame.picture, again);
   const fs::path file = folder_ / (name + ".png");
-  bool done = false;
-  try {
-    done = cv::imwrite(file.string(), picture);
-  } catch (const cv::Exception&) {
-    done = false;
-  }
-  if (!done) throw InputError(file, 0, "a picture that could not be written", "a folder that can be written");
+  std::ofstream stream(file, std::ios::binary);
+  if (!(stream << png_bytes(picture) << std::flush))
+    throw InputError(file, 0, "a picture that could not be written", "a folder that can be written");
 }
 
 }  // namespace lodestar

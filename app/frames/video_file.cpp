@@ -4,7 +4,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <fstream>
-#include <opencv2/imgproc.hpp>
+#include <system_error>
 
 #include "maps/input_error.hpp"
 
@@ -32,34 +32,36 @@ bool is_text(const fs::path& file) {
 
 VideoFile::VideoFile(fs::path file) : file_(std::move(file)) {
   if (is_text(file_)) refuse(file_);
-  // Of OpenCV's backends only FFmpeg's CAP_PROP_POS_MSEC is the time of the frame just grabbed.
-  if (!video_.open(file_.string(), cv::CAP_FFMPEG)) refuse(file_);
+  try {
+    const std::optional<VideoFacts> facts = video_facts(file_);
+    if (!facts) refuse(file_);
+    facts_ = *facts;
+    video_.emplace(file_);
+  } catch (const std::system_error& error) {
+    throw InputError(file_, 0, fmt::format("{}, to read a video with", error.what()),
+                     "ffmpeg: apt install ffmpeg");
+  }
 }
 
 std::optional<SourceFrame> VideoFile::next() {
-  if (!video_.read(color_) || color_.empty()) {
+  std::optional<VideoDecoder::Picture> picture = video_->next();
+  if (!picture) {
     if (frame_ == 0) refuse(file_);
     at_the_end();
     return std::nullopt;
   }
-  cv::Mat gray;
-  cv::cvtColor(color_, gray, cv::COLOR_BGR2GRAY);  // FFmpeg's reader gives BGR whatever the video holds
-  constexpr double ms_per_s = 1000.0;
-  const double stamp_s = std::max(video_.get(cv::CAP_PROP_POS_MSEC), 0.0) / ms_per_s;
   const int number = frame_++;
   return SourceFrame{.name = fmt::format("{}#{}", file_.string(), number),
                      .picture = fmt::format("{}-{:06}", file_.stem().string(), number),
-                     .stamp = Stamp(from_seconds(stamp_s)),
-                     .gray = std::move(gray)};
+                     .stamp = Stamp(from_seconds(std::max(picture->time_s, 0.0))),
+                     .gray = std::move(picture->gray)};
 }
 
 /// Containers give the number of frames only roughly, so only a large gap is reported.
 void VideoFile::at_the_end() const {
   constexpr double rough = 0.9;
-  const double expected = video_.get(cv::CAP_PROP_FRAME_COUNT);
-  if (frame_ + 1 < rough * expected) {
-    fmt::print(stderr, "{}: ends after {} of about {:.0f} frames\n", file_.string(), frame_, expected);
-  }
+  if (!facts_.frames || frame_ + 1 >= rough * *facts_.frames) return;
+  fmt::print(stderr, "{}: ends after {} of about {:.0f} frames\n", file_.string(), frame_, *facts_.frames);
 }
 
 }  // namespace lodestar

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "app/common/background_writer.hpp"
-#include "app/common/picture_file.hpp"
 #include "app/recording/drive_record.hpp"
 #include "maps/frame.hpp"
+#include "maps/picture.hpp"
 
 namespace lodestar {
 

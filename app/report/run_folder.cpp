@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/common/picture_file.hpp"
 #include "app/placement/survey_report.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_statistics.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
+#include "maps/picture.hpp"
 
 namespace lodestar {
 namespace {

@@ -4,11 +4,11 @@
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "maps/input_error.hpp"
 #include "maps/path_kind.hpp"
+#include "maps/picture.hpp"
 
 namespace lodestar {
 namespace {
@@ -26,14 +26,11 @@ std::string ending_of(const fs::path& file) {
 }
 
 cv::Mat read_picture(const fs::path& file) {
-  cv::Mat gray;
   try {
-    gray = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {
-    gray.release();
+    return gray_picture_in(file);
+  } catch (const PictureError&) {
+    throw InputError(file, 0, "no picture that can be read", "a PNG, JPEG, PGM or BMP file");
   }
-  if (gray.empty()) throw InputError(file, 0, "no picture that can be read", "a PNG, JPEG, PGM or BMP file");
-  return gray;
 }
 
 void expect_size(double columns, double rows, const std::string& what) {

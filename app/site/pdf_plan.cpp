@@ -3,7 +3,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -11,6 +10,7 @@
 
 #include "app/site/floor_plan.hpp"
 #include "maps/input_error.hpp"
+#include "maps/picture.hpp"
 
 // By poppler's program and not by its library: what a stranger's PDF does to the reader happens in another
 // process with limits, and nobody who never reads a plan needs poppler.
@@ -85,11 +85,11 @@ cv::Mat read_pdf_page(const fs::path& file) {
                         fs::absolute(file).string(), page.string()});
   if (code == not_found)
     throw InputError(file, 0, "no program pdftoppm to read it with", "it: apt install poppler-utils");
-  const cv::Mat gray = code == 0 ? cv::imread(page.string() + ".pgm", cv::IMREAD_GRAYSCALE) : cv::Mat();
-  if (gray.empty())
-    throw InputError(file, 0, fmt::format("no page that pdftoppm can draw (exit code {})", code),
-                     "a PDF file");
-  return gray;
+  try {
+    if (code == 0) return gray_picture_in(page.string() + ".pgm");
+  } catch (const PictureError&) {  // it drew nothing
+  }
+  throw InputError(file, 0, fmt::format("no page that pdftoppm can draw (exit code {})", code), "a PDF file");
 }
 
 }  // namespace lodestar

@@ -1,8 +1,8 @@
 #include "app/viewers/foxglove_view.hpp"
 
-#include "app/common/picture_file.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "app/viewers/drive_messages.hpp"
+#include "maps/picture.hpp"
 
 namespace lodestar {
 

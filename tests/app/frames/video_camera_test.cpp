@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
 
 #include "maps/input_error.hpp"
 
