@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/map_from_runs.hpp"
 #include "app/common/progress.hpp"
+#include "app/placement/map_from_runs.hpp"
 #include "maps/map_file.hpp"
 
 namespace lodestar {

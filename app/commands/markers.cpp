@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/placement/accepted_issues.hpp"
 #include "app/placement/coverage.hpp"
 #include "app/placement/site_floor.hpp"
 #include "app/site/site_folder.hpp"
@@ -75,12 +76,13 @@ nlohmann::ordered_json as_json(const DistanceReport& report) {
   return {{"smallest_distance", report.smallest}, {"closest_pairs", pairs}};
 }
 
-void print_json(const MarkerRegistry& registry, const std::vector<RegistryIssue>& issues) {
+void print_json(const MarkerRegistry& registry, const std::vector<RegistryIssue>& issues,
+                const std::vector<AcceptedIssue>& accepted) {
   nlohmann::ordered_json report{{"markers", registry.markers.size()},
                                 {"upright", as_json(upright_distances(registry))},
                                 {"turned_or_mirrored", as_json(turned_distances(registry))},
                                 {"issues", nlohmann::ordered_json::array()}};
-  for (const RegistryIssue& issue : issues) report["issues"].push_back(issue_json(issue));
+  for (const RegistryIssue& issue : issues) report["issues"].push_back(issue_json(issue, accepted));
   fmt::print("{}\n", report.dump(2));
 }
 
@@ -102,12 +104,18 @@ void print_distances(const char* how, const DistanceReport& report) {
 }
 
 void print_text(const std::string& file, const MarkerRegistry& registry,
-                const std::vector<RegistryIssue>& issues) {
+                const std::vector<RegistryIssue>& issues, const std::vector<AcceptedIssue>& accepted) {
+  std::vector<std::string> standing;
   for (const RegistryIssue& issue : issues) {
+    if (const AcceptedIssue* by = acceptance_of(issue, accepted)) {
+      standing.push_back(fmt::format("  {}: {}", issue.words, by->reason));
+      continue;
+    }
     const std::string line = issue.line > 0 ? fmt::format("{}:", issue.line) : "";
     fmt::print("{}:{} {}: {}\n", file, line, issue.error ? "error" : "warning", issue.words);
   }
   fmt::print("{} markers\n", registry.markers.size());
+  if (!standing.empty()) fmt::print("let stand by {}:\n{}\n", accepted_file_name, fmt::join(standing, "\n"));
   print_distances("upright", upright_distances(registry));
   print_distances("turned or mirrored", turned_distances(registry));
 }
@@ -124,10 +132,12 @@ ExitCode check(const MarkersArguments& arguments) {
   if (!arguments.map.empty()) map = load_map(arguments.map).map;
   const std::vector<RegistryIssue> issues =
       site ? check_coverage(registry, covered_floor(*site)) : check_registry(registry, map);
+  const std::vector<AcceptedIssue> accepted =
+      site ? load_accepted(site->folder) : std::vector<AcceptedIssue>{};
   if (arguments.json || arguments.format == "json") {
-    print_json(registry, issues);
+    print_json(registry, issues, accepted);
   } else {
-    print_text(file, registry, issues);
+    print_text(file, registry, issues, accepted);
   }
   return std::ranges::any_of(issues, &RegistryIssue::error) ? job_failed : done;
 }

@@ -22,7 +22,8 @@ struct ServeArguments {
 bool serve_new_site(const ServeArguments& arguments, AccessRules& access) {
   constexpr std::size_t most_plan_bytes = 64U << 20U;
   constexpr std::chrono::milliseconds turn(50);
-  NewSiteApi api(arguments.console.site, program_data("sites/lab"));
+  NewSiteApi api(arguments.console.site, program_data("sites/lab"),
+                 arguments.console.runs.empty() ? runs_folder() : arguments.console.runs);
   HttpServer server(
       {.access = access, .max_body_bytes = most_plan_bytes, .uses_files = NewSiteApi::uses_files},
       [&api](const HttpRequest& request) { return api.answer(request); });

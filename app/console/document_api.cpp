@@ -89,8 +89,9 @@ DocumentApi::DocumentApi(const std::filesystem::path& site_folder, const std::fi
       audit_(site_.folder),
       runs_(runs_folder, site_.name),
       coverage_(site_),
-      places_(site_, audit_),
+      places_(site_, coverage_.floor(), audit_),
       hanging_(site_, audit_),
+      accepted_(site_.folder, audit_),
       map_(site_, audit_) {}
 
 HttpResponse DocumentApi::answer(const HttpRequest& request) const {
@@ -100,6 +101,7 @@ HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   if (const std::optional<HttpResponse> hanging = hanging_.answer(request))
     return request.method == "PUT" ? *hanging : unless_known(*hanging, request);
   if (const std::optional<HttpResponse> map = map_.answer(request)) return *map;
+  if (const std::optional<HttpResponse> accepted = accepted_.answer(request)) return *accepted;
   if (request.method == "PUT" && target == "/api/markers") return save_markers(request);
   if (request.method == "POST") return post(request);
   if (request.method != "GET" && request.method != "HEAD") return refusal(405, "found another method");
@@ -212,7 +214,7 @@ HttpResponse DocumentApi::history(const std::string& target) const {
 HttpResponse DocumentApi::post(const HttpRequest& request) const {
   try {
     if (request.target == "/api/markers/check") {
-      return {.body = coverage_.issues(registry_from_json(request.body), request.cancelled).dump()};
+      return {.body = coverage_.issues(site_, registry_from_json(request.body), request.cancelled).dump()};
     }
     if (request.target == "/api/markers/deviations") {
       return {.body =

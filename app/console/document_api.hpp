@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "app/console/accepted_api.hpp"
 #include "app/console/audit_log.hpp"
 #include "app/console/document_history.hpp"
 #include "app/console/hanging_api.hpp"
@@ -35,6 +36,7 @@ namespace lodestar {
 ///   POST /api/markers/plan         where a draft's markers hang -> {text}: the table of `markers plan`
 ///   /api/places..., /api/routes    what people name on the map: PlacesApi
 ///   /api/hanging...                what hangs already: HangingApi
+///   PUT  /api/accepted             a warning that may stand: AcceptedApi
 ///   GET  /api/log                  who drove and who saved: AuditLog
 ///   /api/runs..., /api/heat        former runs: RunsApi
 ///
@@ -87,6 +89,7 @@ class DocumentApi {
   SiteCoverage coverage_;
   PlacesApi places_;
   HangingApi hanging_;
+  AcceptedApi accepted_;
   MapApi map_;
 };
 

@@ -1,19 +1,23 @@
 #include "app/console/new_site_api.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <unistd.h>
 
 #include "app/common/base64.hpp"
 #include "app/common/json_parse.hpp"
 #include "app/console/page_file.hpp"
+#include "app/console/run_archive.hpp"
+#include "app/console/run_facts.hpp"
 #include "app/placement/fill.hpp"
+#include "app/placement/map_from_runs.hpp"
 #include "app/placement/site_floor.hpp"
 #include "app/site/site.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
+#include "maps/picture.hpp"
 
 namespace lodestar {
 namespace {
@@ -67,12 +71,6 @@ std::string word_in(const json& sent, const char* key, std::initializer_list<con
   return word;
 }
 
-std::string png_of(const cv::Mat& gray) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", gray, bytes);
-  return {bytes.begin(), bytes.end()};
-}
-
 ordered_json map_with_cells_json(const OccupancyMap& map) {
   return {{"columns", map.columns},
           {"rows", map.rows},
@@ -114,7 +112,8 @@ Filling filled(const fs::path& folder, double ceiling_m) {
 
 }  // namespace
 
-NewSiteApi::NewSiteApi(fs::path folder, fs::path lab) : folder_(std::move(folder)), lab_(std::move(lab)) {
+NewSiteApi::NewSiteApi(fs::path folder, fs::path lab, fs::path runs)
+    : folder_(std::move(folder)), lab_(std::move(lab)), runs_(std::move(runs)) {
   std::error_code cannot;
   if (fs::exists(fs::symlink_status(folder_, cannot)))
     throw InputError(folder_, 0, "something of that name", "a new folder: nothing is overwritten");
@@ -128,6 +127,8 @@ HttpResponse NewSiteApi::answer(const HttpRequest& request) {
   if (request.method == "GET" || request.method == "HEAD") {
     if (request.target == "/api/site")
       return {.body = ordered_json{{"new", true}, {"folder", folder_.filename().string()}}.dump()};
+    if (request.target == "/api/new/runs")
+      return {.body = runs_with_scans().dump(-1, ' ', false, json::error_handler_t::replace)};
     return page_file(request.target).value_or(refusal(404, "found no such document"));
   }
   if (request.method != "PUT") return refusal(405, "found another method");
@@ -171,16 +172,49 @@ ordered_json NewSiteApi::read_sheet(const json& sent) {
       {"height_px", sheet_.gray.rows},
       {"metres_per_px", sheet_.metres_per_px ? ordered_json(*sheet_.metres_per_px) : ordered_json(nullptr)},
       {"shown_px", shown_px},
-      {"png", base64(png_of(shown))}};
+      {"png", base64(png_bytes(shown))}};
 }
 
-ordered_json NewSiteApi::map_of(const json& sent) const {
+ordered_json NewSiteApi::runs_with_scans() const {
+  const std::vector<std::string> names = RunArchive(runs_).names();
+  ordered_json runs = ordered_json::array();
+  for (auto name = names.rbegin(); name != names.rend(); ++name) {
+    if (!fs::exists(runs_ / *name / "scans.bin")) continue;
+    const ordered_json facts = facts_of_run(runs_ / *name);
+    runs.push_back({{"name", *name},
+                    {"started", facts.at("started")},
+                    {"site", facts.at("site")},
+                    {"duration_s", facts.at("duration_s")}});
+  }
+  return runs;
+}
+
+/// Names are compared with those that there are, never used as paths.
+ordered_json NewSiteApi::map_of_runs(const json& names, double cell_m) {
+  const std::vector<std::string> known = RunArchive(runs_).names();
+  std::vector<fs::path> folders;
+  for (const std::string& name : known)
+    if (std::ranges::find(names, json(name)) != names.end()) folders.push_back(runs_ / name);
+  if (folders.empty() || folders.size() != names.size())
+    throw InputError("runs: wanted names of /api/new/runs, each once");
+  MapFromRunsOptions options;
+  options.builder.resolution_m = cell_m;
+  const MapFromRuns built = map_from_runs(folders, options);
+  registry_ = load_registry(folders.back() / markers_of_run);
+  return {{"map", map_with_cells_json(built.map)},
+          {"warnings", ordered_json::array()},
+          {"markers", registry_->markers.size()}};
+}
+
+ordered_json NewSiteApi::map_of(const json& sent) {
+  registry_.reset();
+  if (sent.contains("runs")) return map_of_runs(sent.at("runs"), number_in(sent, "cell_m", 0.005, 1.0));
   PlanOptions options{.metres_per_unit = {}, .cell_m = number_in(sent, "cell_m", 0.005, 1.0)};
   if (sent.contains("hall_m")) {
     const json& sides = sent.at("hall_m");
     if (!sides.is_array() || sides.size() != 2) throw InputError("hall_m: wanted [width, height]");
     const OccupancyMap hall = empty_hall(sides[0].get<double>(), sides[1].get<double>(), options.cell_m);
-    return {{"map", map_with_cells_json(hall)}, {"warnings", ordered_json::array()}};
+    return {{"map", map_with_cells_json(hall)}, {"warnings", ordered_json::array()}, {"markers", 0}};
   }
   if (sheet_.gray.empty()) throw InputError("found no plan, wanted one first");
   options.rotate_rad = radians(number_in(sent, "rotate_deg", -360.0, 360.0));
@@ -188,7 +222,7 @@ ordered_json NewSiteApi::map_of(const json& sent) const {
   PlanSheet scaled = sheet_;
   scaled.metres_per_px = number_in(sent, "metres_per_px", 1e-6, 1000.0);
   const MapFromPlan made = map_from_sheet(scaled, options);
-  return {{"map", map_with_cells_json(made.map)}, {"warnings", made.warnings}};
+  return {{"map", map_with_cells_json(made.map)}, {"warnings", made.warnings}, {"markers", 0}};
 }
 
 ordered_json NewSiteApi::make(const json& sent) {
@@ -206,11 +240,13 @@ ordered_json NewSiteApi::make(const json& sent) {
                                  ceiling_m, *site.camera_height_m));
   const bool is_filled = sent.at("fill").get<bool>();
   make_site(site, folder_);
-  ordered_json made{{"markers", 0}, {"uncovered_m2", 0.0}, {"why", ""}};
+  if (registry_) save_registry(*registry_, load_site(folder_).registry_file);
+  ordered_json made{
+      {"markers", registry_ ? registry_->markers.size() : 0}, {"uncovered_m2", 0.0}, {"why", ""}};
   try {
     if (is_filled) {
       const Filling filling = filled(folder_, ceiling_m);
-      made["markers"] = filling.added.size();
+      made["markers"] = filling.added.size() + (registry_ ? registry_->markers.size() : 0);
       made["uncovered_m2"] = filling.uncovered_m2;
     }
   } catch (const InputError& error) {  // the site is there all the same

@@ -48,8 +48,8 @@ std::optional<PlacesRefusal> site_refuses(const Places& places, const Site& site
 
 }  // namespace
 
-PlacesApi::PlacesApi(const Site& site, AuditLog& audit)
-    : site_(site), audit_(audit), history_(site.folder / ".history" / "places") {}
+PlacesApi::PlacesApi(const Site& site, const CoveredFloor& floor, AuditLog& audit)
+    : site_(site), floor_(floor), audit_(audit), history_(site.folder / ".history" / "places") {}
 
 std::optional<HttpResponse> PlacesApi::answer(const HttpRequest& request) const {
   const std::string& target = request.target;
@@ -98,8 +98,9 @@ HttpResponse PlacesApi::check(const HttpRequest& request) const {
   if (const auto why = site_refuses(std::get<Places>(sent), site_)) return refused(*why);
   Site draft = site_;
   draft.places = std::move(std::get<Places>(sent));
+  draft.registry = load_registry(site_.registry_file);  // as it is saved now
   ordered_json issues = ordered_json::array();
-  for (const PlacesIssue& issue : check_places(draft)) issues.push_back(issue_json(issue));
+  for (const PlacesIssue& issue : check_places(draft, &floor_)) issues.push_back(issue_json(issue));
   return {.body = issues.dump()};
 }
 

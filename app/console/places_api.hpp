@@ -6,6 +6,7 @@
 #include "app/console/audit_log.hpp"
 #include "app/console/document_history.hpp"
 #include "app/net/http.hpp"
+#include "app/placement/coverage.hpp"
 #include "app/site/site.hpp"
 
 namespace lodestar {
@@ -20,8 +21,9 @@ namespace lodestar {
 ///   GET  /api/routes               places and missions only; PUT likewise
 class PlacesApi {
  public:
-  /// Both must outlive this. Earlier versions are kept in .history/places of the site's folder.
-  PlacesApi(const Site& site, AuditLog& audit);
+  /// All must outlive this; `floor` is what its markers are to cover. Earlier versions are kept in
+  /// .history/places of the site's folder.
+  PlacesApi(const Site& site, const CoveredFloor& floor, AuditLog& audit);
 
   /// Nothing for another document.
   [[nodiscard]] std::optional<HttpResponse> answer(const HttpRequest& request) const;
@@ -37,6 +39,7 @@ class PlacesApi {
   [[nodiscard]] HttpResponse history(const std::string& rest) const;
 
   const Site& site_;
+  const CoveredFloor& floor_;
   AuditLog& audit_;
   DocumentHistory history_;
   std::function<void(const Places&)> on_saved_;

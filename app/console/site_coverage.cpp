@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/common/rounding.hpp"
+#include "app/placement/accepted_issues.hpp"
 #include "app/placement/site_floor.hpp"
 #include "app/placement/visibility.hpp"
 
@@ -32,10 +33,12 @@ SiteCoverage::SiteCoverage(const Site& site) : floor_(covered_floor(site)) {
   if (site.octomap_file) sight_lines_.emplace(*site.octomap_file);
 }
 
-ordered_json SiteCoverage::issues(const MarkerRegistry& draft, const std::stop_token& cancelled) const {
+ordered_json SiteCoverage::issues(const Site& site, const MarkerRegistry& draft,
+                                  const std::stop_token& cancelled) const {
+  const std::vector<AcceptedIssue> accepted = load_accepted(site.folder);
   ordered_json issues = ordered_json::array();
   for (const RegistryIssue& issue : check_coverage(draft, floor_, cancelled))
-    issues.push_back(issue_json(issue));
+    issues.push_back(issue_json(issue, accepted));
   return issues;
 }
 

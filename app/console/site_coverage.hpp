@@ -28,7 +28,7 @@ class SiteCoverage {
   [[nodiscard]] const CoveredFloor& floor() const { return floor_; }
 
   /// All errors and warnings of a draft, as `lodestar markers check --site` reports them.
-  [[nodiscard]] nlohmann::ordered_json issues(const MarkerRegistry& draft,
+  [[nodiscard]] nlohmann::ordered_json issues(const Site& site, const MarkerRegistry& draft,
                                               const std::stop_token& cancelled = {}) const;
 
   /// Expected standard deviation of a single fix, as `lodestar map visibility` computes it, at every

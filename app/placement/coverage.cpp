@@ -150,16 +150,11 @@ RegistryIssue gap_issue(const OccupancyMap& map, const std::vector<Cell>& cells,
           .places_m = {low, high}};
 }
 
-struct Stretch {
-  Vec2 from = Vec2::Zero();
-  Vec2 to = Vec2::Zero();
-  double length_m = 0.0;
-};
-
 /// Is it the same stretch, in either direction?
-bool is_same_stretch(const Stretch& a, const Stretch& b) {
+bool is_same_stretch(const BlindStretch& a, const BlindStretch& b) {
   const auto near = [](const Vec2& p, const Vec2& q) { return (p - q).norm() < 0.3; };
-  return (near(a.from, b.from) && near(a.to, b.to)) || (near(a.from, b.to) && near(a.to, b.from));
+  return (near(a.from_m, b.from_m) && near(a.to_m, b.to_m)) ||
+         (near(a.from_m, b.to_m) && near(a.to_m, b.from_m));
 }
 
 /// Points along a route, at most 5 cm apart.
@@ -175,9 +170,9 @@ std::vector<Vec2> places_along(const Path& route) {
   return places;
 }
 
-std::vector<Stretch> blind_stretches(const Path& route, const Sight& sight,
-                                     const std::vector<MarkerDisc>& markers) {
-  std::vector<Stretch> stretches;
+std::vector<BlindStretch> blind_stretches(const Path& route, const Sight& sight,
+                                          const std::vector<MarkerDisc>& markers) {
+  std::vector<BlindStretch> stretches;
   bool was_blind = false;
   for (const Vec2& place : places_along(route)) {
     const Vec2 at = sight.in_cells(place);
@@ -185,14 +180,15 @@ std::vector<Stretch> blind_stretches(const Path& route, const Sight& sight,
       return (at - marker.middle).norm() <= marker.reach && sight.is_free(at, marker.middle, marker.z_m);
     });
     if (is_blind && was_blind) {
-      Stretch& stretch = stretches.back();
-      stretch.length_m += (place - stretch.to).norm();
-      stretch.to = place;
+      BlindStretch& stretch = stretches.back();
+      stretch.length_m += (place - stretch.to_m).norm();
+      stretch.to_m = place;
     } else if (is_blind) {
       stretches.push_back({place, place, 0.0});
     }
     was_blind = is_blind;
   }
+  std::erase_if(stretches, [](const BlindStretch& stretch) { return stretch.length_m <= most_blind_m; });
   return stretches;
 }
 
@@ -220,27 +216,33 @@ std::vector<RegistryIssue> find_gaps(const MarkerRegistry& registry, const Cover
   return issues;
 }
 
+std::vector<BlindStretch> blind_stretches_of(const Path& way, const MarkerRegistry& registry,
+                                             const CoveredFloor& floor) {
+  const Sight sight(floor);
+  return blind_stretches(way, sight, marker_discs(registry, floor, sight));
+}
+
 std::vector<RegistryIssue> find_blind_stretches(const MarkerRegistry& registry, const CoveredFloor& floor) {
   const Sight sight(floor);
   const std::vector<MarkerDisc> markers = marker_discs(registry, floor, sight);
-  std::vector<Stretch> found;
+  std::vector<BlindStretch> found;
   for (const Path& route : floor.routes) {
-    for (const Stretch& stretch : blind_stretches(route, sight, markers)) {
-      const auto is_same = [&](const Stretch& other) { return is_same_stretch(stretch, other); };
-      if (stretch.length_m > most_blind_m && std::ranges::none_of(found, is_same)) found.push_back(stretch);
+    for (const BlindStretch& stretch : blind_stretches(route, sight, markers)) {
+      const auto is_same = [&](const BlindStretch& other) { return is_same_stretch(stretch, other); };
+      if (std::ranges::none_of(found, is_same)) found.push_back(stretch);
     }
   }
-  std::ranges::stable_sort(found, std::ranges::greater(), &Stretch::length_m);
+  std::ranges::stable_sort(found, std::ranges::greater(), &BlindStretch::length_m);
   std::vector<RegistryIssue> issues;
-  for (const Stretch& stretch : found) {
+  for (const BlindStretch& stretch : found) {
     issues.push_back(
         {.kind = IssueKind::blind_route,
          .error = false,
          .ids = {},
          .line = 0,
          .words = fmt::format("the usual route sees no marker for {:.1f} m from {:.1f}, {:.1f} m",
-                              stretch.length_m, stretch.from.x(), stretch.from.y()),
-         .places_m = {stretch.from, stretch.to}});
+                              stretch.length_m, stretch.from_m.x(), stretch.from_m.y()),
+         .places_m = {stretch.from_m, stretch.to_m}});
   }
   return issues;
 }

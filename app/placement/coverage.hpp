@@ -43,6 +43,16 @@ std::vector<RegistryIssue> find_gaps(const MarkerRegistry& registry, const Cover
 /// alone (1 m), the longest first. A stretch driven in both directions counts once.
 std::vector<RegistryIssue> find_blind_stretches(const MarkerRegistry& registry, const CoveredFloor& floor);
 
+struct BlindStretch {
+  Vec2 from_m = Vec2::Zero();
+  Vec2 to_m = Vec2::Zero();
+  double length_m = 0.0;
+};
+
+/// The same stretches of one way, in its order.
+std::vector<BlindStretch> blind_stretches_of(const Path& way, const MarkerRegistry& registry,
+                                             const CoveredFloor& floor);
+
 /// All errors and warnings about the markers of a site: those of check_registry, implausible numbers, blind
 /// stretches and gaps. When cancelled it ends after the step at hand, with what it has.
 std::vector<RegistryIssue> check_coverage(const MarkerRegistry& registry, const CoveredFloor& floor,

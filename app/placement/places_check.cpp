@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "app/navigation/navigation_setup.hpp"
+#include "app/placement/site_floor.hpp"
 #include "app/site/route_graph.hpp"
 #include "planning/collision_checker.hpp"
 #include "planning/margin_planner.hpp"
@@ -180,6 +181,45 @@ void find_zones_off_map(const Site& site, std::vector<PlacesIssue>& issues) {
   }
 }
 
+/// From stop to stop, and back to the first where the mission is driven again; legs that cannot be planned
+/// are left out.
+std::vector<Path> ways_of(const NamedMission& mission, const Places& places, const MarginPlanner& planner) {
+  std::vector<Vec2> stops_m;
+  for (const MissionStop& stop : mission.stops)
+    if (const auto at = places.position_m(stop.place)) stops_m.push_back(*at);
+  if (mission.repeat > 1 && stops_m.size() > 1) stops_m.push_back(stops_m.front());
+  std::vector<Path> ways;
+  for (std::size_t i = 0; i + 1 < stops_m.size(); ++i) {
+    const PlanResult planned = planner.plan(stops_m[i], stops_m[i + 1]);
+    if (const auto* plan = std::get_if<Plan>(&planned)) ways.push_back(plan->path);
+  }
+  return ways;
+}
+
+/// Without any marker there is nothing to say of each.
+void find_blind_ways(const Site& site, const CoveredFloor* known, const MarginPlanner& planner,
+                     std::vector<PlacesIssue>& issues) {
+  const Places& places = site.places;
+  if (site.registry.markers.empty() || (places.missions.empty() && places.edges.empty())) return;
+  const CoveredFloor floor = known != nullptr ? *known : covered_floor(site);
+  const auto look = [&](const Path& way, PlacesIssueKind kind, const std::string& name) {
+    for (const BlindStretch& blind : blind_stretches_of(way, site.registry, floor))
+      issues.push_back({kind,
+                        false,
+                        fmt::format("{} sees no marker for {:.1f} m from {:.1f}, {:.1f} m", name,
+                                    blind.length_m, blind.from_m.x(), blind.from_m.y()),
+                        {blind.from_m, blind.to_m}});
+  };
+  for (const NamedMission& mission : places.missions)
+    for (const Path& way : ways_of(mission, places, planner))
+      look(way, PlacesIssueKind::blind_mission, "mission '" + mission.name + "'");
+  for (const RouteEdge& edge : places.edges) {
+    const Path way{{places.position_m(edge.from).value(), places.position_m(edge.to).value()}};
+    if (planner.is_clear(way.waypoints_m.front(), way.waypoints_m.back()))
+      look(way, PlacesIssueKind::blind_edge, fmt::format("the edge from '{}' to '{}'", edge.from, edge.to));
+  }
+}
+
 }  // namespace
 
 std::string_view to_string(PlacesIssueKind kind) {
@@ -198,6 +238,10 @@ std::string_view to_string(PlacesIssueKind kind) {
       return "unreachable-by-edges";
     case PlacesIssueKind::zone_off_map:
       return "zone-off-map";
+    case PlacesIssueKind::blind_mission:
+      return "blind-mission";
+    case PlacesIssueKind::blind_edge:
+      return "blind-edge";
   }
   return "";
 }
@@ -211,7 +255,7 @@ nlohmann::ordered_json issue_json(const PlacesIssue& issue) {
   return json;
 }
 
-std::vector<PlacesIssue> check_places(const Site& site) {
+std::vector<PlacesIssue> check_places(const Site& site, const CoveredFloor* floor) {
   std::vector<PlacesIssue> issues;
   const MarginPlanner planner(drivable_map(site), navigation_options(site.robot).planner);
   find_unreachable(standing(site, issues), planner, issues);
@@ -219,6 +263,7 @@ std::vector<PlacesIssue> check_places(const Site& site) {
   find_unreachable_by_edges(site, issues);
   find_lonely_nodes(site.places, issues);
   find_zones_off_map(site, issues);
+  find_blind_ways(site, floor, planner, issues);
   return issues;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/placement/coverage.hpp"
 #include "app/site/site.hpp"
 
 namespace lodestar {
@@ -16,7 +17,9 @@ enum class PlacesIssueKind {
   blocked_edge,
   unreachable_by_edges,  ///< from the first place on an edge
   lonely_node,           ///< no edge leads there
-  zone_off_map
+  zone_off_map,
+  blind_mission,  ///< no marker is sure to be seen for more than a metre of it
+  blind_edge
 };
 
 /// The name in reports: `in-keep-out`.
@@ -35,7 +38,9 @@ nlohmann::ordered_json issue_json(const PlacesIssue& issue);
 
 /// What the site's robot cannot do: stand at a place, at the start or at a goal; drive from one to another
 /// (those are named that are not in the largest group of places that reach each other); drive straight along
-/// an edge. Warnings: nodes without an edge, zones that do not touch the map. Errors come first.
-std::vector<PlacesIssue> check_places(const Site& site);
+/// an edge. Warnings: nodes without an edge, zones that do not touch the map, stretches of missions and edges
+/// without a marker in view. Errors come first. `floor`: covered_floor() of the site, where it is there
+/// already.
+std::vector<PlacesIssue> check_places(const Site& site, const CoveredFloor* floor = nullptr);
 
 }  // namespace lodestar

@@ -169,6 +169,12 @@ std::string_view to_string(IssueKind kind) {
   return "";
 }
 
+std::optional<IssueKind> issue_kind_named(std::string_view name) {
+  for (int kind = 0; kind <= static_cast<int>(IssueKind::gap); ++kind)
+    if (to_string(static_cast<IssueKind>(kind)) == name) return static_cast<IssueKind>(kind);
+  return std::nullopt;
+}
+
 nlohmann::ordered_json issue_json(const RegistryIssue& issue) {
   nlohmann::ordered_json json{
       {"kind", to_string(issue.kind)}, {"severity", issue.error ? "error" : "warning"}, {"ids", issue.ids}};

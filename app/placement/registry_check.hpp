@@ -25,6 +25,7 @@ enum class IssueKind {
 
 /// The name in reports: `outside-map`.
 std::string_view to_string(IssueKind kind);
+std::optional<IssueKind> issue_kind_named(std::string_view name);
 
 /// An error or a warning about a registry.
 struct RegistryIssue {

@@ -40,6 +40,7 @@ export interface Issue {
   ids: number[];
   words: string;
   places_m: [number, number][];
+  accepted?: { reason: string; by: string; at: string };
 }
 
 async function request(method: string, target: string, body?: unknown, headers: Record<string, string> = {}): Promise<Response> {
@@ -76,14 +77,17 @@ export const keepPhoto = (id: number, jpeg: string): Promise<HangingMarker[]> =>
 export interface NoSite { new: true; folder: string }
 export interface Plan { name: string; width_px: number; height_px: number; metres_per_px: number | null; shown_px: number; png: string }
 /** Cells in base64, bottom row first: 0 free, 100 occupied, 255 unknown. */
-export interface NewMap { columns: number; rows: number; resolution_m: number; x_m: number; y_m: number; cells: string; warnings: string[] }
+export interface NewMap { columns: number; rows: number; resolution_m: number; x_m: number; y_m: number; cells: string; warnings: string[]; markers: number }
 
 export const readPlan = async (name: string, bytes: string, metresPerUnit: number | null): Promise<Plan> =>
   ({ ...await json<Omit<Plan, 'name'>>(request('PUT', '/api/new/plan', { name, bytes, metres_per_unit: metresPerUnit })), name });
 export const makeMap = async (wanted: Record<string, unknown>): Promise<NewMap> => {
-  const made = await json<{ map: Omit<NewMap, 'warnings'>; warnings: string[] }>(request('PUT', '/api/new/map', wanted));
-  return { ...made.map, warnings: made.warnings };
+  const { map, ...more } = await json<{ map: Omit<NewMap, 'warnings' | 'markers'>; warnings: string[]; markers: number }>(request('PUT', '/api/new/map', wanted));
+  return { ...map, ...more };
 };
+/** A drive whose scans can become a map. */
+export interface ScannedRun { name: string; started: string | null; site: string | null; duration_s: number | null }
+export const getScannedRuns = (): Promise<ScannedRun[]> => json(request('GET', '/api/new/runs'));
 export const makeSite = (site: Record<string, unknown>): Promise<{ markers: number; uncovered_m2: number; why: string }> =>
   json(request('PUT', '/api/new/site', site));
 /** While the server changes over nobody listens. */
@@ -118,6 +122,10 @@ async function tagged(response: Response): Promise<Tagged> {
 export const getMarkers = async (): Promise<Tagged> => tagged(await request('GET', '/api/markers'));
 export const putMarkers = async (registry: Registry, etag: string): Promise<Tagged> =>
   tagged(await request('PUT', '/api/markers', registry, { 'If-Match': etag }));
+/** A warning may stand for a reason; without one it is a warning again. */
+export const letStand = async ({ kind, ids, places_m }: Issue, reason: string): Promise<void> => {
+  await request('PUT', '/api/accepted', { kind, ids, places_m, reason });
+};
 export const checkMarkers = (registry: Registry): Promise<Issue[]> =>
   json(request('POST', '/api/markers/check', registry));
 export const exportMarkers = (format: string, registry: Registry): Promise<{ text: string }> =>

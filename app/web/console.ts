@@ -7,7 +7,7 @@ import { Coverage } from './coverage.js';
 import type { Floor } from './coverage.js';
 import { Documents } from './documents.js';
 import { Draft } from './draft.js';
-import { button, byId } from './dom.js';
+import { byId } from './dom.js';
 import { Editor } from './editor.js';
 import type { Point } from './geometry.js';
 import { Hang } from './hang.js';
@@ -26,6 +26,7 @@ import { paintRoutes } from './route.js';
 import { Stage } from './stage.js';
 import { SitePlaces } from './site_places.js';
 import { View } from './view.js';
+import { Toolbar } from './toolbar.js';
 import { attempt, complain, say } from './words.js';
 
 const followEveryMs = 200;
@@ -50,6 +51,7 @@ export class Console implements Page {
   readonly commands: Command[];
   readonly routes: Point[][];
   private readonly panel: Panel;
+  private readonly toolbar: Toolbar;
   private readonly checking = new Latest(followEveryMs, () => this.check(), complain);
   private readonly deviations = new Latest(followEveryMs, () => this.showDeviations(), complain);
 
@@ -60,7 +62,11 @@ export class Console implements Page {
     this.replay = new Replay(this.stage, site, { goTo: (points) => this.goTo(points), suggestNear: (spot) => this.suggestNear(spot) }, complain);
     this.live = new Live(this.stage, site, say);
     this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.actions.suggest(),
-      fill: () => attempt(() => this.actions.fill()), pickId: () => attempt(() => this.actions.pickId()) });
+      fill: () => attempt(() => this.actions.fill()), pickId: () => attempt(() => this.actions.pickId()),
+      letStand: (issue, reason) => attempt(async () => {
+        await api.letStand(issue, reason);
+        this.checking.want();
+      }) });
     this.actions = new Actions(this.editor, this.coverage, say);
     this.measure = new Measure(this.stage, this.pointer, say);
     this.documents = new Documents(this.editor, tagged, () => this.live.hello?.robot === true);
@@ -71,7 +77,7 @@ export class Console implements Page {
       hasRobot: () => this.live.hello?.robot === true, lanesAre: (there) => this.live.lanesAre(there), list: this.live.places, isOn: () => this.modes?.now === 'places',
       shows: () => this.layers.shown.zones && this.modes?.now !== 'replay' }, site.name, site.actions);
     this.commands = [...this.places.commands(), ...pageCommands(this)];
-    this.makeTools();
+    this.toolbar = new Toolbar(this.commands, (command) => this.run(command));
     this.hang = new Hang(this.stage, this.live);
     this.map = new MapMode(floor.info, this.live);
     this.modes = new Modes(this);
@@ -178,20 +184,8 @@ export class Console implements Page {
 
   // -- tools and keys ---------------------------------------------------------------------------------------
 
-  private makeTools(): void {
-    for (const command of this.commands.filter((c) => c.button)) {
-      const words = command.title + (command.key ? ` (${command.key})` : '');
-      byId('tools').append(button(command.button!, words, () => this.run(command),
-        { id: `tool-${command.name}`, ...(command.everywhere ? { class: 'everywhere' } : command.placing ? { class: 'placing' } : {}) }));
-    }
-  }
-
   refreshTools(): void {
-    for (const command of this.commands.filter((c) => c.button)) {
-      const tool = byId(`tool-${command.name}`) as HTMLButtonElement;
-      tool.disabled = command.possible?.() === false;
-      if (command.pressed) tool.setAttribute('aria-pressed', String(command.pressed()));
-    }
+    this.toolbar.refresh((command) => this.isPossibleNow(command));
     byId('tool-save').classList.toggle('main', this.editor.dirty);
     byId('tool-places-save').classList.toggle('main', this.places.editor.dirty);
   }
@@ -204,8 +198,9 @@ export class Console implements Page {
   }
 
   private isPossibleNow(command: Command): boolean {
-    if (command.placing) return this.modes.now === 'places';
-    return this.modes.now === 'edit' || command.everywhere === true || (this.modes.now === 'survey' && command.surveying === true);
+    const mode = document.body.dataset['mode'];
+    if (command.placing) return mode === 'places';
+    return mode === 'edit' || command.everywhere === true || (mode === 'survey' && command.surveying === true);
   }
 
   private listen(): void {

@@ -5,6 +5,7 @@ import { base64, bytesOf } from './base64.js';
 import { ask, button, byId, el, plural } from './dom.js';
 import { MapPaint } from './map_paint.js';
 import { MapTools } from './map_tools.js';
+import { NewSiteRuns } from './new_site_runs.js';
 import { NewStage } from './new_stage.js';
 import { attempt, say } from './words.js';
 
@@ -18,6 +19,7 @@ export class NewSitePage {
   private picture: ImageBitmap | null = null;  // of the plan
   private map: NewMap | null = null;
   paint: MapPaint | null = null;
+  private from = '';  // what the map is of, where it is of no plan
   private readonly file = el('input', { id: 'new-plan', type: 'file', accept: '.png,.jpg,.jpeg,.pgm,.bmp,.pdf,.dxf' });
   private readonly unit = this.number('new-unit', 'Metres for a unit of a DXF that does not say', '', 1e-6, 1000);
   private readonly hallWidth = this.number('new-width', 'Width (m)', '10', 1, 1000);
@@ -34,6 +36,7 @@ export class NewSitePage {
   private readonly lens = this.choice('new-lens', 'Lens', [['wide', 'Wide'], ['paper', 'Of the paper']]);
   private readonly fills = el('input', { type: 'checkbox', id: 'new-fill', checked: '' });
   private readonly tools = new MapTools(this.stage, () => this.paint);
+  private readonly runs = new NewSiteRuns((names) => attempt(() => this.mapOfRuns(names)));
   private readonly lacks: Record<string, HTMLElement> = {};
   private readonly makeMap = button('Make the map', 'Cells of walls and floor from the plan', () => attempt(() => this.mapOfPlan()), { id: 'new-make-map' });
   private readonly make = button('Make the site', 'Writes the folder and opens its console', () => attempt(() => this.makeSite()), { id: 'new-make', class: 'main' });
@@ -80,9 +83,9 @@ export class NewSitePage {
 
   private buildSteps(): void {
     byId('new-steps').append(
-      this.step('plan', '1. A plan, or an empty hall', el('p', {}, el('label', { for: 'new-plan' }, 'Picture, PDF (first page) or DXF '), this.file), this.fields(this.unit),
+      this.step('plan', '1. A plan, an empty hall, or a drive', el('p', {}, el('label', { for: 'new-plan' }, 'Picture, PDF (first page) or DXF '), this.file), this.fields(this.unit),
         el('p', {}, 'Without a plan: the inside of the outer walls.'), this.fields(this.hallWidth, this.hallHeight),
-        el('div', { class: 'row' }, button('Empty hall', 'A hall of this size', () => attempt(() => this.mapOfHall()), { id: 'new-hall' }))),
+        el('div', { class: 'row' }, button('Empty hall', 'A hall of this size', () => attempt(() => this.mapOfHall()), { id: 'new-hall' })), this.runs.element),
       this.step('scale', '2. Its scale', el('p', {}, 'Click two points on the plan whose distance you know. The wheel zooms, the right button moves the plan.'), this.fields(this.distance, this.scale)),
       this.step('map', '3. The map', this.fields(this.turn, this.dark, this.cell), el('div', { class: 'row' }, this.makeMap,
         button('Back to the plan', 'To measure again', () => attempt(() => this.backToPlan()), { id: 'new-back' })), this.tools.element),
@@ -118,13 +121,14 @@ export class NewSitePage {
 
   private refresh(): void {
     const { plan, map } = this;
-    this.lack('plan', plan || map ? '' : 'Missing: a plan, or a hall', plan ? `${plan.name}: ${plan.width_px} x ${plan.height_px} pixels` : 'An empty hall');
+    this.lack('plan', plan || map ? '' : 'Missing: a plan, a hall, or a drive',
+      plan ? `${plan.name}: ${plan.width_px} x ${plan.height_px} pixels` : this.from);
     const scale = this.metresPerPx;
     const points = this.stage.points.length;
     const measured = points === 2 && !(this.distance.input.valueAsNumber > 0) ? 'Missing: the metres between the two points'
       : plan && scale === null ? `Missing: ${points === 1 ? 'the second point' : 'two points'} and the metres between them, or the metres for a pixel` : '';
     const size = plan && scale !== null ? `The plan is ${(plan.width_px * scale).toFixed(2)} x ${(plan.height_px * scale).toFixed(2)} m` : '';
-    const isScaled = this.lack('scale', measured, plan ? size : 'Nothing to do for a hall');
+    const isScaled = this.lack('scale', measured, plan ? size : `Nothing to do: ${this.from.toLowerCase()}`);
     const first = [this.turn, this.dark, this.cell].map((field) => this.wrong(field)).find((words) => words !== '') ?? '';
     this.makeMap.disabled = !plan || !isScaled || first !== '';
     this.tools.element.hidden = !map;
@@ -184,7 +188,20 @@ export class NewSitePage {
     return this.showMap(await api.makeMap({ hall_m: [this.hallWidth.input.valueAsNumber, this.hallHeight.input.valueAsNumber], cell_m: this.cell.input.valueAsNumber }));
   }
 
-  private showMap(made: NewMap): string {
+  /** It has the markers that the robot saw: no others are hung unless somebody asks for them. */
+  private async mapOfRuns(names: string[]): Promise<string | void> {
+    const wrong = this.wrong(this.cell);
+    if (wrong) throw new Error(wrong);
+    if (!await this.mayDiscard()) return;
+    say('Building the map from scans ...');
+    const made = await api.makeMap({ runs: names, cell_m: this.cell.input.valueAsNumber });
+    this.plan = null;
+    this.fills.checked = made.markers === 0;
+    return this.showMap(made, `Of ${plural(names.length, 'drive')}, with ${plural(made.markers, 'marker')}`);
+  }
+
+  private showMap(made: NewMap, from = 'An empty hall'): string {
+    this.from = from;
     this.map = made;
     this.paint = new MapPaint(made.columns, made.rows, bytesOf(made.cells));
     this.stage.showMap(this.paint);

@@ -3,18 +3,19 @@ import type { Issue } from './api.js';
 import type { Coverage } from './coverage.js';
 import { button, byId, el, plural } from './dom.js';
 import type { Editor } from './editor.js';
+import { IssueList } from './issue_list.js';
 import { idCount, wrapDeg } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import { drawFace } from './marker_paint.js';
 
 const mostRows = 250;
-const mostIssues = 60;
 
 export interface PanelActions {
   goTo(points: Point[]): void;
   suggest(): void;
   fill(): void;
   pickId(): void;
+  letStand(issue: Issue, reason: string): void;
 }
 
 type FieldName = 'id' | 'x' | 'y' | 'z' | 'yawDeg';
@@ -29,8 +30,7 @@ interface ListRow { row: HTMLTableRowElement; id: HTMLButtonElement; cells: HTML
 
 export class Panel {
   private shownSelection = '';
-  private issues: Issue[] = [];
-  private kind = '';  // of the issues listed; '' for all
+  private readonly issues: IssueList;
   private readonly coverageWords = el('p', { id: 'coverage-words' });
   private readonly reason = el('p', { class: 'error', id: 'field-reason', role: 'alert' });
   private readonly rows = new Map<number, ListRow>();
@@ -40,6 +40,13 @@ export class Panel {
   private readonly gapWords = el('p', { id: 'gap-words' });
 
   constructor(private readonly editor: Editor, private readonly actions: PanelActions) {
+    this.issues = new IssueList({
+      show: (issue) => {
+        editor.select([...editor.markers.values()].filter((m) => issue.ids.includes(m.id)).map((m) => m.key));
+        actions.goTo(issue.places_m.map(([x, y]) => ({ x, y })));
+      },
+      letStand: (issue, reason) => actions.letStand(issue, reason),
+    });
     byId('coverage').append(this.coverageWords, this.gapWords, el('div', { class: 'row' },
       button('Suggest next marker', 'Place a marker where it closes most of the gaps', () => actions.suggest()),
       button('Fill the gaps', 'Place as many markers as needed, by a greedy search (K)', () => actions.fill())));
@@ -117,47 +124,16 @@ export class Panel {
 
   // -- issues ---------------------------------------------------------------------------------------------
 
-  /** The server's findings on the registry, as by `lodestar markers check`. */
   showIssues(issues: Issue[]): void {
-    const gaps = issues.filter((i) => i.kind === 'gap').length;
+    const gaps = issues.filter((i) => i.kind === 'gap' && !i.accepted).length;
     this.gapWords.className = gaps === 0 ? 'fine' : 'warning';
     this.gapWords.textContent = gaps === 0 ? 'No gaps.' : `${plural(gaps, 'gap')} without any marker in view; short ones are bridged by odometry.`;
-    this.issues = [...issues].sort((a, b) => a.severity.localeCompare(b.severity));
-    this.listIssues();
-  }
-
-  /** Of the chosen kind, the errors first. */
-  private listIssues(): void {
-    const { issues } = this;
-    const counts = new Map<string, number>();
-    for (const { kind } of issues) counts.set(kind, (counts.get(kind) ?? 0) + 1);
-    if (!counts.has(this.kind)) this.kind = '';
-    const choice = el('select', { id: 'issue-kind', 'aria-label': 'Kind of issue' }, el('option', { value: '' }, `all kinds (${issues.length})`),
-      ...[...counts].sort().map(([kind, count]) => el('option', { value: kind }, `${kind.replaceAll('-', ' ')} (${count})`)));
-    choice.value = this.kind;
-    choice.addEventListener('change', () => {
-      this.kind = choice.value;
-      this.listIssues();
-      byId('issue-kind').focus();
-    });
-    const errors = issues.filter((i) => i.severity === 'error').length;
-    const fitting = issues.filter((i) => this.kind === '' || i.kind === this.kind);
-    byId('issues').replaceChildren(
-      issues.length === 0 ? el('p', { class: 'fine' }, 'None found.') : el('p', {}, `${plural(errors, 'error')}, ${plural(issues.length - errors, 'warning')}`),
-      ...(counts.size > 1 ? [choice] : []), listOf(fitting.slice(0, mostIssues).map((issue) => this.issueRow(issue))),
-      ...(fitting.length > mostIssues ? [el('p', { class: 'faint' }, `and ${fitting.length - mostIssues} more`)] : []));
+    this.issues.show(issues);
   }
 
   showUnchecked(why: string): void {
     this.gapWords.textContent = '';
-    byId('issues').replaceChildren(el('p', {}, why));
-  }
-
-  private issueRow(issue: Issue): HTMLElement {
-    return button(issue.words, 'Show on the map', () => {
-      this.editor.select([...this.editor.markers.values()].filter((m) => issue.ids.includes(m.id)).map((m) => m.key));
-      this.actions.goTo(issue.places_m.map(([x, y]) => ({ x, y })));
-    }, { class: issue.severity, 'data-kind': issue.kind });
+    this.issues.showUnchecked(why);
   }
 
   // -- all markers ----------------------------------------------------------------------------------------
@@ -201,10 +177,6 @@ export class Panel {
 function whyNot(name: FieldName, value: number): string {
   if (name === 'id') return Number.isInteger(value) && value >= 0 && value < idCount ? '' : `IDs are whole numbers from 0 to ${idCount - 1}`;
   return Number.isFinite(value) && Math.abs(value) <= farthestM ? '' : `${name === 'yawDeg' ? 'yaw' : name} needs a number`;
-}
-
-function listOf(items: HTMLElement[]): HTMLElement {
-  return el('ul', { class: 'plain' }, ...items.map((item) => el('li', {}, item)));
 }
 
 /** The face as printed and as on the map, each labelled: they are mirror images. */

@@ -56,7 +56,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
       {"app/site", {"app/common", "drivers/base", "planning"}},
       {"app/frames", {"app/common", "drivers/camera", "localization/survey"}},
       {"app/navigation", {"app/site", "control", "localization/integrity", "localization/scan"}},
-      {"app/placement", {"app/navigation", "app/frames", "localization/calibration"}},
+      {"app/placement", {"app/recording", "app/navigation", "app/frames", "localization/calibration"}},
       {"app/recording", {"app/navigation", "app/common", "localization/survey"}},
       {"app/live", {"app/recording", "app/net"}},
       {"app/fleet", {"app/navigation", "app/live", "app/site", "app/common"}},

@@ -1,10 +1,12 @@
 // What the editor offers beyond dragging: arrays, walls, measures, IDs, filled gaps, issues, history. Judged by the state
 // and by the saved file.
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, open, serve } from './browser.mjs';
+import { binary } from './programs.mjs';
 
 let browser;
 let server;
@@ -389,9 +391,30 @@ describe('other programs and other times', () => {
     await page.locator('#issue-kind').waitFor();
     const [kind, count] = await page.evaluate(() => { const o = document.querySelector('#issue-kind option:nth-child(2)'); return [o.value, Number(o.textContent.match(/\((\d+)\)/)[1])]; });
     await page.locator('#issue-kind').selectOption(kind);
-    const shown = await page.evaluate(() => [...document.querySelectorAll('#issues button')].map((b) => b.dataset.kind));
+    const shown = await page.evaluate(() => [...document.querySelectorAll('#issues button[data-kind]')].map((b) => b.dataset.kind));
     assert.equal(shown.length, count);
     assert.ok(shown.every((k) => k === kind));
+  });
+
+  story('a warning may stand for a reason, for the command too, and can be had back', async (page) => {
+    const issues = page.locator('#issues');
+    const warning = issues.locator('.issue').first();
+    const words = await warning.locator('button.warning').textContent();
+    await warning.getByRole('button', { name: 'May stand' }).click();
+    await page.getByRole('button', { name: 'Let it stand' }).click();
+    await page.locator('#dialog-reason', { hasText: 'Say why' }).waitFor();
+    await page.locator('#why').fill('the "robot" never goes: there');
+    await page.keyboard.press('Enter');
+    await issues.locator('summary', { hasText: '1 may stand' }).click();
+    await issues.locator('details', { hasText: words }).getByText('“the "robot" never goes: there”').waitFor();
+    assert.equal(await issues.locator('button.warning', { hasText: words }).count(), 0);
+    const check = (...more) => spawnSync(binary, ['markers', 'check', '--site', server.site, ...more], { encoding: 'utf8' }).stdout;
+    assert.match(check(), /let stand by accepted.yaml:\n  .*: the "robot" never goes: there\n/);
+    assert.equal(JSON.parse(check('--json')).issues.filter((i) => i.accepted?.reason === 'the "robot" never goes: there').length, 1);
+    await issues.getByRole('button', { name: 'Warn again' }).click();
+    await issues.locator('button.warning', { hasText: words }).waitFor();
+    assert.equal(await page.locator('#standing-issues').count(), 0);
+    assert.doesNotMatch(check(), /let stand/);
   });
 
   story('a script in an imported file stays text', async (page) => {

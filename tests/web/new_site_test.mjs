@@ -1,10 +1,12 @@
 // From an empty folder to the first drive: the page without a site, by what is written on it.
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { axeSource, launch, open, serve, serveRobot, serveRobotAt, serveSite } from './browser.mjs';
+import { binary, source } from './programs.mjs';
 import { isIdle, planned, setGoals, until } from './robot_page.mjs';
 
 const pictures = process.env.LODESTAR_PICTURES;
@@ -62,13 +64,39 @@ async function complaintsOfAxe(page) {
   return page.evaluate(async () => (await window.axe.run()).violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.join(' ')).join(', ')}`));
 }
 
+test('from a drive under markers, as the scanner saw the place', async () => {
+  const place = emptyPlace();
+  const drive = spawnSync(binary, ['replay', join(source, 'sites/lab'), '--people', '1', '--quiet', '-o', join(place.folder, 'runs/monday')], { encoding: 'utf8' });
+  assert.equal(drive.status, 0, drive.stderr);
+  const server = await serveSite(place, '--new');
+  const page = await open(browser, server.url);
+  await page.getByLabel('monday').waitFor();
+  assert.ok(await page.getByRole('button', { name: 'Map of these drives' }).isDisabled(), 'none is chosen');
+  await page.getByLabel('monday').check();
+  await press(page, 'Map of these drives');
+  await lacks(page, 'plan').filter({ hasText: /Of 1 drive, with \d\d markers/ }).waitFor({ timeout: 60_000 });
+  const walls = await page.evaluate(() => window.lodestar.newSite.paint.cells.filter((cell) => cell === 100).length);
+  assert.ok(walls > 1000, `${walls} cells of wall`);
+  assert.ok(!await page.getByLabel('Hang markers wherever').isChecked(), 'they hang already');
+  await look(page, '5-drive');
+  await press(page, 'Make the site');
+  await page.getByText('The site is made, with').waitFor({ timeout: 60_000 });
+  const markers = (file) => [...readFileSync(file, 'utf8').matchAll(/id: (\d+)/g)].map((match) => match[1]);
+  assert.deepEqual(markers(join(place.site, 'markers.yaml')), markers(join(place.folder, 'runs/monday/site/markers.yaml')));
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+  await server.stop();
+  const again = spawnSync(binary, ['replay', place.site, '--quiet', '-o', join(place.folder, 'runs/first')], { encoding: 'utf8' });
+  assert.equal(again.status, 0, `the new site is driven on: ${again.stdout}${again.stderr}`);
+});
+
 test('from a plan to the first drive', async () => {
   const place = emptyPlace();
   const plan = join(place.folder, 'plan.pgm');
   drawPlan(plan);
   let server = await serveSite(place, '--new');
   const page = await open(browser, server.url);
-  assert.equal(await lacks(page, 'plan').innerText(), 'Missing: a plan, or a hall');
+  assert.equal(await lacks(page, 'plan').innerText(), 'Missing: a plan, a hall, or a drive');
   assert.ok(await page.getByRole('button', { name: 'Make the site' }).isDisabled());
   await look(page, '1-empty');
 

@@ -37,7 +37,7 @@ class NewSiteApiTest : public testing::Test {
 
   TemporaryFolder folder_;
   fs::path site_ = folder_ / "hall";
-  NewSiteApi api_{site_, fs::path(LODESTAR_SOURCE_DIR) / "sites/lab"};
+  NewSiteApi api_{site_, fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", site_.parent_path() / "runs"};
 };
 
 /// A room of 6 x 4 m inside walls of 10 cm, at 50 pixels a metre, with paper around it.
@@ -105,6 +105,8 @@ TEST_F(NewSiteApiTest, says_what_is_wrong_and_writes_nothing) {
             {{"name", "../a.exe"}, {"bytes", "AAAA"}, {"metres_per_unit", nullptr}},
             "ends in '.exe'"},
            {"map", {{"metres_per_px", 0.02}, {"cell_m", 0.05}}, "found no plan"},
+           {"map", {{"runs", {"../../etc"}}, {"cell_m", 0.05}}, "wanted names of /api/new/runs"},
+           {"map", {{"runs", json::array()}, {"cell_m", 0.05}}, "wanted names of /api/new/runs"},
            {"map", {{"hall_m", {0.1, 0.1}}, {"cell_m", 0.05}}, "wanted a square metre"},
            {"site", site_of(short_of_cells), "cells: found 3, wanted"},
            {"site", site_of(odd_cell), "cells: found 7, wanted 0, 100 or 255"},
@@ -122,7 +124,7 @@ TEST_F(NewSiteApiTest, says_what_is_wrong_and_writes_nothing) {
 
 TEST_F(NewSiteApiTest, takes_no_name_that_is_there) {
   std::ofstream(site_) << "something";
-  EXPECT_THROW(NewSiteApi(site_, fs::path(LODESTAR_SOURCE_DIR) / "sites/lab"), InputError);
+  EXPECT_THROW(NewSiteApi(site_, fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", ""), InputError);
 }
 
 TEST(Base64, is_read_back_and_nothing_else_is) {

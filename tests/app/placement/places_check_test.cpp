@@ -71,6 +71,40 @@ TEST(PlacesCheck, names_edges_that_are_no_straight_way) {
               ElementsAre("blocked-edge: the edge from 'N1' to 'desk' is blocked by a keep-out"));
 }
 
+/// Without the markers of its eastern half.
+Site half_bare_lab() {
+  Site site = lab();
+  std::erase_if(site.registry.markers, [&](const RegisteredMarker& marker) {
+    return map_from_marker(site.registry, marker).translation().x() > 7.0;
+  });
+  return site;
+}
+
+TEST(PlacesCheck, warns_of_missions_and_edges_that_see_no_marker) {
+  Site site = half_bare_lab();
+  site.places.places = {{"west", {1.7, 5.6}, std::nullopt}, {"east", {13.5, 2.0}, std::nullopt}};
+  site.places.missions = {{.name = "there", .stops = {{"west"}, {"east"}}}};
+  const std::vector<PlacesIssue> one_way = check_places(site);
+  ASSERT_THAT(words_of(one_way),
+              ElementsAre(HasSubstr("blind-mission: mission 'there' sees no marker for ")));
+  EXPECT_FALSE(one_way.front().error);
+  ASSERT_EQ(one_way.front().positions_m.size(), 2U);
+  EXPECT_GT(one_way.front().positions_m[0].x(), 6.0);
+  EXPECT_LT((one_way.front().positions_m[1] - Vec2(13.5, 2.0)).norm(), 0.1) << "to its end";
+  site.places.missions[0].repeat = 2;
+  EXPECT_EQ(check_places(site).size(), 2U) << "and the way back to begin again";
+
+  site.places.missions.clear();
+  site.places.nodes = {{"N1", {13.5, 2.0}}, {"N2", {13.5, 3.2}}};
+  site.places.places.clear();
+  site.places.edges = {{.from = "N1", .to = "N2", .max_mps = {}}};
+  EXPECT_THAT(
+      words_of(check_places(site)),
+      ElementsAre("blind-edge: the edge from 'N1' to 'N2' sees no marker for 1.2 m from 13.5, 2.0 m"));
+  site.registry = lab().registry;
+  EXPECT_THAT(words_of(check_places(site)), IsEmpty());
+}
+
 TEST(PlacesCheck, warns_of_zones_that_were_drawn_for_another_map) {
   Site site = lab();
   site.places.keep_out = {{"stairs", around({40.0, 5.0}, 1.0)}};

@@ -1,4 +1,4 @@
-#include "app/commands/map_from_runs.hpp"
+#include "app/placement/map_from_runs.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

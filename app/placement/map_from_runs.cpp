@@ -1,4 +1,4 @@
-#include "app/commands/map_from_runs.hpp"
+#include "app/placement/map_from_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
