@@ -15,6 +15,10 @@ struct ProtectiveFieldOptions {
   /// Something that has stood for a second may be a person who begins to walk: reach a t^2 / 2. The centre of
   /// mass is moved by some 10 cm in the first half second of a step.
   double start_mps2 = 1.0;
+  /// The same of what has legs: from rest to a walk within half a second, as by who is in a hurry. With 1
+  /// m/s^2 a person who had stood half a metre beside a robot that turned on the spot walked into it before
+  /// it was at rest.
+  double legs_start_mps2 = 3.0;
   double standing_margin_m = 0.02;  ///< a good standard deviation of the range (1.5 cm)
   /// However near it is, a robot does not come nearer than this to what stands: twice the noise of five
   /// beams.
@@ -22,9 +26,9 @@ struct ProtectiveFieldOptions {
   /// Up to this speed what stands is passed like a wall: without it the noise of the range would end the
   /// drive in a gap that leaves 11 cm a side.
   double standing_creep_mps = 0.12;
-  /// A body around standing legs: 0.25 m from its middle and 0.2 m from the shins of legs side by side.
-  /// Nearer than that it may touch the robot, which then only moves off.
-  double body_margin_m = 0.20;
+  /// A body around standing legs: 0.25 m from its middle, 0.2 m from the shins of legs side by side, and the
+  /// noise of five beams. Nearer than that it may touch the robot, which then only moves off.
+  double body_margin_m = 0.22;
   double mapped_margin_m = 0.01;  ///< the way's clearance is planned with elsewhere
   /// Beside a wall that is nearer than that, the room may shrink by this share of the way to rest: with the
   /// noise of the range the nearest hit along a wall is up to 5 cm ahead.

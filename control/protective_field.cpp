@@ -44,8 +44,9 @@ double ProtectiveField::reach_m(Presence presence, double time_s) const {
     case Presence::mapped:
       return 0.0;
     case Presence::standing:
-    case Presence::legs:
       return std::min(options_.person_mps * time_s, 0.5 * options_.start_mps2 * square(time_s));
+    case Presence::legs:
+      return std::min(options_.person_mps * time_s, 0.5 * options_.legs_start_mps2 * square(time_s));
     case Presence::person:
       return options_.person_mps * time_s;
     case Presence::hidden:

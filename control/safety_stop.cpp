@@ -55,6 +55,8 @@ std::string_view to_string(StopReason reason) {
       return "too many of the scanner's beams are lost";
     case StopReason::scanner_turned:
       return "the scanner is turned on its mount";
+    case StopReason::depth_silent:
+      return "the depth camera sends no new images";
     case StopReason::map_contradicted:
       return "the scanner sees through walls of the map";
     case StopReason::camera_silent:

@@ -35,6 +35,7 @@ enum class StopReason {
   scanner_dirty,
   scanner_blind,
   scanner_turned,
+  depth_silent,      ///< no image of the depth camera
   map_contradicted,  ///< beams pass through walls of the map
   camera_silent,
   camera_repeats,
