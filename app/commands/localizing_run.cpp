@@ -47,6 +47,7 @@ ExitCode run_localizing(const Site& site, const LocalizingRun& how, std::functio
   options.publishes_odometry = !how.reads_odometry;
   const std::unique_ptr<Camera> camera = open_camera(site, connection, how.seed);
   const std::unique_ptr<Scanner> scanner = scanner_of(site);
+  const std::unique_ptr<DepthCamera> depth_camera = depth_camera_of(site);
   const Interruption interruption;
   ServiceManager manager(service_environment());
   Ros2Service ros2(site, options);
@@ -57,6 +58,7 @@ ExitCode run_localizing(const Site& site, const LocalizingRun& how, std::functio
       .tell = [](Severity severity, const std::string& words) { program_log().say(severity, words); },
       .on_step = [&manager](Stamp now) { manager.step(now); },
       .scanner = scanner.get(),
+      .depth_camera = depth_camera.get(),
       .attend = [&ros2](const SensorInput& input, const MissionStep& step,
                         Mission& mission) { ros2.session().attend(input, step, mission); }};
   std::optional<SocketCanBus> bus;

@@ -240,6 +240,8 @@ ExitCode run_command(RunArguments arguments) {
   const std::unique_ptr<Camera> camera = open_camera(site, connection, arguments.seed);
   const std::unique_ptr<Scanner> scanner = scanner_of(site);
   options.scanner = scanner.get();
+  const std::unique_ptr<DepthCamera> depth_camera = depth_camera_of(site);
+  options.depth_camera = depth_camera.get();
   Ros2Companion ros2(site, arguments.ros2, false);
   StopActions stops(site, false, log_info);
   options.attend = [&](const SensorInput& heard, const MissionStep& step, Mission& mission) {

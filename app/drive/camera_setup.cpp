@@ -2,6 +2,7 @@
 
 #include "app/frames/video_camera.hpp"
 #include "drivers/camera/pluggable_camera.hpp"
+#include "drivers/camera/v4l2_depth_camera.hpp"
 #include "drivers/scanner/scanner_driver.hpp"
 #include "drivers/stand_in/camera_stand_in.hpp"
 #include "maps/input_error.hpp"
@@ -46,6 +47,18 @@ std::unique_ptr<Scanner> scanner_of(const Site& site) {
     throw InputError(site.folder / "site.yaml", 0, "no scanner, but a robot that has one",
                      "scanner: with its address, such as ld19:/dev/ttyUSB0");
   return open_scanner(site.scanner);
+}
+
+std::unique_ptr<DepthCamera> depth_camera_of(const Site& site) {
+  if (!site.robot.depth_camera) return nullptr;
+  const std::string device = "v4l2:";
+  if (!site.depth_camera.starts_with(device))
+    throw InputError(site.folder / "site.yaml", 0,
+                     site.depth_camera.empty() ? "no depth_camera, but a robot that has one"
+                                               : "depth_camera: '" + site.depth_camera + "'",
+                     "depth_camera: v4l2:/dev/video2");
+  const CameraModel& camera = site.robot.depth_camera->mount.camera;
+  return open_v4l2_depth_camera(site.depth_camera.substr(device.size()), camera.width_px, camera.height_px);
 }
 
 }  // namespace lodestar

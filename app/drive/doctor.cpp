@@ -7,6 +7,7 @@
 #include "app/drive/base_findings.hpp"
 #include "app/drive/camera_findings.hpp"
 #include "app/drive/camera_setup.hpp"
+#include "app/drive/range_findings.hpp"
 #include "app/drive/service_findings.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "app/placement/places_check.hpp"
@@ -109,10 +110,11 @@ std::vector<Finding> look_at_interface(const std::string& name) {
   return {interface, rate, controller};
 }
 
-/// CAN frames, images and markers received within a second.
+/// CAN frames, images, markers and scans received within a second.
 struct Heard {
   HeardBase base;
   SeenImages images;
+  SeenRanges ranges;
 };
 
 Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& protocol) {
@@ -124,6 +126,18 @@ Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& p
   } catch (const InputError& error) {
     heard.images.no_camera = error.what();
   }
+  std::unique_ptr<Scanner> scanner;
+  std::unique_ptr<DepthCamera> depth_camera;
+  try {
+    scanner = scanner_of(site);
+  } catch (const InputError& error) {
+    heard.ranges.no_scanner = error.what();
+  }
+  try {
+    depth_camera = depth_camera_of(site);
+  } catch (const InputError& error) {
+    heard.ranges.no_depth_camera = error.what();
+  }
   MarkerDetector detector(navigation_options(site.robot).detector);
   for (const Stamp end = monotonic_now() + listening; monotonic_now() < end;) {
     while (const auto received = bus.poll()) heard.base.take(*received, protocol.decode(*received));
@@ -132,8 +146,16 @@ Heard listen(const Site& site, const BaseConnection& connection, BaseProtocol& p
       for (const DetectedMarker& marker : detector.detect(frame->gray))
         heard.images.markers.insert(marker.id);
     }
+    while (const auto scan = scanner ? scanner->poll() : std::nullopt)
+      heard.ranges.take(*scan, monotonic_now());
+    while (const auto image = depth_camera ? depth_camera->poll() : std::nullopt) heard.ranges.take(*image);
     sleep_until(monotonic_now() + std::chrono::milliseconds(5));
   }
+  if (scanner) {
+    heard.ranges.packets = scanner->packets();
+    heard.ranges.description = scanner->description();
+  }
+  if (depth_camera) heard.ranges.depth_description = depth_camera->description();
   if (camera) heard.images.description = camera->description();
   return heard;
 }
@@ -165,6 +187,7 @@ std::vector<Finding> examine(const Site& site, const BaseConnection& connection)
   const Heard heard = listen(site, connection, *protocol);
   add(look_at_base(heard.base, *protocol, base_driver_options(site.robot, *protocol).ignored_fault_bits));
   add(look_at_images(site, heard.images));
+  add(look_at_ranges(site.robot, heard.ranges));
   return findings;
 }
 

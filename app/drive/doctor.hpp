@@ -7,8 +7,8 @@
 
 namespace lodestar {
 
-/// Diagnoses why a robot does not move: checks the site, the CAN interface, the base and the camera,
-/// listening for one second. Sends nothing, so it may run during a drive.
+/// Diagnoses why a robot does not move: checks the site, the CAN interface, the base, the camera and the
+/// scanner, listening for one second. Sends nothing, so it may run during a drive.
 std::vector<Finding> examine(const Site& site, const BaseConnection& connection);
 
 }  // namespace lodestar

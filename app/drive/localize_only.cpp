@@ -25,7 +25,8 @@ void localize_only(const Site& site, Camera& camera, const LocalizeOnlyOptions& 
     next = std::max(next + period, monotonic_now());
     sleep_until(next);
     const Stamp now = monotonic_now();
-    const SensorInput input = sensed(now, options.feedback(now), camera, options.scanner);
+    const SensorInput input =
+        sensed(now, options.feedback(now), camera, options.scanner, options.depth_camera);
     const MissionStep step = mission.step(input);
     if (options.attend) options.attend(input, step, mission);
     if (options.on_step) options.on_step(now);

@@ -16,6 +16,7 @@ struct LocalizeOnlyOptions {
   std::function<void(Severity, const std::string&)> tell;  ///< reports events, in words
   std::function<void(Stamp)> on_step;                      ///< called after each step
   Scanner* scanner = nullptr;                              ///< of a robot that has one
+  DepthCamera* depth_camera = nullptr;                     ///< likewise
   std::function<void(const SensorInput&, const MissionStep&, Mission&)> attend;  ///< called after each step
 };
 

@@ -126,7 +126,7 @@ RunRecord run(const Site& site, CanBus& bus, std::unique_ptr<BaseProtocol> proto
     next = std::max(next + control_period, monotonic_now());
     sleep_until(next);
     const Stamp now = monotonic_now();
-    SensorInput input = sensed(now, base.poll(now), camera, options.scanner);
+    SensorInput input = sensed(now, base.poll(now), camera, options.scanner, options.depth_camera);
     if (options.session != nullptr) input.zones = options.session->take_zones();
     if (options.on_input) options.on_input(input);
     const MissionStep step = mission.step(input);

@@ -11,6 +11,7 @@
 #include "app/site/site.hpp"
 #include "drivers/base/base_protocol.hpp"
 #include "drivers/camera/camera.hpp"
+#include "drivers/camera/depth_camera.hpp"
 #include "drivers/can/can_bus.hpp"
 #include "drivers/scanner/scanner.hpp"
 
@@ -42,6 +43,7 @@ struct RunOptions {
   /// `operator_wish` says stop.
   OperatorSession* session = nullptr;
   Scanner* scanner = nullptr;           ///< of a robot that has one
+  DepthCamera* depth_camera = nullptr;  ///< likewise
   std::function<void(RunRecord)> keep;  ///< with a session: receives the record of each drive as it ends
 };
 

@@ -2,7 +2,7 @@
 
 namespace lodestar {
 
-SensorInput sensed(Stamp now, BaseFeedback base, Camera& camera, Scanner* scanner) {
+SensorInput sensed(Stamp now, BaseFeedback base, Camera& camera, Scanner* scanner, DepthCamera* depth) {
   constexpr std::size_t most_frames = 2;
   SensorInput input{.now = now, .frames = {}, .base = std::move(base)};
   while (input.frames.size() < most_frames) {
@@ -13,6 +13,11 @@ SensorInput sensed(Stamp now, BaseFeedback base, Camera& camera, Scanner* scanne
   if (scanner != nullptr) {
     while (std::optional<Scan> scan = scanner->poll()) input.scans.push_back(std::move(*scan));
     input.packets = scanner->packets();
+  }
+  while (depth != nullptr) {
+    std::optional<DepthImage> image = depth->poll();
+    if (!image) break;
+    input.depths.push_back(std::move(*image));
   }
   return input;
 }

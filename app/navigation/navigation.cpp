@@ -139,7 +139,7 @@ void Navigation::look_around(const SensorInput& input, const PoseFilter& filter,
   if (!surroundings_) return;
   surroundings_->use_scales({filter.wheel_scales().x(), filter.wheel_scales().y(), filter.turn_scale()});
   surroundings_->add_packets(input.packets, input.now);
-  surroundings_->add(input.base.travel, input.scans, input.now, mapped_pose(facts));
+  surroundings_->add(input.base.travel, input.scans, input.depths, input.now, mapped_pose(facts));
   plan_around_obstacles(facts);
   const std::optional<StopReason> reason = surroundings_->reason_to_stop(input.now);
   if (!facts.stop) facts.stop = reason;

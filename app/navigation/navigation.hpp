@@ -56,6 +56,7 @@ struct SensorInput {
   std::vector<Frame> frames;
   BaseFeedback base;
   std::vector<Scan> scans;
+  std::vector<DepthImage> depths;
   ScanPackets packets;                           ///< of the scanner, since the beginning
   std::shared_ptr<const Zones> zones = nullptr;  ///< that people have set since the last step, if so
 };

@@ -55,6 +55,10 @@ std::optional<SurroundingsOptions> surroundings_options(const Robot& robot, cons
   constexpr double dying_away_s = 0.1;
   options.field.response_s = drive.response_s + dying_away_s;
   options.release.rise_mps2 = drive.max_acceleration_mps2;
+  if (robot.depth_camera) {
+    options.depth.emplace(DepthSourceOptions{.mount = robot.depth_camera->mount, .slab = {}});
+    options.depth->slab.high_m = robot.depth_camera->robot_height_m;
+  }
   return options;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <opencv2/core.hpp>
 #include <utility>
 
 #include "localization/scan/smoothed_ends.hpp"
@@ -63,6 +64,14 @@ std::array<Vec2, 12> ring(const Vec2& middle_m, double radius_m) {
   return points_m;
 }
 
+void append(const std::vector<FieldPoint>& points, std::vector<FieldPoint>& to) {
+  to.insert(to.end(), points.begin(), points.end());
+}
+
+bool is_same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && !a.empty() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
 bool moves(const BodyVelocity& velocity) {
   return std::abs(velocity.forward_mps) >= standing_mps || std::abs(velocity.turn_radps) >= standing_radps;
 }
@@ -77,10 +86,20 @@ Surroundings::Surroundings(const SurroundingsOptions& options)
       watch_(options.watch),
       contradiction_(options.contradiction),
       memory_(options.memory),
-      release_(options.release) {}
+      release_(options.release) {
+  if (!options.depth) return;
+  ObstacleMemoryOptions memory = options.memory;
+  memory.seen_free_within_m =
+      0.7 * options.depth->mount.range_m;  // farther away its noise lets edges come and go
+  above_.emplace(Above{.slab = HeightSlab(options.depth->mount, outline_, options.depth->slab),
+                       .memory = ObstacleMemory(memory),
+                       .waiting = {},
+                       .newest = std::nullopt,
+                       .points = {}});
+}
 
-void Surroundings::add(std::span<const WheelTravel> travel, std::span<const Scan> scans, Stamp now,
-                       const MappedPose& mapped) {
+void Surroundings::add(std::span<const WheelTravel> travel, std::span<const Scan> scans,
+                       std::span<const DepthImage> depths, Stamp now, const MappedPose& mapped) {
   constexpr std::size_t most_waiting = 3;
   for (const WheelTravel& reading : travel) {
     track_.add(reading);
@@ -93,6 +112,10 @@ void Surroundings::add(std::span<const WheelTravel> travel, std::span<const Scan
     }
   while (waiting_.size() > most_waiting) waiting_.pop_front();
   while (!waiting_.empty() && take(waiting_.front(), mapped)) waiting_.pop_front();
+  if (!above_) return;
+  above_->waiting.insert(above_->waiting.end(), depths.begin(), depths.end());
+  while (above_->waiting.size() > most_waiting) above_->waiting.pop_front();
+  while (!above_->waiting.empty() && take(above_->waiting.front(), mapped)) above_->waiting.pop_front();
 }
 
 /// False while the wheel readings of the scan's time are missing.
@@ -102,9 +125,36 @@ bool Surroundings::take(const Scan& scan, const MappedPose& mapped) {
   placed = without_veils(std::move(*placed));
   memory_.add(*placed);
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
-  field_scan_ = presences(*placed, map_from_odom, mapped);
+  field_scan_ =
+      FieldScan{.newest = placed->newest, .points = presences(*placed, memory_, map_from_odom, mapped)};
+  append(corners_of(*placed, map_from_odom, mapped), field_scan_->points);
+  scanned_points_ = field_scan_->points.size();
+  if (above_) append(above_->points, field_scan_->points);
   if (map_from_odom) hold_against_map(scan, *map_from_odom, mapped);
   return true;
+}
+
+/// The same of a depth image. One that repeats the last is none: each has noise of its own.
+bool Surroundings::take(const DepthImage& image, const MappedPose& mapped) {
+  if (above_->newest && image.stamp - *above_->newest < options_.depth->least_period) return true;
+  if (is_same(image.depth_mm, above_->last_mm)) return true;
+  const std::optional<Pose2> odom_from_base = track_.pose_at(image.stamp);
+  if (!odom_from_base) return false;
+  const DeskewedScan seen = above_->slab.add(image, *odom_from_base);
+  above_->memory.add(seen);
+  above_->points = presences(seen, above_->memory, map_from_odom(mapped), mapped);
+  above_->newest = image.stamp;
+  above_->last_mm = image.depth_mm;
+  if (!field_scan_) return true;
+  field_scan_->points.resize(scanned_points_);
+  append(above_->points, field_scan_->points);
+  return true;
+}
+
+std::vector<const ObstacleMemory*> Surroundings::memories() const {
+  std::vector<const ObstacleMemory*> memories{&memory_};
+  if (above_) memories.push_back(&above_->memory);
+  return memories;
 }
 
 std::optional<Pose2> Surroundings::map_from_odom(const MappedPose& mapped) const {
@@ -138,19 +188,20 @@ bool Surroundings::is_within_robot(const Ray& ray) const {
          options_.shape.distance_m(inverse(*odom_from_base) * ray.end_m) < -outline_.margin_m;
 }
 
-FieldScan Surroundings::presences(const DeskewedScan& scan, const std::optional<Pose2>& map_from_odom,
-                                  const MappedPose& mapped) const {
-  FieldScan result{.newest = scan.newest, .points = {}};
+std::vector<FieldPoint> Surroundings::presences(const DeskewedScan& scan, const ObstacleMemory& memory,
+                                                const std::optional<Pose2>& map_from_odom,
+                                                const MappedPose& mapped) const {
+  std::vector<FieldPoint> points;
   std::optional<MapExplanation> explanation;
   if (map_from_odom) explanation.emplace(mapped.map, mapped.estimate->covariance);
-  const std::vector<bool> stands = memory_.standing(scan);
+  const std::vector<bool> stands = memory.standing(scan);
   const auto presence_of = [&](std::size_t i) {
     const Ray& ray = scan.rays[i];
     if (is_within_robot(ray)) return Presence::person;  // nothing can stand there
     const double range_m = (ray.end_m - ray.origin_m).norm();
     if (explanation && explanation->explains(*map_from_odom * ray.end_m, range_m)) return Presence::mapped;
     if (!stands[i]) return Presence::person;
-    return memory_.has_legs(ray.end_m) ? Presence::legs : Presence::standing;
+    return memory.has_legs(ray.end_m) ? Presence::legs : Presence::standing;
   };
   const std::vector<Vec2> smoothed_m = smoothed_ends_m(scan);
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
@@ -158,21 +209,27 @@ FieldScan Surroundings::presences(const DeskewedScan& scan, const std::optional<
     if (!ends_at_something(ray)) continue;
     const Presence presence = presence_of(i);
     // What does not move is passed closely.
-    result.points.push_back({ray.stamp, is_still(presence) ? smoothed_m[i] : ray.end_m, presence});
+    points.push_back({ray.stamp, is_still(presence) ? smoothed_m[i] : ray.end_m, presence});
   }
+  return points;
+}
+
+std::vector<FieldPoint> Surroundings::corners_of(const DeskewedScan& scan,
+                                                 const std::optional<Pose2>& map_from_odom,
+                                                 const MappedPose& mapped) const {
   const OccupancyMap& map = mapped.map.map();
   const auto can_stand = [&](const Vec2& point_in_odom) {
     if (!map_from_odom) return true;
     const Cell cell = map.cell_at(*map_from_odom * point_in_odom);
     return map.contains(cell) && is_drivable(map.at(cell));
   };
-  const std::vector<FieldPoint> corners = hidden_corners(scan, options_.corners, can_stand);
-  result.points.insert(result.points.end(), corners.begin(), corners.end());
-  return result;
+  return hidden_corners(scan, options_.corners, can_stand);
 }
 
 std::optional<StopReason> Surroundings::reason_to_stop(Stamp now) const {
   if (const std::optional<ScannerFault> fault = watch_.fault(now)) return stop_for(*fault);
+  if (above_ && (!above_->newest || now - *above_->newest > options_.depth->max_silence))
+    return StopReason::depth_silent;
   if (contradiction_.alarm()) return StopReason::map_contradicted;
   return std::nullopt;
 }
@@ -206,10 +263,12 @@ std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& 
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
   std::optional<MapExplanation> explanation;
   if (map_from_odom) explanation.emplace(mapped.map, mapped.estimate->covariance);
-  for (const Vec2& center_in_odom : memory_.occupied_m(now)) {
-    const double range_m = (center_in_odom - odom_from_base->position_m).norm();
-    if (explanation && explanation->explains(*map_from_odom * center_in_odom, range_m)) continue;
-    seen.cells.push_back({center_in_odom, memory_.stands_at(center_in_odom, now)});
+  for (const ObstacleMemory* memory : memories()) {
+    for (const Vec2& center_in_odom : memory->occupied_m(now)) {
+      const double range_m = (center_in_odom - odom_from_base->position_m).norm();
+      if (explanation && explanation->explains(*map_from_odom * center_in_odom, range_m)) continue;
+      seen.cells.push_back({center_in_odom, memory->stands_at(center_in_odom, now)});
+    }
   }
   return seen;
 }
@@ -229,12 +288,14 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) 
     for (const Vec2& point_in_map : ring(*map_from_odom * middle_in_odom, radius_m))
       if ((point_in_map - robot_m).norm() > beside_m) append_unexplained(point_in_map);
   };
-  for (const Vec2& thing_in_odom : memory_.standing_m(now)) {
-    append_unexplained(*map_from_odom * thing_in_odom);
-    append_around(thing_in_odom, options_.around_things_m);
+  for (const ObstacleMemory* memory : memories()) {
+    for (const Vec2& thing_in_odom : memory->standing_m(now)) {
+      append_unexplained(*map_from_odom * thing_in_odom);
+      append_around(thing_in_odom, options_.around_things_m);
+    }
+    for (const Vec2& leg_in_odom : memory->standing_legs_m(now))
+      append_around(leg_in_odom, options_.around_legs_m);
   }
-  for (const Vec2& leg_in_odom : memory_.standing_legs_m(now))
-    append_around(leg_in_odom, options_.around_legs_m);
   return points_m;
 }
 

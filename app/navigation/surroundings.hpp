@@ -13,10 +13,21 @@
 #include "localization/integrity/map_contradiction.hpp"
 #include "localization/integrity/scanner_watch.hpp"
 #include "localization/scan/deskewed.hpp"
+#include "localization/scan/height_slab.hpp"
 #include "maps/map_overlay.hpp"
 #include "maps/obstacle_memory.hpp"
 
 namespace lodestar {
+
+/// A depth camera beside the scanner.
+struct DepthSourceOptions {
+  DepthMount mount;
+  HeightSlabOptions slab;
+  /// Without an image for so long the robot stands: several images of the slowest camera (6 Hz).
+  Duration max_silence = std::chrono::milliseconds(700);
+  /// Images that follow sooner are passed over: each costs some milliseconds, and scanners are no faster.
+  Duration least_period = std::chrono::milliseconds(90);
+};
 
 /// What a robot with a scanner is, and how it minds what the scanner sees.
 struct SurroundingsOptions {
@@ -27,6 +38,7 @@ struct SurroundingsOptions {
   ProtectiveFieldOptions field;
   FieldReleaseOptions release;
   HiddenCornerOptions corners;
+  std::optional<DepthSourceOptions> depth;
   ScannerWatchOptions watch;
   MapContradictionOptions contradiction;
   /// A path is looked at no more often than this for what stands in its way.
@@ -55,9 +67,9 @@ class Surroundings {
  public:
   explicit Surroundings(const SurroundingsOptions& options);
 
-  /// Wheel travel first, then the scans that arrived with it.
-  void add(std::span<const WheelTravel> travel, std::span<const Scan> scans, Stamp now,
-           const MappedPose& mapped);
+  /// Wheel travel first, then the scans and depth images that arrived with it.
+  void add(std::span<const WheelTravel> travel, std::span<const Scan> scans,
+           std::span<const DepthImage> depths, Stamp now, const MappedPose& mapped);
 
   /// The wheels' scales as learned so far.
   void use_scales(const TravelScales& scales) { track_.use_scales(scales); }
@@ -92,11 +104,17 @@ class Surroundings {
 
  private:
   bool take(const Scan& scan, const MappedPose& mapped);
+  bool take(const DepthImage& image, const MappedPose& mapped);
   [[nodiscard]] std::optional<Pose2> map_from_odom(const MappedPose& mapped) const;
   void hold_against_map(const Scan& scan, const Pose2& map_from_odom, const MappedPose& mapped);
   [[nodiscard]] bool is_within_robot(const Ray& ray) const;
-  [[nodiscard]] FieldScan presences(const DeskewedScan& scan, const std::optional<Pose2>& map_from_odom,
-                                    const MappedPose& mapped) const;
+  [[nodiscard]] std::vector<FieldPoint> presences(const DeskewedScan& scan, const ObstacleMemory& memory,
+                                                  const std::optional<Pose2>& map_from_odom,
+                                                  const MappedPose& mapped) const;
+  [[nodiscard]] std::vector<FieldPoint> corners_of(const DeskewedScan& scan,
+                                                   const std::optional<Pose2>& map_from_odom,
+                                                   const MappedPose& mapped) const;
+  [[nodiscard]] std::vector<const ObstacleMemory*> memories() const;
 
   SurroundingsOptions options_;
   OwnOutline outline_;
@@ -106,9 +124,20 @@ class Surroundings {
   ScannerWatch watch_;
   MapContradiction contradiction_;
   ObstacleMemory memory_;
+  /// What is above the scan plane, which a scanner's beams pass below and must not clear.
+  struct Above {
+    HeightSlab slab;
+    ObstacleMemory memory;
+    std::deque<DepthImage> waiting;  ///< for the wheel readings of their time
+    std::optional<Stamp> newest;
+    cv::Mat last_mm;
+    std::vector<FieldPoint> points;
+  };
+  std::optional<Above> above_;
   FieldRelease release_;
-  std::deque<Scan> waiting_;  ///< for the wheel readings of their time
-  std::optional<FieldScan> field_scan_;
+  std::deque<Scan> waiting_;             ///< for the wheel readings of their time
+  std::optional<FieldScan> field_scan_;  ///< of all sources; its age is the newest scan's
+  std::size_t scanned_points_ = 0;  ///< the first of its points; those of the depth camera come after them
   std::optional<Stamp> last_look_;  ///< at a path
 };
 

@@ -39,6 +39,7 @@ SimulatedDriveOptions drive_options(const Scenario& scenario, std::uint64_t seed
                                 .uncertainty_constraint = std::nullopt};
   options.scanner = scenario.scanner;
   options.discs = scenario.discs;
+  options.overhangs = scenario.overhangs;
   options.is_placed_at_start = scenario.is_placed_at_start;
   return options;
 }

@@ -102,6 +102,21 @@ MovingDisc read_disc(StrictYaml& yaml) {
   return disc;
 }
 
+Overhang read_overhang(StrictYaml& yaml) {
+  const auto range = [&](const char* key, double least, double most) {
+    const std::vector<double> ends = yaml.numbers(key, 2);
+    if (ends[0] >= ends[1] || ends[0] < least || ends[1] > most)
+      yaml.refuse(key, fmt::format("[{}, {}]", ends[0], ends[1]),
+                  fmt::format("[LOW, HIGH] between {} and {}", least, most));
+    return Vec2(ends[0], ends[1]);
+  };
+  const Vec2 x_m = range("x_m", -far_m, far_m);
+  const Vec2 y_m = range("y_m", -far_m, far_m);
+  const Vec2 z_m = range("z_m", 0.0, 10.0);
+  yaml.finish();
+  return {.low_m = {x_m[0], y_m[0]}, .high_m = {x_m[1], y_m[1]}, .bottom_m = z_m[0], .top_m = z_m[1]};
+}
+
 bool markers_hang(StrictYaml& yaml) {
   if (!yaml.has("markers")) return true;
   const std::string markers = yaml.text("markers");
@@ -137,6 +152,9 @@ Scenario load_scenario(const std::filesystem::path& file, const Site& lab) {
   if (yaml.has("scanner")) read_scanner(yaml.mapping("scanner"), scenario.scanner);
   if (yaml.has("discs"))
     for (StrictYaml& disc : yaml.list_of_mappings("discs")) scenario.discs.push_back(read_disc(disc));
+  if (yaml.has("overhangs"))
+    for (StrictYaml& overhang : yaml.list_of_mappings("overhangs"))
+      scenario.overhangs.push_back(read_overhang(overhang));
   scenario.is_placed_at_start = !markers_hang(yaml);
   yaml.finish();
   if (!scenario.is_placed_at_start) site.registry = marker_grid_above(site.map.map);

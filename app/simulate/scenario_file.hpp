@@ -5,6 +5,7 @@
 
 #include "app/site/site.hpp"
 #include "drivers/simulation/moving_disc.hpp"
+#include "drivers/simulation/overhang.hpp"
 #include "drivers/simulation/simulated_scanner.hpp"
 
 namespace lodestar {
@@ -16,6 +17,7 @@ struct Scenario {
   double time_limit_s = 0.0;
   SimulatedScannerOptions scanner;
   std::vector<MovingDisc> discs;
+  std::vector<Overhang> overhangs;
   bool is_placed_at_start = false;  ///< a person says where the robot starts: no markers hang
 };
 

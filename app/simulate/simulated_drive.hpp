@@ -11,6 +11,7 @@
 #include "app/site/site.hpp"
 #include "drivers/simulation/fault.hpp"
 #include "drivers/simulation/moving_disc.hpp"
+#include "drivers/simulation/overhang.hpp"
 #include "drivers/simulation/scoring.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
 #include "drivers/simulation/simulated_scanner.hpp"
@@ -34,6 +35,7 @@ struct SimulatedDriveOptions {
   std::optional<SimulatedScannerOptions> scanner;  ///< without it: the robot's own, if it has one
   PeopleOptions people;                            ///< who walk about
   std::vector<MovingDisc> discs;                   ///< that no map has
+  std::vector<Overhang> overhangs;                 ///< likewise
   std::vector<DiscState> others;                   ///< robots in the same world, as at the start
   bool is_placed_at_start = false;                 ///< a person says where it starts, to 2 cm and 1 degree
   /// Asked after each step what the judge of the simulated world says; true ends the drive where it is.

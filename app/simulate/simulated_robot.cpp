@@ -35,6 +35,11 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
   options.scanner = replay.scanner;
   if (!options.scanner && site.robot.scanner)
     options.scanner = SimulatedScannerOptions{.mount = site.robot.scanner->mount};
+  if (site.robot.depth_camera) {
+    options.depth_camera = SimulatedDepthCameraOptions{.mount = site.robot.depth_camera->mount};
+    options.robot_height_m = site.robot.depth_camera->robot_height_m;
+  }
+  options.overhangs = replay.overhangs;
   options.discs = replay.discs;
   options.people = replay.people;
   if (site.charging) {
@@ -75,6 +80,8 @@ SensorInput sense(Simulation& simulation, BaseDriver& base) {
     while (std::optional<Scan> scan = scanner->poll()) input.scans.push_back(std::move(*scan));
     input.packets = scanner->packets();
   }
+  if (DepthCamera* depth = simulation.depth_camera())
+    while (std::optional<DepthImage> image = depth->poll()) input.depths.push_back(std::move(*image));
   return input;
 }
 

@@ -142,6 +142,32 @@ void read_scanner(StrictYaml yaml, Robot& robot) {
   robot.scanner = scanner;
 }
 
+/// Its optical axis: turned by yaw, then down by pitch.
+void read_depth_camera(StrictYaml yaml, Robot& robot) {
+  RobotDepthCamera depth;
+  CameraModel& camera = depth.mount.camera;
+  const Vec3 place_m(yaml.number("x_m", -10.0, 10.0), yaml.number("y_m", -10.0, 10.0),
+                     yaml.number("z_m", 0.0, 3.0));
+  const double yaw_rad = read_angle(yaml, "yaw_deg");
+  const double down_rad = radians(yaml.number("pitch_down_deg", -90.0, 90.0));
+  camera.width_px = yaml.integer("width_px", 16, 4096);
+  camera.height_px = yaml.integer("height_px", 16, 4096);
+  camera.fx_px = yaml.number("fx_px", 8.0, 20'000.0);
+  camera.fy_px = yaml.number("fy_px", 8.0, 20'000.0);
+  camera.cx_px = yaml.number("cx_px", 0.0, 4096.0);
+  camera.cy_px = yaml.number("cy_px", 0.0, 4096.0);
+  depth.mount.range_m = yaml.number("range_m", 0.5, 10.0);
+  depth.robot_height_m = yaml.number("robot_height_m", 0.1, 3.0);
+  yaml.finish();
+  Eigen::Matrix3d ahead;  // x right, y down, z ahead of a camera that looks along the base's x axis
+  ahead << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  depth.mount.base_from_camera.translation() = place_m;
+  depth.mount.base_from_camera.linear() = Eigen::AngleAxisd(yaw_rad, Vec3::UnitZ()) *
+                                          Eigen::AngleAxisd(down_rad, Vec3::UnitY()).toRotationMatrix() *
+                                          ahead;
+  robot.depth_camera = depth;
+}
+
 void read_arrival(StrictYaml yaml, Robot& robot) {
   robot.arrival_distance_m = yaml.number("distance_m", 0.001, 1.0);
   robot.arrival_heading_rad = radians(yaml.number("heading_deg", 0.1, 90.0));
@@ -252,6 +278,12 @@ Robot load_robot(const std::filesystem::path& file) {
   if (yaml.has("motors")) read_motors(yaml.mapping("motors"), robot);
   if (yaml.has("wheels")) read_wheels(yaml.mapping("wheels"), robot);
   if (yaml.has("scanner")) read_scanner(yaml.mapping("scanner"), robot);
+  if (yaml.has("depth_camera")) {
+    if (!robot.scanner)
+      yaml.refuse("depth_camera", "one without a scanner",
+                  "a scanner too: a depth camera looks one way only");
+    read_depth_camera(yaml.mapping("depth_camera"), robot);
+  }
   if (yaml.has("base")) read_base_settings(yaml.mapping("base"), robot);
   if (yaml.has("battery")) (void)read_battery_curve(yaml.mapping("battery"));  // kept by who asks for it
   robot.preferred_clearance_m = yaml.number("preferred_clearance_m", 0.0, 5.0);
@@ -312,6 +344,12 @@ Site load_site(const std::filesystem::path& folder) {
     if (!site.robot.scanner)
       yaml.refuse("scanner", "'" + site.scanner + "' of a robot without one",
                   "scanner: in its robot.yaml too");
+  }
+  if (yaml.has("depth_camera")) {
+    site.depth_camera = yaml.text("depth_camera");
+    if (!site.robot.depth_camera)
+      yaml.refuse("depth_camera", "'" + site.depth_camera + "' of a robot without one",
+                  "depth_camera: in its robot.yaml too");
   }
   if (yaml.has("base")) site.base = read_base(yaml.mapping("base"));
   if (yaml.has("charging")) site.charging = read_charging(yaml.mapping("charging"), site);

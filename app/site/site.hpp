@@ -11,6 +11,7 @@
 #include "app/site/goal.hpp"
 #include "drivers/base/base_state.hpp"
 #include "maps/camera_model.hpp"
+#include "maps/depth_image.hpp"
 #include "maps/footprint.hpp"
 #include "maps/map_file.hpp"
 #include "maps/marker_registry.hpp"
@@ -35,6 +36,12 @@ struct RobotScanner {
   ScannerMount mount;
   /// Measured on this base and floor: what it reaches whenever the protective field stops it.
   double protective_deceleration_mps2 = 1.5;
+};
+
+/// A depth camera on the robot, for what hangs or stands above the plane of its scanner.
+struct RobotDepthCamera {
+  DepthMount mount;
+  double robot_height_m = 0.0;  ///< what hangs higher does not touch the robot
 };
 
 /// The robot, as robot.yaml describes it.
@@ -67,6 +74,7 @@ struct Robot {
   std::optional<double> wheel_noise_m_per_sqrt_m;
   BaseSettings base;
   std::optional<RobotScanner> scanner;
+  std::optional<RobotDepthCamera> depth_camera;  ///< of a robot with a scanner
 };
 
 /// How the real base is connected.
@@ -109,6 +117,7 @@ struct Site {
   std::string camera;  ///< the camera device, or "simulated"; empty when the site names none
   CameraSettings camera_settings;
   std::string scanner;                 ///< where the robot's scanner is; empty when the site names none
+  std::string depth_camera;            ///< likewise
   std::optional<BaseConnection> base;  ///< nothing when the site is for simulation only
   std::optional<ChargingSettings> charging;
   std::vector<ActionHook> actions;  ///< that missions may ask for: those of a fleet, too

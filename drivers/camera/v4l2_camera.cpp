@@ -75,13 +75,13 @@ void V4l2Camera::require_streaming() {
 
 void V4l2Camera::choose_layout() {
   const std::vector<std::uint32_t> offered = formats_of(*device_);
-  const auto readable = readable_v4l2_formats();
+  const auto readable = options_.depth ? readable_v4l2_depth_formats() : readable_v4l2_formats();
   const auto best = std::ranges::find_first_of(readable, offered);
   if (best == readable.end()) {
     std::string names;
     for (const std::uint32_t format : offered) names += fourcc_name(format) + " ";
     refuse(fmt::format("pixel formats {}", names.empty() ? "none " : names) + "only",
-           "gray, YUV or JPEG (GREY, YUYV, MJPG ...)");
+           options_.depth ? "depths of 16 bits (Z16)" : "gray, YUV or JPEG (GREY, YUYV, MJPG ...)");
   }
 
   v4l2_format format{};

@@ -25,6 +25,7 @@ struct V4l2CameraOptions {
   int height_px = 0;  ///< the same
   /// Buffers in which the device keeps frames until they are polled; when all are full it drops new frames.
   int buffers = 4;
+  bool depth = false;  ///< of a depth camera: frames are depths in millimetres (CV_16UC1)
   // Set at every opening; empty: as the camera is set.
   std::optional<Duration> exposure;
   std::optional<int> gain;  ///< in the driver's unit

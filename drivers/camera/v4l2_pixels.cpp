@@ -5,7 +5,8 @@
 #include <cmath>
 #include <linux/videodev2.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+
+#include "maps/picture.hpp"
 
 namespace lodestar {
 namespace {
@@ -14,6 +15,8 @@ constexpr std::array<std::uint32_t, 11> formats{V4L2_PIX_FMT_GREY,  V4L2_PIX_FMT
                                                 V4L2_PIX_FMT_Y10,   V4L2_PIX_FMT_YUYV,   V4L2_PIX_FMT_UYVY,
                                                 V4L2_PIX_FMT_NV12,  V4L2_PIX_FMT_YUV420, V4L2_PIX_FMT_YVU420,
                                                 V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_JPEG};
+
+constexpr std::array<std::uint32_t, 1> depth_formats{V4L2_PIX_FMT_Z16};
 
 using Levels = std::array<std::uint8_t, 256>;
 
@@ -35,6 +38,7 @@ int bytes_per_pixel(std::uint32_t fourcc) {
     case V4L2_PIX_FMT_Y16:
     case V4L2_PIX_FMT_Y12:
     case V4L2_PIX_FMT_Y10:
+    case V4L2_PIX_FMT_Z16:
     case V4L2_PIX_FMT_YUYV:
     case V4L2_PIX_FMT_UYVY:
       return 2;
@@ -45,10 +49,9 @@ int bytes_per_pixel(std::uint32_t fourcc) {
 
 cv::Mat decoded_jpeg(const V4l2Layout& layout, std::span<const std::uint8_t> bytes) {
   try {
-    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::uint8_t*>(bytes.data()));
-    cv::Mat gray = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE);
+    cv::Mat gray = decode_gray(bytes);
     if (gray.cols == layout.width_px && gray.rows == layout.height_px) return gray;
-  } catch (const cv::Exception&) {
+  } catch (const PictureError&) {
     return {};
   }
   return {};
@@ -85,10 +88,26 @@ void convert_row(std::uint32_t fourcc, const Levels& levels, const std::uint8_t*
   }
 }
 
+/// Low byte first.
+cv::Mat depths_of(const V4l2Layout& layout, std::span<const std::uint8_t> bytes, std::size_t stride) {
+  cv::Mat depth(layout.height_px, layout.width_px, CV_16UC1);
+  for (int y = 0; y < layout.height_px; ++y) {
+    const std::uint8_t* from = bytes.data() + static_cast<std::size_t>(y) * stride;
+    auto* to = depth.ptr<std::uint16_t>(y);
+    for (int x = 0; x < layout.width_px; ++x)
+      to[x] = static_cast<std::uint16_t>(from[2 * x] | (static_cast<unsigned>(from[2 * x + 1]) << 8U));
+  }
+  return depth;
+}
+
 }  // namespace
 
 std::span<const std::uint32_t> readable_v4l2_formats() {
   return formats;
+}
+
+std::span<const std::uint32_t> readable_v4l2_depth_formats() {
+  return depth_formats;
 }
 
 std::string fourcc_name(std::uint32_t fourcc) {
@@ -105,6 +124,7 @@ cv::Mat gray_of(const V4l2Layout& layout, std::span<const std::uint8_t> bytes) {
   const auto stride = std::max(static_cast<std::size_t>(layout.bytes_per_line), row_bytes);
   const auto rows = static_cast<std::size_t>(layout.height_px);
   if (rows == 0 || bytes.size() < (rows - 1) * stride + row_bytes) return {};
+  if (layout.fourcc == V4L2_PIX_FMT_Z16) return depths_of(layout, bytes, stride);
   const Levels levels = levels_of(layout.limited_luma);
   cv::Mat gray(layout.height_px, layout.width_px, CV_8UC1);
   for (int row = 0; row < layout.height_px; ++row) {

@@ -19,11 +19,15 @@ struct V4l2Layout {
 /// The supported formats, best first: lossless gray, then formats with a luma channel, then JPEG.
 std::span<const std::uint32_t> readable_v4l2_formats();
 
+/// Those of depth cameras: Z16, sixteen bits a pixel.
+std::span<const std::uint32_t> readable_v4l2_depth_formats();
+
 /// The four characters of a format, for example "YUYV".
 std::string fourcc_name(std::uint32_t fourcc);
 
 /// A copy of the frame as 8-bit gray, made in one pass over the device's memory, which may be slow to read.
-/// Empty when there are too few bytes for the layout, or when they are not a JPEG of that size.
+/// Empty when there are too few bytes for the layout, or when they are not a JPEG of that size. Depths stay
+/// as they are (CV_16UC1).
 cv::Mat gray_of(const V4l2Layout& layout, std::span<const std::uint8_t> bytes);
 
 }  // namespace lodestar

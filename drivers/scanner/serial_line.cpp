@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/serial.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 
 #include "drivers/scanner/byte_link.hpp"
@@ -36,6 +37,11 @@ ByteLink open_serial(const std::string& device, unsigned baud, bool dtr_is_on) {
   if (!line.is_open())
     throw InputError(fmt::format("scanner {}: found no usable device ({}), wanted a serial line", device,
                                  std::strerror(errno)));
+  // Two readers would each get a part of the bytes: the second is refused, as by other programs that keep to
+  // this.
+  if (::flock(line.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw InputError(
+        fmt::format("scanner {}: found a line that another program uses, wanted a free one", device));
   if (!make_raw(line.get(), baud))
     throw InputError(fmt::format("scanner {}: found no serial line ({}), wanted one of {} baud", device,
                                  std::strerror(errno), baud));

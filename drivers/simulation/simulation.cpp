@@ -29,6 +29,7 @@ constexpr std::uint64_t kidnapping_stream = 7;
 constexpr std::uint64_t scanner_stream = 8;
 constexpr std::uint64_t people_stream = 9;
 constexpr std::uint64_t bad_scanner_stream = 10;
+constexpr std::uint64_t depth_stream = 11;
 
 /// Between looks at the discs: at 2 m/s one moves by 2 cm, and straight on to a fraction of a millimetre.
 constexpr Duration disc_period = std::chrono::milliseconds(10);
@@ -50,8 +51,9 @@ ContactJudgeOptions contact_options(const SimulationOptions& options) {
 }  // namespace
 
 struct Simulation::World {
-  World(const OccupancyMap& map, const MarkerRegistry& surveyed, const CameraModel& camera_model,
-        const SimulationOptions& chosen)
+  /// `open` is the map as the scanner's beams meet it, `map` as the robot does.
+  World(const OccupancyMap& open, const OccupancyMap& map, const MarkerRegistry& surveyed,
+        const CameraModel& camera_model, const SimulationOptions& chosen)
       : options(chosen),
         registry(surveyed),
         bus({.latency = chosen.base.can_latency}),
@@ -74,9 +76,12 @@ struct Simulation::World {
     scorer.record({now, motion.true_map_from_base()});
     next_record += options.scoring_period;
     if (options.scanner) {
-      scanner.emplace(map, *options.scanner, seed_for(chosen.seed, scanner_stream));
+      scanner.emplace(open, *options.scanner, seed_for(chosen.seed, scanner_stream));
       faulty_scanner.emplace(*scanner, seed_for(chosen.seed, bad_scanner_stream));
     }
+    if (options.depth_camera)
+      depth_camera.emplace(open, options.overhangs, *options.depth_camera,
+                           seed_for(chosen.seed, depth_stream));
     if (options.people.count > 0)
       people.emplace(map, options.people, options.start, seed_for(chosen.seed, people_stream));
     if (options.battery) battery.emplace(*options.battery);
@@ -103,7 +108,7 @@ struct Simulation::World {
   }
 
   void move_discs() {
-    if (!scanner && trajectories.empty() && !people && options.others.empty()) return;
+    if (!scanner && !depth_camera && trajectories.empty() && !people && options.others.empty()) return;
     next_discs += disc_period;
     discs.clear();
     for (FollowedTrajectory& trajectory : trajectories) discs.push_back(trajectory.at(now));
@@ -113,6 +118,7 @@ struct Simulation::World {
       for (const Walker& walker : people->walkers()) discs.push_back(walker.disc);
     }
     if (scanner) scanner->observe(now, motion.true_map_from_base(), discs);
+    if (depth_camera) depth_camera->observe(now, motion.true_map_from_base(), discs);
     scorer.record_discs({now, motion.true_map_from_base()}, discs);
   }
 
@@ -160,6 +166,7 @@ struct Simulation::World {
   Stamp next_record;
   std::optional<SimulatedScanner> scanner;
   std::optional<FaultyScanner> faulty_scanner;
+  std::optional<SimulatedDepthCamera> depth_camera;
   std::vector<FollowedTrajectory> trajectories;
   std::optional<Walkers> people;
   std::optional<SimulatedBattery> battery;
@@ -170,7 +177,8 @@ struct Simulation::World {
 
 Simulation::Simulation(const OccupancyMap& map, const MarkerRegistry& registry, const CameraModel& camera,
                        const SimulationOptions& options)
-    : world_(std::make_unique<World>(map, registry, camera, options)) {}
+    : world_(std::make_unique<World>(map, with_overhangs(map, options.overhangs, options.robot_height_m),
+                                     registry, camera, options)) {}
 
 Simulation::~Simulation() = default;
 
@@ -195,6 +203,10 @@ Scanner* Simulation::scanner() {
   return world_->faulty_scanner ? &*world_->faulty_scanner : nullptr;
 }
 
+DepthCamera* Simulation::depth_camera() {
+  return world_->depth_camera ? &*world_->depth_camera : nullptr;
+}
+
 const std::vector<DiscState>& Simulation::discs() const {
   return world_->discs;
 }
@@ -215,9 +227,11 @@ void Simulation::push(const Pose2& by) {
 }
 
 void Simulation::change_map(const OccupancyMap& map) {
-  world_->motion.change_surroundings(map);
-  world_->scorer.change_map(map);
+  const OccupancyMap solid = with_overhangs(map, world_->options.overhangs, world_->options.robot_height_m);
+  world_->motion.change_surroundings(solid);
+  world_->scorer.change_map(solid);
   if (world_->scanner) world_->scanner->change_map(map);
+  if (world_->depth_camera) world_->depth_camera->change_map(map);
 }
 
 void Simulation::on_can_frame(std::function<void(const StampedCanFrame&)> listener) {

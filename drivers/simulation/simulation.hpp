@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/camera/camera.hpp"
+#include "drivers/camera/depth_camera.hpp"
 #include "drivers/can/can_bus.hpp"
 #include "drivers/scanner/scanner.hpp"
 #include "drivers/simulation/contact_judge.hpp"
@@ -16,6 +17,7 @@
 #include "drivers/simulation/simulated_base.hpp"
 #include "drivers/simulation/simulated_battery.hpp"
 #include "drivers/simulation/simulated_camera_options.hpp"
+#include "drivers/simulation/simulated_depth_camera.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
 #include "drivers/simulation/simulated_scanner.hpp"
 #include "drivers/simulation/walkers.hpp"
@@ -42,9 +44,13 @@ struct SimulationOptions {
   std::optional<SimulatedBatteryOptions> battery;  ///< without them its voltage stays as it is
   /// Of the robot's scanner; without them it has none.
   std::optional<SimulatedScannerOptions> scanner;
-  PeopleOptions people;           ///< besides the discs; they walk about on the true map
-  std::vector<MovingDisc> discs;  ///< not on any map; they do not block the robot
-  std::vector<DiscState> others;  ///< moved from outside, such as other robots; as they are at the start
+  /// Of the robot's depth camera; likewise.
+  std::optional<SimulatedDepthCameraOptions> depth_camera;
+  std::vector<Overhang> overhangs;  ///< not on any map; people walk around them
+  double robot_height_m = 1.2;      ///< what hangs lower is in its way
+  PeopleOptions people;             ///< besides the discs; they walk about on the true map
+  std::vector<MovingDisc> discs;    ///< not on any map; they do not block the robot
+  std::vector<DiscState> others;    ///< moved from outside, such as other robots; as they are at the start
   /// What the judge goes by; the scanner's place, range and times are taken from `scanner` if there is one.
   ContactJudgeOptions contacts;
 };
@@ -68,6 +74,8 @@ class Simulation {
   CanBus& can();
   /// Null when the robot has none.
   Scanner* scanner();
+  /// Likewise.
+  DepthCamera* depth_camera();
 
   /// All discs as they are now, for pictures and live views.
   [[nodiscard]] const std::vector<DiscState>& discs() const;

@@ -1,3 +1,4 @@
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -65,6 +66,39 @@ TEST(Scenario, counts_a_fast_disc_s_contact_as_excused) {
   EXPECT_EQ(lines[0]["contacts_moving"], 0);
   EXPECT_GT(lines[0]["contacts_excused"].get<int>() + lines[0]["contacts_at_rest"].get<int>(), 0);
   EXPECT_LT(lines[0]["least_clearance_m"].get<double>(), 0.0);
+}
+
+/// The lab's robot with a scanner, and more.
+std::string robot_with(const std::string& more) {
+  std::ifstream file(std::string(LODESTAR_SOURCE_DIR) + "/sites/lab/robot.yaml");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str() + "scanner: {x_m: 0, y_m: 0, z_m: 0.2, yaw_deg: 0, protective_deceleration_mps2: 1.5}\n" +
+         more;
+}
+
+TEST(Scenario, drives_around_a_table_that_only_a_depth_camera_sees) {
+  const ScratchFolder scratch;
+  const std::string world = head +
+                            "size_m: [8, 4]\nstart: {x_m: 1, y_m: 2.2, yaw_deg: 0}\nrobot: robot.yaml\n"
+                            "goal: {x_m: 7, y_m: 2.2, radius_m: 0.1}\ntime_limit_s: 90\n"
+                            "overhangs: [{x_m: [3.5, 4.3], y_m: [1.2, 4.0], z_m: [0.7, 0.74]}]\n";
+  write_text(scratch.path() / "robot.yaml", robot_with(""));
+  const auto blind = lines_of(run_scenario_text(scratch, world, "--json --seeds 3"));
+  ASSERT_EQ(blind.size(), 3U);
+  for (const auto& line : blind) EXPECT_EQ(line["success"], false) << "the beams pass below: " << line;
+  write_text(
+      scratch.path() / "robot.yaml",
+      robot_with("depth_camera: {x_m: 0.2, y_m: 0, z_m: 0.5, yaw_deg: 0, pitch_down_deg: 10, width_px: 640, "
+                 "height_px: 480, fx_px: 385, fy_px: 385, cx_px: 320, cy_px: 240, range_m: 3.5, "
+                 "robot_height_m: 1.1}\n"));
+  const auto seeing = lines_of(run_scenario_text(scratch, world, "--json --seeds 3"));
+  ASSERT_EQ(seeing.size(), 3U);
+  for (const auto& line : seeing) {
+    EXPECT_EQ(line["success"], true) << line;
+    EXPECT_GT(line["least_clearance_m"].get<double>(), 0.0) << line;
+    EXPECT_GT(line["length_m"].get<double>(), 6.2) << "around it";
+  }
 }
 
 TEST(Scenario, gives_up_at_its_time_limit) {

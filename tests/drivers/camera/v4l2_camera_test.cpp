@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
+#include <span>
 
 #include "maps/input_error.hpp"
 
@@ -230,6 +231,34 @@ TEST(V4l2Pixels, deep_gray_keeps_its_highest_bits) {
   EXPECT_EQ(gray_of(layout, low_byte_first).at<std::uint8_t>(0, 0), 804 / 16);
   layout.fourcc = V4L2_PIX_FMT_Y16;
   EXPECT_EQ(gray_of(layout, low_byte_first).at<std::uint8_t>(0, 0), 804 / 256);
+}
+
+TEST(V4l2Pixels, depths_stay_as_they_are_in_rows_that_are_padded) {
+  const V4l2Layout layout{.fourcc = V4L2_PIX_FMT_Z16, .width_px = 2, .height_px = 2, .bytes_per_line = 6};
+  const std::vector<std::uint8_t> bytes{0xe8, 0x03, 0x00, 0x00, 9, 9, 0xff, 0xff, 0x01, 0x00, 9, 9};
+  const cv::Mat depth = gray_of(layout, bytes);
+  ASSERT_EQ(depth.type(), CV_16UC1);
+  EXPECT_EQ(depth.at<std::uint16_t>(0, 0), 1000);
+  EXPECT_EQ(depth.at<std::uint16_t>(0, 1), 0);
+  EXPECT_EQ(depth.at<std::uint16_t>(1, 0), 65535);
+  EXPECT_EQ(depth.at<std::uint16_t>(1, 1), 1);
+  EXPECT_TRUE(gray_of(layout, std::span(bytes).first(9)).empty()) << "cut short";
+}
+
+TEST(V4l2Camera, of_depths_wants_them_and_no_gray) {
+  V4l2CameraOptions options;
+  options.depth = true;
+  VideoScript gray;
+  EXPECT_THAT(refusal(gray, options), HasSubstr("wanted depths of 16 bits (Z16)"));
+  VideoScript depth;
+  depth.formats = {V4L2_PIX_FMT_Z16};
+  depth.captures = {{.bytes = std::vector<std::uint8_t>(64, 1)}};
+  V4l2Camera camera = camera_on(depth, options);
+  EXPECT_EQ(depth.chosen_format, V4L2_PIX_FMT_Z16);
+  EXPECT_EQ(camera.poll()->gray.at<std::uint16_t>(0, 0), 257);
+  VideoScript other;
+  other.formats = {V4L2_PIX_FMT_Z16};
+  EXPECT_THAT(refusal(other), HasSubstr("wanted gray, YUV or JPEG")) << "a depth is no picture of markers";
 }
 
 TEST(V4l2Pixels, a_jpeg_of_another_size_is_no_frame) {
