@@ -111,7 +111,7 @@ std::vector<Command> campaign_commands(CLI::App& lodestar) {
   command->add_option("--mission", arguments->mission, "Run this mission only, and write its run folder");
   command->add_flag("--people", arguments->world.has_people,
                     "One to six people walk about in each building, boxes and chairs stand or are pushed in "
-                    "the way, and the robot has a scanner");
+                    "the way, doors slide shut, and the robot has a scanner");
   command->add_flag("!--no-faults", arguments->world.has_faults,
                     "Nothing fails, and all markers hang where the registry says");
   command->add_flag("--resume", arguments->resume, "Continue an interrupted campaign");

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "app/campaign/campaign_report.hpp"
+#include "app/campaign/random_doors.hpp"
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_site.hpp"
 #include "app/campaign/random_things.hpp"
@@ -48,6 +49,54 @@ TEST(Campaign, builds_the_same_building_from_the_same_seed) {
   for (const RegisteredMarker& marker : first.registry.markers) seen.insert(marker.id);
   EXPECT_EQ(seen.size(), first.registry.markers.size()) << "no ID twice";
   EXPECT_GE(first.registry.markers.size(), 6U);
+}
+
+/// On an empty map of 8 x 4 m, a wall across it with a gap.
+Site two_rooms(double gap_m) {
+  Site site = lab();
+  OccupancyMap& map = site.map.map;
+  map = {.columns = 160, .rows = 80, .resolution_m = 0.05, .map_from_grid = {}, .cells = {}};
+  map.cells.assign(160UL * 80UL, OccupancyMap::free);
+  for (int row = 0; row < map.rows; ++row)
+    if (std::abs(map.center_of({80, row}).y() - 2.0) > 0.5 * gap_m)
+      for (const int column : {80, 81}) map.cells[map.index({column, row})] = OccupancyMap::occupied;
+  site.start = {{1.5, 2.0}, 0.0};
+  site.goals = {{{6.5, 2.0}, 0.0}};
+  return site;
+}
+
+TEST(Campaign, finds_the_doorway_on_the_way_and_no_other_gap) {
+  const std::vector<Doorway> doorways = doorways_of(two_rooms(1.2));
+  ASSERT_EQ(doorways.size(), 1U);
+  EXPECT_NEAR(doorways[0].from_m.x(), 4.05, 0.1);
+  EXPECT_NEAR((doorways[0].to_m - doorways[0].from_m).norm(), 1.2, 0.06);
+  EXPECT_THAT(doorways_of(two_rooms(2.4)), ::testing::IsEmpty()) << "as wide as a gate";
+}
+
+TEST(Campaign, shuts_a_door_from_post_to_post_and_opens_it_where_there_is_no_other_way) {
+  const Site site = two_rooms(1.2);
+  int doors = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const std::vector<MovingDisc> leaf = random_door(site, seed);
+    if (leaf.empty()) continue;
+    ++doors;
+    const Stamp shut(leaf.front().trajectory.keys.at(2).time);
+    std::vector<double> places_m;
+    for (const MovingDisc& disc : leaf) {
+      EXPECT_EQ(disc.trajectory.keys.size(), 5U) << "it opens again";
+      FollowedTrajectory way(disc);
+      EXPECT_LE(std::abs(way.at(Stamp{}).position_m.y() - 2.0), 1.9) << "in the wall at first";
+      EXPECT_GE(std::abs(way.at(Stamp{}).position_m.y() - 2.0), 0.59);
+      places_m.push_back(way.at(shut).position_m.y());
+    }
+    std::ranges::sort(places_m);
+    EXPECT_NEAR(places_m.front(), 1.4, 0.06);
+    EXPECT_NEAR(places_m.back(), 2.6, 0.06);
+    for (std::size_t i = 1; i < places_m.size(); ++i)
+      EXPECT_LT(places_m[i] - places_m[i - 1], 2.0 * leaf.front().radius_m) << "no beam passes";
+  }
+  EXPECT_GT(doors, 10);
+  EXPECT_LT(doors, 30);
 }
 
 TEST(Campaign, puts_things_in_the_way_that_leave_one) {
