@@ -88,7 +88,8 @@ double SimulatedDepthCamera::range_m(const Vec3& from, const Vec3& way,
   const Vec2 direction = way.head<2>() / across;
   for (const DiscState& disc : discs)
     stands_m(cast_ray_at_disc(from.head<2>(), direction, disc.position_m, disc.radius_m), options_.person_m);
-  const double far_m = std::min(nearest * across, 2.0 * options_.mount.range_m);
+  constexpr double farthest_m = 12.0;  // beyond it there is no disparity to speak of
+  const double far_m = std::min(nearest * across, farthest_m);
   stands_m(cast_ray(map_, from.head<2>(), std::atan2(direction.y(), direction.x()), far_m), options_.wall_m);
   return nearest;
 }

@@ -98,8 +98,10 @@ DeskewedScan HeightSlab::add(const DepthImage& image, const Pose2& odom_from_bas
   constexpr bool lazily = true;
   constexpr bool once_a_voxel = true;
   tree_->insertPointCloud(points, octo(odom_from_camera.translation()), mount_.range_m, lazily, once_a_voxel);
+  for (const octomap::point3d& point : points)
+    if (octomap::OcTreeKey key; tree_->coordToKeyChecked(point, key)) last_hits_[key] = image.stamp;
   forget_far(odom_from_base.position_m);
-  look_at_slab(view);
+  look_at_slab(image.stamp, view);
 
   DeskewedScan scan{.newest = image.stamp, .rays = {}};
   for (std::size_t i = 0; i < view.bins.size(); ++i) {
@@ -161,10 +163,11 @@ void HeightSlab::forget_far(const Vec2& middle_m) {
     if ((Vec2(leaf.getX(), leaf.getY()) - middle_m).lpNorm<Eigen::Infinity>() > options_.kept_m)
       far.emplace_back(leaf.getKey(), leaf.getDepth());
   for (const auto& [key, depth] : far) tree_->deleteNode(key, depth);
+  std::erase_if(last_hits_, [this](const auto& hit) { return tree_->search(hit.first) == nullptr; });
 }
 
 /// What a voxel holds may be at its near side.
-void HeightSlab::look_at_slab(View& view) const {
+void HeightSlab::look_at_slab(Stamp now, View& view) const {
   const double half_m = 0.5 * options_.voxel_m;
   const double aside_m = std::numbers::sqrt2 * half_m;
   const auto [low, high] = view.box(mount_.range_m);
@@ -172,6 +175,8 @@ void HeightSlab::look_at_slab(View& view) const {
                                             octo({high.x(), high.y(), options_.high_m - half_m}));
   for (auto leaf = begin; leaf != tree_->end_leafs_bbx(); ++leaf) {
     if (!tree_->isNodeOccupied(*leaf)) continue;
+    const auto hit = last_hits_.find(leaf.getKey());
+    if (hit == last_hits_.end() || now - hit->second > options_.longest_unseen) continue;
     const Vec2 middle_m(leaf.getX(), leaf.getY());
     const double range_m = (middle_m - view.from_m).norm();
     if (range_m > mount_.range_m) continue;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <octomap/OcTree.h>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "localization/scan/own_outline.hpp"
@@ -18,12 +19,15 @@ struct HeightSlabOptions {
   double kept_m = 5.0;  ///< around the robot; what is farther away is forgotten
   /// The image is read in blocks of so many columns and rows, the nearest point of each: thin things are not
   /// lost between samples.
-  int block_columns = 48;
-  int block_rows = 36;
+  int block_columns = 64;
+  int block_rows = 48;
   // Of the OctoMap: one image puts a thing there, two that look through it take it away.
   double hit = 0.85;
   double miss = 0.3;
   double surest = 0.8;
+  /// What has not been hit for so long is not there any more, although nothing was seen behind it: in a hall
+  /// that is deeper than the camera sees no ray would take it away.
+  Duration longest_unseen = std::chrono::seconds(30);
 };
 
 /// What a depth camera sees of things as high as the robot, as rays like a scanner's: an OctoMap in the
@@ -45,13 +49,14 @@ class HeightSlab {
                                               const Pose2& base_from_odom, View& view) const;
   [[nodiscard]] Vec3 within_slab(const Vec3& point_m, const Vec3& from_m) const;
   void forget_far(const Vec2& middle_m);
-  void look_at_slab(View& view) const;
+  void look_at_slab(Stamp now, View& view) const;
 
   DepthMount mount_;
   OwnOutline own_;
   HeightSlabOptions options_;
   std::unique_ptr<octomap::OcTree> tree_;
   std::optional<Vec2> tidied_at_m_;
+  std::unordered_map<octomap::OcTreeKey, Stamp, octomap::OcTreeKey::KeyHash> last_hits_;  ///< of voxels
 };
 
 }  // namespace lodestar

@@ -138,7 +138,8 @@ TEST(ProtectiveField, WithLegsInReachOfABodyItOnlyMovesOff) {
   EXPECT_EQ(disc_field().limit(near, {}, {0.0, 0.2}).share, 0.0);
   EXPECT_EQ(disc_field().limit(near, {}, {0.1, 0.0}).share, 0.0);
   EXPECT_EQ(disc_field().limit(near, {}, {-0.1, 0.0}).share, 1.0);
-  const std::vector<FieldHit> beside{hit(0.0, radius_m + 0.21, Presence::legs)};
+  const std::vector<FieldHit> beside{
+      hit(0.0, radius_m + ProtectiveFieldOptions{}.body_margin_m + 0.01, Presence::legs)};
   EXPECT_EQ(disc_field().limit(beside, {0.1, 0.0}, {0.1, 0.0}).share, 1.0);
 }
 

@@ -297,7 +297,8 @@ describe('gaps', () => {
 
   story('gaps and a blind route are issues that lead to their place', async (page) => {
     await page.evaluate(() => { const { editor } = window.lodestar.console; editor.remove([...editor.markers.keys()]); });
-    await page.locator('[data-kind="blind-route"]').first().waitFor();
+    // The whole way, and not a stretch of it as before.
+    await page.waitForFunction(() => Number(document.querySelector('[data-kind="blind-route"]')?.textContent.match(/([\d.]+) m from/)?.[1]) > 10, undefined, { polling: 50 });
     assert.ok(await page.locator('[data-kind="gap"]').count() >= 1);
     await page.locator('[data-kind="blind-route"]').first().click();
     await page.waitForFunction(() => {
