@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/common/piped_program.hpp"
+#include "app/frames/piped_program.hpp"
 
 namespace lodestar {
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/site/places_limits.hpp"
+#include "app/site/ranging_settings.hpp"
 #include "maps/camera_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
@@ -131,43 +132,6 @@ void read_base_settings(StrictYaml yaml, Robot& robot) {
   yaml.finish();
 }
 
-void read_scanner(StrictYaml yaml, Robot& robot) {
-  RobotScanner scanner;
-  const double x_m = yaml.number("x_m", -10.0, 10.0);
-  const double y_m = yaml.number("y_m", -10.0, 10.0);
-  scanner.mount.height_m = yaml.number("z_m", 0.0, 3.0);
-  scanner.mount.base_from_scanner = {{x_m, y_m}, wrap_angle(read_angle(yaml, "yaw_deg"))};
-  scanner.protective_deceleration_mps2 = yaml.number("protective_deceleration_mps2", 0.2, 10.0);
-  yaml.finish();
-  robot.scanner = scanner;
-}
-
-/// Its optical axis: turned by yaw, then down by pitch.
-void read_depth_camera(StrictYaml yaml, Robot& robot) {
-  RobotDepthCamera depth;
-  CameraModel& camera = depth.mount.camera;
-  const Vec3 place_m(yaml.number("x_m", -10.0, 10.0), yaml.number("y_m", -10.0, 10.0),
-                     yaml.number("z_m", 0.0, 3.0));
-  const double yaw_rad = read_angle(yaml, "yaw_deg");
-  const double down_rad = radians(yaml.number("pitch_down_deg", -90.0, 90.0));
-  camera.width_px = yaml.integer("width_px", 16, 4096);
-  camera.height_px = yaml.integer("height_px", 16, 4096);
-  camera.fx_px = yaml.number("fx_px", 8.0, 20'000.0);
-  camera.fy_px = yaml.number("fy_px", 8.0, 20'000.0);
-  camera.cx_px = yaml.number("cx_px", 0.0, 4096.0);
-  camera.cy_px = yaml.number("cy_px", 0.0, 4096.0);
-  depth.mount.range_m = yaml.number("range_m", 0.5, 10.0);
-  depth.robot_height_m = yaml.number("robot_height_m", 0.1, 3.0);
-  yaml.finish();
-  Eigen::Matrix3d ahead;  // x right, y down, z ahead of a camera that looks along the base's x axis
-  ahead << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  depth.mount.base_from_camera.translation() = place_m;
-  depth.mount.base_from_camera.linear() = Eigen::AngleAxisd(yaw_rad, Vec3::UnitZ()) *
-                                          Eigen::AngleAxisd(down_rad, Vec3::UnitY()).toRotationMatrix() *
-                                          ahead;
-  robot.depth_camera = depth;
-}
-
 void read_arrival(StrictYaml yaml, Robot& robot) {
   robot.arrival_distance_m = yaml.number("distance_m", 0.001, 1.0);
   robot.arrival_heading_rad = radians(yaml.number("heading_deg", 0.1, 90.0));
@@ -277,12 +241,12 @@ Robot load_robot(const std::filesystem::path& file) {
   read_arrival(yaml.mapping("arrival"), robot);
   if (yaml.has("motors")) read_motors(yaml.mapping("motors"), robot);
   if (yaml.has("wheels")) read_wheels(yaml.mapping("wheels"), robot);
-  if (yaml.has("scanner")) read_scanner(yaml.mapping("scanner"), robot);
+  if (yaml.has("scanner")) robot.scanner = read_scanner(yaml.mapping("scanner"));
   if (yaml.has("depth_camera")) {
     if (!robot.scanner)
       yaml.refuse("depth_camera", "one without a scanner",
                   "a scanner too: a depth camera looks one way only");
-    read_depth_camera(yaml.mapping("depth_camera"), robot);
+    robot.depth_camera = read_depth_camera(yaml.mapping("depth_camera"));
   }
   if (yaml.has("base")) read_base_settings(yaml.mapping("base"), robot);
   if (yaml.has("battery")) (void)read_battery_curve(yaml.mapping("battery"));  // kept by who asks for it

@@ -31,6 +31,15 @@ octomap::point3d octo(const Vec3& point) {
   return {static_cast<float>(point.x()), static_cast<float>(point.y()), static_cast<float>(point.z())};
 }
 
+std::unique_ptr<octomap::OcTree> empty_tree(const HeightSlabOptions& options) {
+  auto tree = std::make_unique<octomap::OcTree>(options.voxel_m);
+  tree->setProbHit(options.hit);
+  tree->setProbMiss(options.miss);
+  tree->setClampingThresMax(options.surest);
+  tree->setClampingThresMin(1.0 - options.surest);
+  return tree;
+}
+
 }  // namespace
 
 /// The horizontal directions that the camera looks in, each a bin.
@@ -84,12 +93,7 @@ struct HeightSlab::View {
 };
 
 HeightSlab::HeightSlab(const DepthMount& mount, const OwnOutline& own, const HeightSlabOptions& options)
-    : mount_(mount), own_(own), options_(options), tree_(std::make_unique<octomap::OcTree>(options.voxel_m)) {
-  tree_->setProbHit(options.hit);
-  tree_->setProbMiss(options.miss);
-  tree_->setClampingThresMax(options.surest);
-  tree_->setClampingThresMin(1.0 - options.surest);
-}
+    : mount_(mount), own_(own), options_(options), tree_(empty_tree(options)) {}
 
 DeskewedScan HeightSlab::add(const DepthImage& image, const Pose2& odom_from_base) {
   const Eigen::Isometry3d odom_from_camera = lifted(odom_from_base) * mount_.base_from_camera;
@@ -158,11 +162,12 @@ void HeightSlab::forget_far(const Vec2& middle_m) {
   constexpr double between_m = 1.0;
   if (tidied_at_m_ && (middle_m - *tidied_at_m_).norm() < between_m) return;
   tidied_at_m_ = middle_m;
-  std::vector<std::pair<octomap::OcTreeKey, unsigned>> far;
+  constexpr bool lazily = true;
+  std::unique_ptr<octomap::OcTree> near = empty_tree(options_);
   for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf)
-    if ((Vec2(leaf.getX(), leaf.getY()) - middle_m).lpNorm<Eigen::Infinity>() > options_.kept_m)
-      far.emplace_back(leaf.getKey(), leaf.getDepth());
-  for (const auto& [key, depth] : far) tree_->deleteNode(key, depth);
+    if ((Vec2(leaf.getX(), leaf.getY()) - middle_m).lpNorm<Eigen::Infinity>() <= options_.kept_m)
+      near->setNodeValue(leaf.getKey(), leaf->getLogOdds(), lazily);
+  tree_ = std::move(near);  // OctoMap 1.9 asserts where the last child of a node is deleted
   std::erase_if(last_hits_, [this](const auto& hit) { return tree_->search(hit.first) == nullptr; });
 }
 

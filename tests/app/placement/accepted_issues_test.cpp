@@ -5,20 +5,14 @@
 
 #include "maps/input_error.hpp"
 
+#include "tests/maps/temporary_folder.hpp"
+
 namespace lodestar {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsNull;
 using ::testing::NotNull;
-
-std::filesystem::path fresh_folder() {
-  const auto folder = std::filesystem::path(::testing::TempDir()) /
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 RegistryIssue gap(const Vec2& low_m, const Vec2& high_m) {
   return {.kind = IssueKind::gap, .words = "a gap", .places_m = {low_m, high_m}};
@@ -30,7 +24,8 @@ const AcceptedIssue storeroom{.kind = IssueKind::gap,
                               .at = "2026-11-26"};
 
 TEST(AcceptedIssues, are_read_as_they_were_written) {
-  const std::filesystem::path folder = fresh_folder();
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   EXPECT_TRUE(load_accepted(folder).empty());
   const AcceptedIssue alike{.kind = IssueKind::similar_ids,
                             .ids = {77, 620},
@@ -86,7 +81,8 @@ TEST(AcceptedIssues, let_no_error_stand) {
 }
 
 TEST(AcceptedIssues, are_refused_by_line_where_they_are_unusable) {
-  const std::filesystem::path folder = fresh_folder();
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   const auto refused = [&](const std::string& item) -> std::string {
     std::ofstream(folder / accepted_file_name) << "format: lodestar-accepted\nversion: 1\naccepted:\n"
                                                << item;

@@ -1,4 +1,4 @@
-#include "app/common/piped_program.hpp"
+#include "app/frames/piped_program.hpp"
 
 #include <array>
 #include <cerrno>
