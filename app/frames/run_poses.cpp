@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "app/frames/csv_numbers.hpp"
 #include "maps/input_error.hpp"
@@ -16,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* steps_header =
-    "stamp_s,x_m,y_m,yaw_deg,sigma_m,sigma_yaw_deg,commanded_mps,commanded_degps,driven_mps,driven_degps";
+/// How the header of steps.csv begins, in all versions; more columns follow.
+constexpr std::string_view steps_columns = "stamp_s,x_m,y_m,yaw_deg,sigma_m,sigma_yaw_deg";
 constexpr const char* tum_columns = "stamp x y z qx qy qz qw";
 
 /// No room is so large; farther, and a position loses its millimetres.
@@ -26,10 +27,19 @@ bool is_near(double x_m, double y_m) {
   return std::abs(x_m) < far_m && std::abs(y_m) < far_m;
 }
 
-std::optional<RunPose> step_pose(std::string_view line) {
-  const auto numbers = csv_numbers<10>(line);
+/// The cells of a line up to the comma after so many; all of it where there are no more.
+std::string_view first_cells(std::string_view line, std::ptrdiff_t count) {
+  std::size_t end = 0;
+  for (; count > 0 && end != std::string_view::npos; --count) end = line.find(',', end + (end > 0 ? 1 : 0));
+  return line.substr(0, end);
+}
+
+/// A line that was cut short has fewer cells than the header.
+std::optional<RunPose> step_pose(std::string_view line, std::ptrdiff_t commas) {
+  if (std::ranges::count(line, ',') != commas) return std::nullopt;
+  const auto numbers = csv_numbers<6>(first_cells(line, 6));
   if (!numbers) return std::nullopt;
-  const auto& [stamp_s, x_m, y_m, yaw_deg, sigma_m, sigma_yaw_deg, a, b, c, d] = *numbers;
+  const auto& [stamp_s, x_m, y_m, yaw_deg, sigma_m, sigma_yaw_deg] = *numbers;
   if (!is_stamp(stamp_s) || !is_near(x_m, y_m) || sigma_m < 0.0 || sigma_yaw_deg < 0.0) return std::nullopt;
   return RunPose{.stamp = Stamp(from_seconds(stamp_s)),
                  .map_from_base = {{x_m, y_m}, wrap_angle(radians(yaw_deg))},
@@ -57,16 +67,19 @@ std::vector<RunPose> read_steps(const fs::path& file) {
   std::ifstream stream(file);
   std::vector<RunPose> poses;
   int number = 0;
+  std::string header;
   for (std::string line; std::getline(stream, line);) {
     ++number;
     if (line.ends_with('\r')) line.pop_back();
     if (number == 1) {
-      if (line != steps_header)
-        throw InputError(file, 1, "'" + line + "'", fmt::format("the header '{}'", steps_header));
+      if (!line.starts_with(steps_columns))
+        throw InputError(file, 1, "'" + line + "'",
+                         fmt::format("a header that begins with '{}'", steps_columns));
+      header = line;
       continue;
     }
-    const std::optional<RunPose> pose = step_pose(line);
-    if (!pose) throw InputError(file, number, "'" + line + "'", fmt::format("a step: {}", steps_header));
+    const std::optional<RunPose> pose = step_pose(line, std::ranges::count(header, ','));
+    if (!pose) throw InputError(file, number, "'" + line + "'", fmt::format("a step: {}", header));
     const bool repeats_the_last = !poses.empty() && pose->stamp <= poses.back().stamp;
     if (!repeats_the_last) poses.push_back(*pose);
   }

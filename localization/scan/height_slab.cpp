@@ -128,12 +128,18 @@ octomap::Pointcloud HeightSlab::points_of(const DepthImage& image, const Eigen::
   octomap::Pointcloud points;
   const cv::Mat& depth = image.depth_mm;
   const CameraModel& camera = mount_.camera;
-  const int rows = std::min(options_.block_rows, depth.rows);
-  const int columns = std::min(options_.block_columns, depth.cols);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const cv::Range ys(row * depth.rows / rows, (row + 1) * depth.rows / rows);
-      const cv::Range xs(column * depth.cols / columns, (column + 1) * depth.cols / columns);
+  const int block_px = std::max(1, depth.cols / options_.block_columns);
+  const int block_py = std::max(1, depth.rows / options_.block_rows);
+  // Each image by other rays than the one before: a robot that stands would see between the same voxels for
+  // ever.
+  const auto shift =
+      static_cast<unsigned>(image.stamp.time_since_epoch() / std::chrono::milliseconds(1)) * 2654435761U;
+  const int first_x = -static_cast<int>((shift >> 16U) % static_cast<unsigned>(block_px));
+  const int first_y = -static_cast<int>((shift >> 24U) % static_cast<unsigned>(block_py));
+  for (int y = first_y; y < depth.rows; y += block_py) {
+    for (int x = first_x; x < depth.cols; x += block_px) {
+      const cv::Range ys(std::max(y, 0), std::min(y + block_py, depth.rows));
+      const cv::Range xs(std::max(x, 0), std::min(x + block_px, depth.cols));
       Eigen::Vector2i at = Eigen::Vector2i::Zero();
       const std::optional<double> depth_m = nearest_depth_m(depth(ys, xs), at);
       if (!depth_m) continue;

@@ -198,5 +198,24 @@ TEST(MapFromRuns, leaves_out_what_was_seen_while_the_pose_was_not_sure) {
   EXPECT_EQ(run.without_pose, 6U);
 }
 
+TEST(MapFromRuns, reads_steps_of_every_version_and_refuses_one_that_is_cut_short) {
+  const TemporaryFolder folder;
+  write_run(folder.path(), lab(), Track{{{2.5, 5.0}}}, 5);
+  const auto steps = [&](const std::string& header, const std::string& cells) {
+    std::ofstream file(folder / "steps.csv");
+    file << header << "\n";
+    for (double time_s = 0.0; time_s < 6.0; time_s += 0.02)
+      fmt::print(file, "{:.4f},2.5,5.0,0,0.005,0.1,{}\n", time_s, cells);
+  };
+  const std::string first = "stamp_s,x_m,y_m,yaw_deg,sigma_m,sigma_yaw_deg,commanded_mps,commanded_degps";
+  for (const auto& [header, cells] : std::vector<std::pair<std::string, std::string>>{
+           {first, "0,0"}, {first + ",driven_mps,driven_degps,xx_m2,xy_m2,yy_m2", "0,0,0,0,1e-5,0,1e-5"}}) {
+    steps(header, cells);
+    EXPECT_GT(map_from_runs(std::vector{folder.path()}, {}).runs.front().used, 0U) << header;
+  }
+  steps(first, "0");
+  EXPECT_THROW(map_from_runs(std::vector{folder.path()}, {}), InputError);
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -64,7 +64,8 @@ class Killed : public ::testing::Test {
       if (child == 0) {
         for (int state = 1;; state = 1 - state) save(state);
       }
-      ::usleep(static_cast<unsigned>(random.uniform(500.0, 3'000.0 + 2.0 * one_save.count())));
+      const double longest_us = 3'000.0 + 2.0 * one_save.count() + (i < times ? 0.0 : 40'000.0);
+      ::usleep(static_cast<unsigned>(random.uniform(500.0, longest_us)));
       ::kill(child, SIGKILL);
       ::waitpid(child, nullptr, 0);
       cut_short_ += orphans(folder_ / "");
