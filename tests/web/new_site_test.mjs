@@ -85,8 +85,9 @@ test('from a drive under markers, as the scanner saw the place', async () => {
   assert.deepEqual(markers(join(place.site, 'markers.yaml')), markers(join(place.folder, 'runs/monday/site/markers.yaml')));
   assert.deepEqual(page.complaints, []);
   await page.context().close();
-  await server.stop();
+  await server.end();
   const again = spawnSync(binary, ['replay', place.site, '--quiet', '-o', join(place.folder, 'runs/first')], { encoding: 'utf8' });
+  await server.stop();
   assert.equal(again.status, 0, `the new site is driven on: ${again.stdout}${again.stderr}`);
 });
 
