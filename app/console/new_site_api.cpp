@@ -180,11 +180,14 @@ ordered_json NewSiteApi::runs_with_scans() const {
   ordered_json runs = ordered_json::array();
   for (auto name = names.rbegin(); name != names.rend(); ++name) {
     if (!fs::exists(runs_ / *name / "scans.bin")) continue;
-    const ordered_json facts = facts_of_run(runs_ / *name);
-    runs.push_back({{"name", *name},
-                    {"started", facts.at("started")},
-                    {"site", facts.at("site")},
-                    {"duration_s", facts.at("duration_s")}});
+    try {
+      const ordered_json facts = facts_of_run(runs_ / *name);
+      runs.push_back({{"name", *name},
+                      {"started", facts.at("started")},
+                      {"site", facts.at("site")},
+                      {"duration_s", facts.at("duration_s")}});
+    } catch (const InputError&) {  // a run that cannot be read hides no other
+    }
   }
   return runs;
 }

@@ -51,7 +51,6 @@ std::optional<DepthImage> SimulatedDepthCamera::poll() {
 
 DepthImage SimulatedDepthCamera::image_from(Stamp now, const Pose2& map_from_base,
                                             std::span<const DiscState> discs) {
-  constexpr double mm_per_m = 1000.0;
   const CameraModel& camera = options_.mount.camera;
   const Eigen::Isometry3d map_from_camera = lifted(map_from_base) * options_.mount.base_from_camera;
   const Vec3 from = map_from_camera.translation();

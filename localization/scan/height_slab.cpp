@@ -9,7 +9,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double mm_per_m = 1000.0;
 constexpr double bin_rad = radians(1.0);
 
 /// The nearest depth of a block; nothing where the image knows none.
