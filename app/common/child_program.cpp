@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "app/common/spawn_attributes.hpp"
 #include "app/common/stopwatch.hpp"
 
 namespace lodestar {
@@ -58,10 +59,7 @@ ProgramEnd run_program_to_end(const std::filesystem::path& program, const std::v
                               const std::filesystem::path& error_file) {
   std::vector<std::string> words{program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+  const std::vector<char*> pointers = argument_pointers(words);
 
   const Stopwatch watch;
   const Redirection redirection(output_file, error_file);

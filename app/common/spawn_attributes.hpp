@@ -2,6 +2,8 @@
 
 #include <csignal>
 #include <spawn.h>
+#include <string>
+#include <vector>
 
 namespace lodestar {
 
@@ -32,5 +34,13 @@ class SpawnAttributes {
  private:
   posix_spawnattr_t attributes_{};
 };
+
+/// The words as programs take them: pointers into them, and a null pointer. They must outlive it.
+inline std::vector<char*> argument_pointers(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
 
 }  // namespace lodestar

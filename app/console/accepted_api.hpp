@@ -8,7 +8,7 @@
 
 namespace lodestar {
 
-/// Part of the document API, for warnings that somebody lets stand:
+/// Part of the document API, for warnings accepted with a reason:
 ///
 ///   PUT /api/accepted   {kind, ids, places_m, reason}: an issue as /api/markers/check gives it; without a
 ///   reason it is

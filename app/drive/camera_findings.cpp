@@ -14,7 +14,7 @@ Finding look_at_rate(const Site& site, const SeenImages& seen) {
   const std::optional<double> rate_hz = seen.rate_hz();
   if (rate_hz) {
     camera.found += fmt::format(": {:.1f} a second by their stamps, {:.0f} ms old on arrival", *rate_hz,
-                                1e3 * seconds(seen.ages) / seen.count);
+                                1e3 * seen.mean_age_s());
   }
   if (!seen.description.empty()) camera.found += "; the driver claims " + seen.description;
   const std::optional<double>& wanted_hz = site.camera_settings.rate_hz;
@@ -29,18 +29,6 @@ Finding look_at_rate(const Site& site, const SeenImages& seen) {
 }
 
 }  // namespace
-
-void SeenImages::take(Stamp stamp, Stamp arrival) {
-  ++count;
-  if (!first) first = stamp;
-  last = stamp;
-  ages += arrival - stamp;
-}
-
-std::optional<double> SeenImages::rate_hz() const {
-  if (count < 2 || last <= *first) return std::nullopt;
-  return (count - 1) / seconds(last - *first);
-}
 
 std::vector<Finding> look_at_images(const Site& site, const SeenImages& seen) {
   if (seen.count == 0) {

@@ -12,7 +12,7 @@ constexpr double most_invalid = 0.6;
 constexpr double least_known_depth = 0.2;
 
 Finding look_at_scans(const SeenRanges& seen) {
-  if (seen.scans == 0) {
+  if (seen.scans.count == 0) {
     return {.what = "scanner",
             .verdict = Verdict::bad,
             .found = seen.no_scanner.empty() ? "no scan in a second" : seen.no_scanner,
@@ -20,10 +20,9 @@ Finding look_at_scans(const SeenRanges& seen) {
   }
   Finding scanner{.what = "scanner",
                   .found = fmt::format("{} beams a scan, {:.0f} ms old on arrival", seen.beams,
-                                       1e3 * seconds(seen.ages) / seen.scans)};
-  if (seen.scans > 1 && seen.last > *seen.first)
-    scanner.found +=
-        fmt::format(", {:.1f} scans a second", (seen.scans - 1) / seconds(seen.last - *seen.first));
+                                       1e3 * seen.scans.mean_age_s())};
+  if (const std::optional<double> rate_hz = seen.scans.rate_hz())
+    scanner.found += fmt::format(", {:.1f} scans a second", *rate_hz);
   if (!seen.description.empty()) scanner.found += "; it says: " + seen.description;
   const double invalid =
       static_cast<double>(seen.invalid) / static_cast<double>(std::max<std::size_t>(seen.beams, 1));
@@ -62,10 +61,7 @@ Finding look_at_depths(const SeenRanges& seen) {
 void SeenRanges::take(const Scan& scan, Stamp arrival) {
   if (scan.beams.empty()) return;
   const auto newest = std::ranges::max_element(scan.beams, {}, &Beam::stamp);
-  ++scans;
-  if (!first) first = newest->stamp;
-  last = newest->stamp;
-  ages += arrival - newest->stamp;
+  scans.take(newest->stamp, arrival);
   beams = scan.beams.size();
   invalid = static_cast<std::size_t>(std::ranges::count(scan.beams, Echo::invalid, &Beam::echo));
 }

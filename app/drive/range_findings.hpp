@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/drive/finding.hpp"
+#include "app/drive/seen_stamps.hpp"
 #include "app/site/site.hpp"
 #include "maps/depth_image.hpp"
 #include "maps/scan.hpp"
@@ -18,12 +18,9 @@ struct SeenRanges {
 
   std::string no_scanner;  ///< why it could not be opened
   std::string description;
-  int scans = 0;
+  SeenStamps scans;         ///< of their newest beams
   std::size_t beams = 0;    ///< of the last scan
   std::size_t invalid = 0;  ///< of them
-  std::optional<Stamp> first;
-  Stamp last;
-  Duration ages{};  ///< of the newest beams at arrival, in sum
   ScanPackets packets;
 
   std::string no_depth_camera;

@@ -68,9 +68,7 @@ std::optional<pid_t> spawned(std::vector<std::string> command, const std::filesy
   posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
   posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
   const SpawnAttributes attributes;
-  std::vector<char*> words;
-  for (std::string& word : command) words.push_back(word.data());
-  words.push_back(nullptr);
+  const std::vector<char*> words = argument_pointers(command);
   pid_t pid = 0;
   const int error = posix_spawn(&pid, words.front(), &files, attributes.get(), words.data(), environ);
   posix_spawn_file_actions_destroy(&files);

@@ -43,9 +43,7 @@ PipedProgram::PipedProgram(std::vector<std::string> words) {
   posix_spawn_file_actions_adddup2(&files, output.writes.get(), STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&files, third.writes.get(), third_descriptor);
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+  const std::vector<char*> pointers = argument_pointers(words);
   const SpawnAttributes attributes;
   const int error =
       ::posix_spawnp(&pid_, pointers.front(), &files, attributes.get(), pointers.data(), ::environ);

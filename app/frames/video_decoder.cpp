@@ -90,14 +90,14 @@ std::optional<VideoDecoder::Picture> VideoDecoder::next() {
 
 /// From whichever pipe has something: ffmpeg would wait for ever for a full one that nobody reads.
 bool VideoDecoder::read_more() {
-  if (has_ended_) return false;
-  std::array<pollfd, 2> pipes{{{.fd = ffmpeg_.output(), .events = POLLIN, .revents = 0},
-                               {.fd = ffmpeg_.third(), .events = POLLIN, .revents = 0}}};
+  if (pictures_ended_ && times_ended_) return false;
+  constexpr int nothing = -1;  // poll() passes it over
+  std::array<pollfd, 2> pipes{
+      {{.fd = pictures_ended_ ? nothing : ffmpeg_.output(), .events = POLLIN, .revents = 0},
+       {.fd = times_ended_ ? nothing : ffmpeg_.third(), .events = POLLIN, .revents = 0}}};
   if (::poll(pipes.data(), pipes.size(), -1) < 0) return errno == EINTR;
-  bool is_open = false;
-  if (pipes[0].revents != 0) is_open = append_from(ffmpeg_.output(), pictures_) || is_open;
-  if (pipes[1].revents != 0) is_open = append_from(ffmpeg_.third(), times_) || is_open;
-  has_ended_ = !is_open;
+  if (pipes[0].revents != 0) pictures_ended_ = !append_from(ffmpeg_.output(), pictures_);
+  if (pipes[1].revents != 0) times_ended_ = !append_from(ffmpeg_.third(), times_);
   return true;
 }
 

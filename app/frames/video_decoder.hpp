@@ -40,7 +40,8 @@ class VideoDecoder {
   PipedProgram ffmpeg_;
   std::string pictures_;  ///< PGM images, the first from its beginning
   std::string times_;     ///< lines of ffmpeg's framecrc
-  bool has_ended_ = false;
+  bool pictures_ended_ = false;
+  bool times_ended_ = false;
   double tick_s_ = 0.0;
 };
 

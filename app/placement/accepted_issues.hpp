@@ -7,7 +7,7 @@
 
 #include "app/placement/registry_check.hpp"
 
-// Warnings that somebody has looked at and lets stand, with the reason: accepted.yaml of a site's folder.
+// Warnings accepted with a reason: accepted.yaml of a site's folder.
 // docs/file-formats.md has the keys.
 namespace lodestar {
 
@@ -27,11 +27,11 @@ std::vector<AcceptedIssue> load_accepted(const std::filesystem::path& folder);
 
 void save_accepted(std::span<const AcceptedIssue> accepted, const std::filesystem::path& folder);
 
-/// The one that lets the issue stand: of the same kind and markers, or of places within half a metre of
-/// these, so that a gap that has grown is a new one. An error is never let stand.
+/// The acceptance of the issue: of the same kind and markers, or of places within half a metre of
+/// these, so that a gap that has grown is a new one. An error is never accepted.
 const AcceptedIssue* acceptance_of(const RegistryIssue& issue, std::span<const AcceptedIssue> accepted);
 
-/// As issue_json(), with "accepted": {reason, by, at} where it is let stand.
+/// As issue_json(), with "accepted": {reason, by, at} where it is accepted.
 nlohmann::ordered_json issue_json(const RegistryIssue& issue, std::span<const AcceptedIssue> accepted);
 
 }  // namespace lodestar

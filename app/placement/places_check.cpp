@@ -201,7 +201,8 @@ void find_blind_ways(const Site& site, const CoveredFloor* known, const MarginPl
                      std::vector<PlacesIssue>& issues) {
   const Places& places = site.places;
   if (site.registry.markers.empty() || (places.missions.empty() && places.edges.empty())) return;
-  const CoveredFloor floor = known != nullptr ? *known : covered_floor(site);
+  std::optional<CoveredFloor> made;  // a large map, which is not copied
+  const CoveredFloor& floor = known != nullptr ? *known : made.emplace(covered_floor(site));
   const auto look = [&](const Path& way, PlacesIssueKind kind, const std::string& name) {
     for (const BlindStretch& blind : blind_stretches_of(way, site.registry, floor))
       issues.push_back({kind,

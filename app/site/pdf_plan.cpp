@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "app/common/spawn_attributes.hpp"
 #include "app/site/floor_plan.hpp"
 #include "maps/input_error.hpp"
 #include "maps/picture.hpp"
@@ -64,9 +65,7 @@ void limit(int resource, rlim_t most) {
 
 /// The exit code, or -1 when a signal ended it.
 int run(std::vector<std::string> words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+  const std::vector<char*> pointers = argument_pointers(words);
   const pid_t child = ::fork();
   if (child < 0) throw InputError(fmt::format("{}: {}", words[0], std::strerror(errno)));
   if (child == 0) become(pointers.data());

@@ -21,7 +21,7 @@ struct HeightSlabOptions {
   /// lost between samples.
   int block_columns = 64;
   int block_rows = 48;
-  // Of the OctoMap: one image puts a thing there, two that look through it take it away.
+  // Of the OctoMap: one image puts a thing there, two rays through a voxel take it away.
   double hit = 0.85;
   double miss = 0.3;
   double surest = 0.8;

@@ -47,8 +47,10 @@ TEST_F(PlacesCommands, check_says_what_is_wrong_by_exit_code_and_name) {
   write_places(whole);
   const Ran good = run("places check site");
   EXPECT_EQ(good.exit_code, 0) << good.err;
-  EXPECT_THAT(good.out, HasSubstr("warning: mission 'round' sees no marker for 2.2 m from 13.5, 2.0 m\n"));
-  EXPECT_THAT(good.out, HasSubstr("2 places, 1 nodes, 2 edges, 1 keep-outs, 1 speed zones\n"));
+  EXPECT_EQ(good.out,
+            "site/places.yaml: warning: mission 'round' sees no marker for 2.2 m from 13.5, 2.0 m\n"
+            "site/places.yaml: warning: mission 'round' sees no marker for 1.3 m from 2.9, 4.2 m\n"
+            "2 places, 1 nodes, 2 edges, 1 keep-outs, 1 speed zones\n");
 
   write_places(whole, "[10, 3]]", "[10, 3], [2, 6]]");
   const Ran bad = run("places check site");
