@@ -30,12 +30,30 @@ int cells_apart(MarkerPattern a, MarkerPattern b) {
   return std::popcount(static_cast<unsigned>(a ^ b));
 }
 
+/// The patterns of all IDs, worked out once.
+struct Patterns {
+  std::vector<MarkerPattern> upright;
+  std::array<std::vector<MarkerPattern>, other_views.size()> turned;  ///< in each of the other views
+};
+
+const Patterns& patterns() {
+  static const Patterns all = [] {
+    Patterns patterns;
+    for (int id = 0; id < marker_id_count; ++id) {
+      patterns.upright.push_back(pattern_of(id));
+      for (std::size_t i = 0; i < other_views.size(); ++i)
+        patterns.turned[i].push_back(pattern_of(id, other_views[i]));
+    }
+    return patterns;
+  }();
+  return all;
+}
+
 /// For each ID the IDs that must not be chosen together with it; contains the ID itself when it must not be
 /// chosen at all.
 class Rivals {
  public:
   explicit Rivals(const MarkerCodeOptions& options) : options_(options), of_(marker_id_count) {
-    for (int id = 0; id < marker_id_count; ++id) upright_.push_back(pattern_of(id));
     for (int id = 0; id < marker_id_count; ++id) add_rivals_from(id);
   }
 
@@ -45,28 +63,19 @@ class Rivals {
   /// The relation is symmetric, since for each view its inverse counts too.
   void add_rivals_from(int a) {
     const auto place_of_a = static_cast<std::size_t>(a);
+    const std::vector<MarkerPattern>& upright = patterns().upright;
     for (int b = 0; b <= a; ++b) {
       const auto place_of_b = static_cast<std::size_t>(b);
-      bool rivals = a != b && cells_apart(upright_[place_of_a], upright_[place_of_b]) < options_.min_distance;
-      for (std::size_t i = 0; options_.all_views && !rivals && i < turned_.size(); ++i)
-        rivals = cells_apart(turned_[i][place_of_b], upright_[place_of_a]) < options_.min_distance;
+      const bool are_near =
+          a != b && cells_apart(upright[place_of_a], upright[place_of_b]) < options_.min_distance;
+      const bool rivals = are_near || (options_.all_views && turned_distance(a, b) < options_.min_distance);
       if (!rivals) continue;
       of_[place_of_a].set(place_of_b);
       of_[place_of_b].set(place_of_a);
     }
   }
 
-  static std::array<std::vector<MarkerPattern>, other_views.size()> turned_patterns() {
-    std::array<std::vector<MarkerPattern>, other_views.size()> turned;
-    for (std::size_t i = 0; i < turned.size(); ++i) {
-      for (int id = 0; id < marker_id_count; ++id) turned[i].push_back(pattern_of(id, other_views[i]));
-    }
-    return turned;
-  }
-
   MarkerCodeOptions options_;
-  std::vector<MarkerPattern> upright_;
-  std::array<std::vector<MarkerPattern>, other_views.size()> turned_ = turned_patterns();
   std::vector<IdSet> of_;
 };
 
@@ -180,9 +189,17 @@ int id_distance(int a, int b) {
 
 int turned_distance(int a, int b) {
   int least = marker_grid_size * marker_grid_size;
-  for (const MarkerView view : other_views)
-    least = std::min(least, cells_apart(pattern_of(a), pattern_of(b, view)));
+  const MarkerPattern upright = patterns().upright[static_cast<std::size_t>(a)];
+  for (const std::vector<MarkerPattern>& turned : patterns().turned)
+    least = std::min(least, cells_apart(upright, turned[static_cast<std::size_t>(b)]));
   return least;
+}
+
+bool is_turned(int a, int b) {
+  const MarkerPattern upright = patterns().upright[static_cast<std::size_t>(a)];
+  return std::ranges::any_of(patterns().turned, [&](const std::vector<MarkerPattern>& turned) {
+    return turned[static_cast<std::size_t>(b)] == upright;
+  });
 }
 
 std::vector<int> choose_marker_ids(int count, const std::vector<int>& taken,

@@ -30,6 +30,9 @@ int id_distance(int a, int b);
 /// symmetrical about that diagonal has distance 0 to itself.
 int turned_distance(int a, int b);
 
+/// Is turned_distance(a, b) 0? For very many pairs.
+bool is_turned(int a, int b);
+
 struct MarkerCodeOptions {
   int min_distance = 3;  ///< between any two chosen IDs
   int min_dots = 5;      ///< including O, X and Y; three or four dots are weak evidence of a marker

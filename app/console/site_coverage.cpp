@@ -45,10 +45,13 @@ ordered_json SiteCoverage::issues(const Site& site, const MarkerRegistry& draft,
 ordered_json SiteCoverage::deviations(const Site& site, const MarkerRegistry& registry,
                                       const std::stop_token& cancelled) const {
   constexpr double apart_m = 0.25;
+  constexpr double most_cells = 40'000.0;  // a second of work; a map in view has few more pixels to a metre
   const OccupancyMap& map = site.map.map;
   VisibilityOptions options = visibility_options(site.robot);
   options.cancelled = cancelled;
-  options.stride = std::max(1, static_cast<int>(std::lround(apart_m / map.resolution_m)));
+  const auto coarser =
+      static_cast<int>(std::ceil(std::sqrt(static_cast<double>(map.cells.size()) / most_cells)));
+  options.stride = std::max({1, static_cast<int>(std::lround(apart_m / map.resolution_m)), coarser});
   const Visibility seen = visibility_of(map, registry, site.cameras.at(site.default_camera),
                                         sight_lines_ ? &*sight_lines_ : nullptr, options);
   ordered_json sigmas = ordered_json::array();

@@ -5,70 +5,14 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "app/placement/lines_of_sight.hpp"
 #include "app/placement/plausibility.hpp"
-#include "maps/distance_field.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr double most_blind_m = 1.0;  ///< of a route to drive by odometry alone
 constexpr double least_gap_m2 = 0.1;
-
-/// Lines of sight between points given in cells from the grid's corner.
-class Sight {
- public:
-  explicit Sight(const CoveredFloor& floor)
-      : floor_(floor), grid_from_map_(inverse(floor.map.map_from_grid)) {}
-
-  [[nodiscard]] Vec2 in_cells(const Vec2& on_map) const {
-    return (grid_from_map_ * on_map) / floor_.map.resolution_m;
-  }
-
-  [[nodiscard]] bool is_free(const Vec2& at, const Vec2& marker, double marker_z_m) const {
-    return floor_.heights ? is_free_in_height(*floor_.heights, at, marker, marker_z_m)
-                          : is_free_on_map(at, marker);
-  }
-
- private:
-  /// Occupied cells directly below the marker do not hide it: they do not reach the ceiling.
-  [[nodiscard]] bool is_free_on_map(const Vec2& at, const Vec2& marker) const {
-    const auto steps = static_cast<int>(std::ceil((at - marker).norm()));
-    bool is_over = true;
-    for (int i = 0; i < steps; ++i) {
-      const Cell cell = cell_at(marker + (at - marker) * (static_cast<double>(i) / steps));
-      if (!floor_.map.contains(cell)) return false;
-      const bool is_occupied = floor_.map.at(cell) >= 50;
-      if (is_occupied && !is_over) return false;
-      is_over = is_over && is_occupied;
-    }
-    return true;
-  }
-
-  /// Cells within touch_m of the camera or of the marker, such as the ceiling, do not count as obstacles
-  /// between them.
-  [[nodiscard]] bool is_free_in_height(const HeightBands& heights, const Vec2& at, const Vec2& marker,
-                                       double marker_z_m) const {
-    const OccupancyMap& map = floor_.map;
-    const double camera_z_m = floor_.view.camera_height_m;
-    const double length_m = std::hypot(map.resolution_m * (at - marker).norm(), marker_z_m - camera_z_m);
-    const auto steps =
-        static_cast<int>(std::ceil(2.0 * length_m / std::min(map.resolution_m, heights.step_m)));
-    for (int i = 1; i < steps; ++i) {
-      const double t = static_cast<double>(i) / steps;
-      if (std::min(t, 1.0 - t) * length_m <= heights.touch_m) continue;
-      const Cell cell = cell_at(at + t * (marker - at));
-      if (!map.contains(cell)) continue;
-      const double z_m = camera_z_m + t * (marker_z_m - camera_z_m);
-      const auto band = static_cast<int>(std::floor((z_m - heights.low_m) / heights.step_m));
-      if (band < 0 || band >= HeightBands::count) continue;
-      if ((heights.cells[map.index(cell)] >> static_cast<unsigned>(band) & 1U) != 0) return false;
-    }
-    return true;
-  }
-
-  const CoveredFloor& floor_;
-  Pose2 grid_from_map_;
-};
 
 /// A marker's centre, in cells, and the radius in cells within which a robot sees it at every heading.
 struct MarkerDisc {
@@ -78,7 +22,7 @@ struct MarkerDisc {
 };
 
 std::vector<MarkerDisc> marker_discs(const MarkerRegistry& registry, const CoveredFloor& floor,
-                                     const Sight& sight) {
+                                     const LinesOfSight& sight) {
   std::vector<MarkerDisc> all;
   for (const RegisteredMarker& marker : registry.markers) {
     const Vec3 middle = center_in_map(registry, marker);
@@ -88,60 +32,141 @@ std::vector<MarkerDisc> marker_discs(const MarkerRegistry& registry, const Cover
   return all;
 }
 
+bool is_free_at(const OccupancyMap& map, Cell cell) {
+  return map.contains(cell) && is_drivable(map.at(cell));
+}
+
+/// Is it not free, with a free cell beside it? The cell nearest to a free one that is not free always is such
+/// a cell.
+bool is_edge(const OccupancyMap& map, Cell cell) {
+  if (is_free_at(map, cell)) return false;
+  const auto [column, row] = cell;
+  return is_free_at(map, {column - 1, row}) || is_free_at(map, {column + 1, row}) ||
+         is_free_at(map, {column, row - 1}) || is_free_at(map, {column, row + 1});
+}
+
+/// For each cell: true where all cells within `room`, in cells, are free. Of a large map most is far from any
+/// edge, so that this takes less time than a distance field.
+std::vector<bool> cells_with_room(const OccupancyMap& map, double room) {
+  std::vector<bool> has_room(map.cells.size());
+  for (std::size_t i = 0; i < has_room.size(); ++i) has_room[i] = is_drivable(map.cells[i]);
+  const auto reach = static_cast<int>(room);
+  const auto close_about = [&](Cell edge) {
+    for (int row = std::max(0, edge.row - reach); row <= std::min(map.rows - 1, edge.row + reach); ++row) {
+      const int half = static_cast<int>(std::sqrt(room * room - (row - edge.row) * (row - edge.row)));
+      const int last = std::min(map.columns - 1, edge.column + half);
+      for (int column = std::max(0, edge.column - half); column <= last; ++column)
+        has_room[map.index({column, row})] = false;
+    }
+  };
+  for (int row = -1; row <= map.rows; ++row)
+    for (int column = -1; column <= map.columns; ++column)
+      if (is_edge(map, {column, row})) close_about({column, row});
+  return has_room;
+}
+
+/// Of the square about a marker's disc. A line of sight from the marker stays in one of them.
+using Quarters = std::array<bool, 4>;
+
+std::size_t quarter_of(const Vec2& from_marker) {
+  return (from_marker.x() < 0.0 ? 0U : 1U) + (from_marker.y() < 0.0 ? 0U : 2U);
+}
+
+/// True for those in which nothing hides the marker.
+Quarters clear_quarters(const MarkerDisc& marker, const LinesOfSight& sight) {
+  Quarters are_clear{};
+  for (const double x : {-marker.reach, marker.reach}) {
+    for (const double y : {-marker.reach, marker.reach}) {
+      const Vec2 corner = marker.middle + Vec2(x, y);
+      are_clear[quarter_of({x, y})] =
+          sight.is_clear(cell_at(marker.middle.cwiseMin(corner)), cell_at(marker.middle.cwiseMax(corner)));
+    }
+  }
+  return are_clear;
+}
+
 /// For each cell: true where the robot can be but sees no marker.
 std::vector<bool> blind_cells(const MarkerRegistry& registry, const CoveredFloor& floor) {
   const OccupancyMap& map = floor.map;
-  const DistanceField distances(map);
-  const double room = floor.room_m / map.resolution_m;
-  std::vector<bool> blind(map.cells.size());
-  for (int row = 0; row < map.rows; ++row)
-    for (int column = 0; column < map.columns; ++column)
-      blind[map.index({column, row})] = distances.squared_cells({column, row}) > room * room;
-
-  const Sight sight(floor);
+  std::vector<bool> blind = cells_with_room(map, floor.room_m / map.resolution_m);
+  const LinesOfSight sight(floor);
   for (const MarkerDisc& marker : marker_discs(registry, floor, sight)) {
     const Vec2 low = (marker.middle.array() - marker.reach).floor().max(0.0);
     const Vec2 high = marker.middle.array() + marker.reach;
+    const Quarters is_clear = clear_quarters(marker, sight);
     for (int row = static_cast<int>(low.y()); row < std::min<double>(map.rows, high.y()); ++row) {
       for (int column = static_cast<int>(low.x()); column < std::min<double>(map.columns, high.x());
            ++column) {
         const std::size_t index = map.index({column, row});
         const Vec2 at = center_of({column, row});
         if (!blind[index] || (at - marker.middle).squaredNorm() > marker.reach * marker.reach) continue;
-        if (sight.is_free(at, marker.middle, marker.z_m)) blind[index] = false;
+        if (is_clear[quarter_of(at - marker.middle)] || sight.is_free(at, marker.middle, marker.z_m))
+          blind[index] = false;
       }
     }
   }
   return blind;
 }
 
-/// The blind cells connected to this one (flood fill); clears them in `blind`.
-std::vector<Cell> taken_from(std::vector<bool>& blind, const OccupancyMap& map, Cell first) {
-  std::vector<Cell> cells{first};
-  blind[map.index(first)] = false;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell cell = cells[i];
-    for (const Cell next : {Cell{cell.column - 1, cell.row}, Cell{cell.column + 1, cell.row},
-                            Cell{cell.column, cell.row - 1}, Cell{cell.column, cell.row + 1}}) {
-      if (!map.contains(next) || !blind[map.index(next)]) continue;
-      blind[map.index(next)] = false;
-      cells.push_back(next);
-    }
+/// Cells beside each other in a row, from the first column to the last.
+struct RowOfCells {
+  int row = 0;
+  int first = 0;
+  int last = 0;
+};
+
+/// The blind cells connected to this one, by runs (scan-line flood fill: Smith 1979, "Tint fill"); clears
+/// them in `blind`.
+std::vector<RowOfCells> taken_from(std::vector<bool>& blind, const OccupancyMap& map, Cell first) {
+  const auto is_blind = [&](int column, int row) {
+    return map.contains({column, row}) && blind[map.index({column, row})];
+  };
+  std::vector<RowOfCells> runs;
+  std::vector<Cell> seeds{first};
+  while (!seeds.empty()) {
+    const Cell seed = seeds.back();
+    seeds.pop_back();
+    if (!is_blind(seed.column, seed.row)) continue;
+    RowOfCells run{seed.row, seed.column, seed.column};
+    while (is_blind(run.first - 1, run.row)) --run.first;
+    while (is_blind(run.last + 1, run.row)) ++run.last;
+    for (int column = run.first; column <= run.last; ++column) blind[map.index({column, run.row})] = false;
+    for (const int row : {run.row - 1, run.row + 1})
+      for (int column = run.first; column <= run.last; ++column)
+        if (is_blind(column, row) && (column == run.first || !is_blind(column - 1, row)))
+          seeds.push_back({column, row});
+    runs.push_back(run);
   }
+  return runs;
+}
+
+double cells_in(const std::vector<RowOfCells>& runs) {
+  double cells = 0.0;
+  for (const RowOfCells& run : runs) cells += run.last - run.first + 1;
   return cells;
 }
 
+/// The cell of a run that is nearest to a point of the grid.
+Cell nearest_in(const RowOfCells& run, const Vec2& at) {
+  return {std::clamp(cell_at(at).column, run.first, run.last), run.row};
+}
+
 /// Its places are the corners of its bounding box, for a view to zoom to.
-RegistryIssue gap_issue(const OccupancyMap& map, const std::vector<Cell>& cells, double area_m2) {
+RegistryIssue gap_issue(const OccupancyMap& map, const std::vector<RowOfCells>& runs, double area_m2) {
   Vec2 low = Vec2::Constant(1e300);
   Vec2 high = -low;
-  for (const Cell cell : cells) {
-    low = low.cwiseMin(map.center_of(cell));
-    high = high.cwiseMax(map.center_of(cell));
+  for (const RowOfCells& run : runs) {
+    for (const int column : {run.first, run.last}) {
+      const Vec2 end = map.center_of({column, run.row});
+      low = low.cwiseMin(end);
+      high = high.cwiseMax(end);
+    }
   }
-  const Vec2 middle = 0.5 * (low + high);
-  const auto off = [&](Cell cell) { return (map.center_of(cell) - middle).squaredNorm(); };
-  const Vec2 at = map.center_of(*std::ranges::min_element(cells, {}, off));
+  const Vec2 middle = inverse(map.map_from_grid) * (0.5 * (low + high)) / map.resolution_m;
+  const auto off = [&](const RowOfCells& run) {
+    return (center_of(nearest_in(run, middle)) - middle).squaredNorm();
+  };
+  const Vec2 at = map.center_of(nearest_in(*std::ranges::min_element(runs, {}, off), middle));
   return {.kind = IssueKind::gap,
           .error = false,
           .ids = {},
@@ -170,7 +195,7 @@ std::vector<Vec2> places_along(const Path& route) {
   return places;
 }
 
-std::vector<BlindStretch> blind_stretches(const Path& route, const Sight& sight,
+std::vector<BlindStretch> blind_stretches(const Path& route, const LinesOfSight& sight,
                                           const std::vector<MarkerDisc>& markers) {
   std::vector<BlindStretch> stretches;
   bool was_blind = false;
@@ -205,9 +230,9 @@ std::vector<RegistryIssue> find_gaps(const MarkerRegistry& registry, const Cover
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
       if (!blind[map.index({column, row})]) continue;
-      const std::vector<Cell> cells = taken_from(blind, map, {column, row});
-      const double area_m2 = static_cast<double>(cells.size()) * map.resolution_m * map.resolution_m;
-      if (area_m2 >= least_gap_m2) gaps.emplace_back(area_m2, gap_issue(map, cells, area_m2));
+      const std::vector<RowOfCells> runs = taken_from(blind, map, {column, row});
+      const double area_m2 = cells_in(runs) * map.resolution_m * map.resolution_m;
+      if (area_m2 >= least_gap_m2) gaps.emplace_back(area_m2, gap_issue(map, runs, area_m2));
     }
   }
   std::ranges::stable_sort(gaps, std::ranges::greater(), &std::pair<double, RegistryIssue>::first);
@@ -218,12 +243,12 @@ std::vector<RegistryIssue> find_gaps(const MarkerRegistry& registry, const Cover
 
 std::vector<BlindStretch> blind_stretches_of(const Path& way, const MarkerRegistry& registry,
                                              const CoveredFloor& floor) {
-  const Sight sight(floor);
+  const LinesOfSight sight(floor);
   return blind_stretches(way, sight, marker_discs(registry, floor, sight));
 }
 
 std::vector<RegistryIssue> find_blind_stretches(const MarkerRegistry& registry, const CoveredFloor& floor) {
-  const Sight sight(floor);
+  const LinesOfSight sight(floor);
   const std::vector<MarkerDisc> markers = marker_discs(registry, floor, sight);
   std::vector<BlindStretch> found;
   for (const Path& route : floor.routes) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/navigation/navigation_setup.hpp"
+#include "app/placement/marker_index.hpp"
 #include "localization/pose/map_estimate.hpp"
 #include "localization/pose/mount.hpp"
 #include "maps/distance_field.hpp"
@@ -18,51 +19,43 @@
 namespace lodestar {
 namespace {
 
-/// A marker's dots in the map frame.
-struct MarkerInMap {
-  Vec3 middle = Vec3::Zero();
-  std::vector<Vec3> dots;
-};
-
-std::vector<MarkerInMap> markers_in_map(const MarkerRegistry& registry) {
-  std::vector<MarkerInMap> markers;
-  for (const RegisteredMarker& registered : registry.markers) {
-    const Eigen::Isometry3d pose = map_from_marker(registry, registered);
-    MarkerInMap marker{.middle = pose * Vec3(1.5 * marker_pitch_m, 1.5 * marker_pitch_m, 0.0), .dots = {}};
-    for (const GridCell cell : dots_of(registered.id)) {
-      const Vec2 at = cell_in_marker(cell);
-      marker.dots.push_back(pose * Vec3(at.x(), at.y(), 0.0));
-    }
-    markers.push_back(std::move(marker));
-  }
-  return markers;
+double highest_m(const MarkerRegistry& registry) {
+  double highest_m = 0.0;
+  for (const RegisteredMarker& marker : registry.markers)
+    highest_m = std::max(highest_m, map_from_marker(registry, marker).translation().z());
+  return highest_m;
 }
 
 class Viewer {
  public:
   Viewer(const MarkerRegistry& registry, const CameraModel& camera, const SightLines* sight_lines,
          const VisibilityOptions& options)
-      : markers_(markers_in_map(registry)), camera_(camera), sight_lines_(sight_lines), options_(options) {}
+      : markers_(registry, sight_reach_m(camera, options.base_from_camera, highest_m(registry))),
+        camera_(camera),
+        sight_lines_(sight_lines),
+        options_(options) {}
 
   [[nodiscard]] CellView view_from(const Vec2& position_m) const {
     CellView view{.least = std::numeric_limits<int>::max(),
                   .most = 0,
                   .position_sigma_m = 0.0,
                   .heading_sigma_rad = 0.0};
+    const std::vector<const MarkerInMap*> markers = markers_.about(position_m);
     for (int i = 0; i < options_.headings; ++i) {
       const double heading_rad = 2.0 * std::numbers::pi * i / options_.headings;
-      add_heading({position_m, wrap_angle(heading_rad)}, view);
+      add_heading({position_m, wrap_angle(heading_rad)}, markers, view);
     }
     return view;
   }
 
  private:
-  void add_heading(const Pose2& map_from_base, CellView& view) const {
+  void add_heading(const Pose2& map_from_base, const std::vector<const MarkerInMap*>& markers,
+                   CellView& view) const {
     const Eigen::Isometry3d map_from_camera = lifted(map_from_base) * options_.base_from_camera;
     int seen = 0;
     std::vector<SurveyedDot> dots;
-    for (const MarkerInMap& marker : markers_)
-      if (add_marker(marker, map_from_camera, dots)) ++seen;
+    for (const MarkerInMap* marker : markers)
+      if (add_marker(*marker, map_from_camera, dots)) ++seen;
     view.least = std::min(view.least, seen);
     view.most = std::max(view.most, seen);
     const std::optional<PlanarFix> fix = expected_fix(map_from_camera, dots);
@@ -109,7 +102,7 @@ class Viewer {
     return compensate_mount(fix, options_.base_from_camera);
   }
 
-  std::vector<MarkerInMap> markers_;
+  MarkerIndex markers_;
   const CameraModel& camera_;
   const SightLines* sight_lines_;
   VisibilityOptions options_;

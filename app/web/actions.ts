@@ -1,9 +1,8 @@
 // The user's actions on markers, each as one undoable step.
 import { arrayOffsets, distributed, movedBy, toWall } from './arrange.js';
-import type { Coverage } from './coverage.js';
+import type { CountedCoverage } from './counted.js';
 import { ask, askNumbers, el, plural } from './dom.js';
 import type { Editor } from './editor.js';
-import { fillGaps } from './fill.js';
 import { idCount, sideM } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import { IdPicker } from './ids.js';
@@ -13,7 +12,7 @@ const usualHeightM = 2.6;
 const proposedIds = 8;
 
 export class Actions {
-  constructor(private readonly editor: Editor, private readonly coverage: Coverage, private readonly say: (words: string, bad?: boolean) => void) {}
+  constructor(private readonly editor: Editor, private readonly coverage: CountedCoverage, private readonly say: (words: string, bad?: boolean) => void) {}
 
   private picker(): IdPicker { return new IdPicker([...this.editor.markers.values()].map((m) => m.id)); }
 
@@ -33,20 +32,22 @@ export class Actions {
 
   addAt(middle: Point): void { this.addAll([middle]); }
 
-  suggest(): void {
-    const place = this.coverage.suggestion(this.usualHeight());
-    if (!place) return this.say('The robot sees a marker from every position where it can be');
+  async suggest(): Promise<string> {
+    const place = await this.coverage.suggestion(this.usualHeight(), (share) => this.saySearched(share));
+    if (!place) return 'The robot sees a marker from every position where it can be';
     this.addAll([place]);
-    this.say('Placed a marker where it closes most of the gaps');
+    return 'Placed a marker where it closes most of the gaps';
   }
 
   /** A marker that the robot sees at this spot, and at as many badly covered ones as possible. */
-  suggestNear(spot: Point): void {
-    const place = this.coverage.suggestionNear(spot, this.usualHeight());
+  async suggestNear(spot: Point): Promise<void> {
+    const place = await this.coverage.suggestionNear(spot, this.usualHeight());
     if (!place) return this.say('No position on the ceiling is seen from there at the height of the other markers', true);
     this.addAll([place]);
     this.say('Placed a marker that the robot sees there; undo takes it away, Save keeps it');
   }
+
+  private saySearched(share: number): void { this.say(`Searching positions: ${(100 * share).toFixed(0)} %`); }
 
   /** Adds markers, few by a greedy search, until every position sees the wanted number. */
   async fill(): Promise<string> {
@@ -54,10 +55,7 @@ export class Actions {
       'Adds as few markers as a greedy search needs, at the height of the others; one undo removes all of them.', 'Fill');
     if (!numbers) return '';
     const z = this.usualHeight();
-    const { places, blindM2 } = await fillGaps(this.coverage, z, Math.round(numbers['wanted']!), [...this.editor.shown()], async (share) => {
-      this.say(`Searching positions: ${(100 * share).toFixed(0)} %`);
-      await new Promise((done) => setTimeout(done));
-    });
+    const { places, blindM2 } = await this.coverage.fillGaps(z, Math.round(numbers['wanted']!), (share) => this.saySearched(share));
     const rest = blindM2 > 0 ? `; ${blindM2.toFixed(2)} m² cannot see any marker at this height` : '';
     if (places.length === 0) return `Nothing to add${rest}`;
     this.addAll(places);

@@ -1,5 +1,5 @@
 // Arranges markers in arrays, in lines and along walls. All poses in the map frame; lengths in metres.
-import type { Floor } from './coverage.js';
+import type { Floor } from './floor.js';
 import { centerOf, radians, sideM, tidy, transform, wrapDeg } from './geometry.js';
 import type { Marker, Point, Pose } from './geometry.js';
 

@@ -3,12 +3,12 @@ import { Actions } from './actions.js';
 import * as api from './api.js';
 import { isTyping, keyOf } from './commands.js';
 import type { Command } from './commands.js';
-import { Coverage } from './coverage.js';
-import type { Floor } from './coverage.js';
+import { CountedCoverage } from './counted.js';
 import { Documents } from './documents.js';
 import { Draft } from './draft.js';
 import { byId } from './dom.js';
 import { Editor } from './editor.js';
+import type { Floor } from './floor.js';
 import type { Point } from './geometry.js';
 import { Hang } from './hang.js';
 import { Latest } from './latest.js';
@@ -35,7 +35,7 @@ export class Console implements Page {
   readonly editor = new Editor();
   readonly view = new View();
   readonly layers = new Layers();
-  readonly coverage: Coverage;
+  readonly coverage: CountedCoverage;
   readonly stage: Stage;
   readonly pointer: Pointer;
   readonly replay: Replay;
@@ -56,12 +56,12 @@ export class Console implements Page {
   private readonly deviations = new Latest(followEveryMs, () => this.showDeviations(), complain);
 
   constructor(readonly site: api.Site, readonly floor: Floor, tagged: api.Tagged) {
-    this.coverage = new Coverage(floor, site);
+    this.coverage = new CountedCoverage(floor, site.coverage, complain);
     this.stage = new Stage(byId('stage'), this.view, this.editor, floor, this.coverage, this.layers);
     this.pointer = new Pointer(this.stage);
     this.replay = new Replay(this.stage, site, { goTo: (points) => this.goTo(points), suggestNear: (spot) => this.suggestNear(spot) }, complain);
     this.live = new Live(this.stage, site, say);
-    this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => this.actions.suggest(),
+    this.panel = new Panel(this.editor, { goTo: (points) => this.goTo(points), suggest: () => attempt(() => this.actions.suggest()),
       fill: () => attempt(() => this.actions.fill()), pickId: () => attempt(() => this.actions.pickId()),
       letStand: (issue, reason) => attempt(async () => {
         await api.letStand(issue, reason);
@@ -98,7 +98,6 @@ export class Console implements Page {
 
   private changed(): void {
     this.coverage.update(this.editor.shown());
-    this.stage.paintRaster();
     this.stage.redraw();
     this.panel.show();
     this.refreshTools();
@@ -109,7 +108,6 @@ export class Console implements Page {
 
   private dragged(): void {
     this.coverage.update(this.editor.shown());
-    this.stage.paintRaster();
     this.stage.redrawDragged();
     this.panel.showSelection();
     this.judge();
@@ -122,7 +120,6 @@ export class Console implements Page {
   }
 
   private async check(): Promise<void> {
-    this.panel.showCoverage(this.coverage);
     try {
       this.panel.showIssues(await api.checkMarkers(this.editor.draft()));
     } catch (error) {
@@ -172,8 +169,8 @@ export class Console implements Page {
   /** In the markers' mode, where it can be moved or undone. */
   private suggestNear(spot: Point): void {
     this.modes.enter('edit');
-    this.actions.suggestNear(spot);
     this.goTo([spot]);
+    attempt(() => this.actions.suggestNear(spot));
   }
 
   changeTheme(): void {
@@ -206,6 +203,7 @@ export class Console implements Page {
   private listen(): void {
     this.layers.onChange = () => this.layersChanged();
     this.layers.showLegend();
+    this.coverage.onCounted = (boxes) => { this.stage.paintCounted(boxes); this.panel.showCoverage(this.coverage); };
     this.pointer.onHover = (at) => { this.places.hoverAt(at); byId('where').textContent = at ? `${at.x.toFixed(3)}, ${at.y.toFixed(3)} m` : ''; };
     this.pointer.onDrag = () => this.dragged();
     this.editor.onChange = () => this.changed();

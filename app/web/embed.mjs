@@ -8,15 +8,16 @@ const [packages, output] = process.argv.slice(2);
 const source = dirname(fileURLToPath(import.meta.url));
 const { buildSync } = createRequire(join(resolve(packages), 'package.json'))('esbuild');
 
-const bundle = buildSync({
-  entryPoints: [join(source, 'main.ts')], bundle: true, minify: true, format: 'esm', target: 'es2022',
+const bundleOf = (entry) => buildSync({
+  entryPoints: [join(source, entry)], bundle: true, minify: true, format: 'esm', target: 'es2022',
   legalComments: 'none', write: false, nodePaths: [join(resolve(packages), 'node_modules')],
 }).outputFiles[0].text;
 
 const plotStyle = readFileSync(join(resolve(packages), 'node_modules/uplot/dist/uPlot.min.css'), 'utf8');
 const files = [
   ['/', 'text/html; charset=utf-8', readFileSync(join(source, 'index.html'), 'utf8')],
-  ['/app.js', 'text/javascript; charset=utf-8', bundle],
+  ['/app.js', 'text/javascript; charset=utf-8', bundleOf('main.ts')],
+  ['/coverage_worker.js', 'text/javascript; charset=utf-8', bundleOf('coverage_worker.ts')],
   ['/style.css', 'text/css; charset=utf-8', plotStyle + readFileSync(join(source, 'style.css'), 'utf8')],
 ];
 

@@ -1,56 +1,77 @@
 // The floor: the map's cells, coloured by coverage or deviation, and a scale bar.
 import { coloursNow } from './colours.js';
-import type { Coverage, Floor } from './coverage.js';
+import type { Box } from './coverage.js';
+import type { Floor } from './floor.js';
 import type { Layers } from './layers.js';
 import type { View } from './view.js';
 
 const badTint = [214, 60, 50], doubtTint = [232, 176, 40], goodTint = [46, 150, 80];
 const hatchCells = 5;  // from one line of the hatching to the next
 const goodDeviationM = 0.005, badDeviationM = 0.02;
+const stripeRows = 256;
+
+/** As pixels of an image. */
+interface Palette {
+  unknown: number; wall: number; free: number; none: number; hatch: number; one: number; more: number;
+  tinted(tint: number[], share: number): number;
+}
+
+function paletteOf(): Palette {
+  const { unknown, wall, free } = coloursNow();
+  const tinted = (tint: number[], share: number) => pixelOf(free.map((c, i) => c * (1 - share) + tint[i]! * share));
+  return { unknown: pixelOf(unknown), wall: pixelOf(wall), free: pixelOf(free), none: tinted(badTint, 0.42), hatch: tinted(badTint, 1),
+    one: tinted(doubtTint, 0.3), more: tinted(goodTint, 0.3), tinted };
+}
+
+/** Opaque; the bytes are in the order of an image's on whatever machine. */
+const pixelOf = (colour: number[]): number => new Uint32Array(Uint8ClampedArray.from([...colour.slice(0, 3), 255]).buffer)[0]!;
 
 export class FloorPaint {
   /** Metres per cell; null before the first result, NaN where no marker is seen. */
   deviations: Float32Array | null = null;
   private readonly raster = document.createElement('canvas');
-  private colours = coloursNow();
-  private tints: { none: number[]; hatch: number[]; one: number[]; more: number[] } = { none: [], hatch: [], one: [], more: [] };
+  private palette: Palette = paletteOf();
 
-  constructor(private readonly floor: Floor, private readonly coverage: Coverage, private readonly layers: Layers) {
+  /** `counts`: markers in view from each cell. */
+  constructor(private readonly floor: Floor, private readonly counts: Uint16Array, private readonly layers: Layers) {
     this.raster.width = floor.info.columns;
     this.raster.height = floor.info.rows;
   }
 
-  /** Recomputes the cells' colours; call when coverage or theme has changed. */
+  /** Colours all cells anew; call when theme or colouring have changed. */
   paint(): void {
-    this.colours = coloursNow();
+    this.palette = paletteOf();
     const { columns, rows } = this.floor.info;
-    const context = this.raster.getContext('2d')!;
-    this.tints = { none: this.tinted(badTint, 0.42), hatch: this.tinted(badTint, 1), one: this.tinted(doubtTint, 0.3), more: this.tinted(goodTint, 0.3) };
-    const image = context.createImageData(columns, rows);
-    for (let row = 0; row < rows; ++row) {
-      for (let column = 0; column < columns; ++column) {
-        const colour = this.colourOf(row * columns + column, (row + column) % hatchCells === 0);
-        const at = 4 * ((rows - 1 - row) * columns + column);
-        for (let i = 0; i < 3; ++i) image.data[at + i] = colour[i]!;
-        image.data[at + 3] = 255;
-      }
+    for (let row = 0; row < rows; row += stripeRows) this.paintBox({ column: 0, row, columns, rows: Math.min(stripeRows, rows - row) });
+  }
+
+  /** The same where counts have changed. */
+  paintCounted(boxes: Box[]): void {
+    if (this.layers.floor === 'coverage') for (const box of boxes) this.paintBox(box);
+  }
+
+  private paintBox(box: Box): void {
+    if (box.columns === 0 || box.rows === 0) return;
+    const image = new ImageData(box.columns, box.rows);
+    const pixels = new Uint32Array(image.data.buffer);
+    for (let r = 0, at = 0; r < box.rows; ++r) {
+      const row = box.row + box.rows - 1 - r;  // y is up on the map, down in the image
+      for (let column = box.column; column < box.column + box.columns; ++column, ++at) pixels[at] = this.colourOf(row, column);
     }
-    context.putImageData(image, 0, 0);
+    this.raster.getContext('2d')!.putImageData(image, box.column, this.floor.info.rows - box.row - box.rows);
   }
 
   /** Gaps are hatched: their red and the green of what is covered look alike to many. */
-  private colourOf(index: number, hatched: boolean): number[] {
-    const value = this.floor.cells[index]!;
-    if (value < 0) return this.colours.unknown;
-    if (value >= 50) return this.colours.wall;
-    if (this.layers.floor === 'plain' || !this.floor.canStand(index)) return this.colours.free;
-    if (this.layers.floor === 'deviation') return this.tinted(deviationTint(this.deviations?.[index] ?? 0), 0.45);
-    const count = this.coverage.counts[index]!;
-    return count === 0 ? hatched ? this.tints.hatch : this.tints.none : count === 1 ? this.tints.one : this.tints.more;
-  }
-
-  private tinted(tint: number[], share: number): number[] {
-    return this.colours.free.map((c, i) => c * (1 - share) + tint[i]! * share);
+  private colourOf(row: number, column: number): number {
+    const { palette, floor } = this;
+    const index = row * floor.info.columns + column;
+    const value = floor.cells[index]!;
+    if (value < 0) return palette.unknown;
+    if (value >= 50) return palette.wall;
+    if (this.layers.floor === 'plain' || !floor.canStand(index)) return palette.free;
+    if (this.layers.floor === 'deviation') return palette.tinted(deviationTint(this.deviations?.[index] ?? 0), 0.45);
+    const count = this.counts[index]!;
+    return count === 0 ? (row + column) % hatchCells === 0 ? palette.hatch : palette.none : count === 1 ? palette.one : palette.more;
   }
 
   draw(c: CanvasRenderingContext2D, view: View): void {

@@ -1,6 +1,6 @@
 // The installation plan: where each marker hangs, with the distances to the walls, to be printed and taken along, or as CSV.
 import * as api from './api.js';
-import type { Floor } from './coverage.js';
+import type { Floor } from './floor.js';
 import { download } from './dialogs.js';
 import { ask, byId, el, plural } from './dom.js';
 import type { Editor } from './editor.js';

@@ -22,7 +22,7 @@ export class IssueList {
   showUnchecked(why: string): void { byId('issues').replaceChildren(el('p', {}, why)); }
 
   show(issues: Issue[]): void {
-    this.issues = [...issues].sort((a, b) => a.severity.localeCompare(b.severity));
+    this.issues = [...issues.filter((i) => i.severity === 'error'), ...issues.filter((i) => i.severity !== 'error')];
     const open = this.issues.filter((i) => !i.accepted);
     const standing = this.issues.filter((i) => i.accepted);
     const errors = open.filter((i) => i.severity === 'error').length;

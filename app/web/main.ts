@@ -2,7 +2,8 @@
 // the console.
 import * as api from './api.js';
 import { Console } from './console.js';
-import { Floor } from './coverage.js';
+import { Coverage } from './coverage.js';
+import { Floor } from './floor.js';
 import { centerOf } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import { NewSitePage } from './new_site.js';
@@ -23,6 +24,8 @@ export interface Handle {
   console: Console;
   screenOf(id: number): Point;
   marker(id: number): Marker | undefined;
+  /** Counts these markers alone, at once; on another floor if there is one. */
+  countedAnew(markers: Iterable<Marker>, floor?: Floor): Coverage;
 }
 
 async function start(): Promise<void> {
@@ -36,7 +39,12 @@ async function start(): Promise<void> {
   const [info, cells, tagged] = await Promise.all([api.getMap(), api.getCells(), api.getMarkers()]);
   const made = new Console(site, new Floor(info, cells, site.coverage.room_m, await api.getHeights(info)), tagged);
   const marker = (id: number) => [...made.editor.shown()].find((m) => m.id === id);
-  const handle: Handle = { console: made, marker, screenOf: (id) => made.view.toScreen(centerOf(marker(id)!)) };
+  const countedAnew = (markers: Iterable<Marker>, floor = made.floor) => {
+    const coverage = new Coverage(floor, site.coverage);
+    for (const m of markers) coverage.put(m);
+    return coverage;
+  };
+  const handle: Handle = { console: made, marker, countedAnew, screenOf: (id) => made.view.toScreen(centerOf(marker(id)!)) };
   (window as unknown as { lodestar: Handle }).lodestar = handle;
   say(sessionStorage.getItem('lodestar-made') ?? 'Ready');
   sessionStorage.removeItem('lodestar-made');

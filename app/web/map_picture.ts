@@ -1,6 +1,6 @@
 // Small pictures of the map with what changed on it, for lists of earlier states.
 import { coloursNow } from './colours.js';
-import type { Floor } from './coverage.js';
+import type { Floor } from './floor.js';
 import type { Point } from './geometry.js';
 
 const pictures = new WeakMap<Floor, Map<string, ImageData>>();

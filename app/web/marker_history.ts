@@ -1,6 +1,6 @@
 // Earlier states of the markers, as pictures and in words.
 import * as api from './api.js';
-import type { Floor } from './coverage.js';
+import type { Floor } from './floor.js';
 import type { Editor, Registry } from './editor.js';
 import { centerOf } from './geometry.js';
 import type { Marker, Point } from './geometry.js';

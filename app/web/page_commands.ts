@@ -4,7 +4,7 @@ import type { Site } from './api.js';
 import type { Command } from './commands.js';
 import { exportTo, importFrom, pickFile, printChosen, showHelp } from './dialogs.js';
 import type { Documents } from './documents.js';
-import type { Floor } from './coverage.js';
+import type { Floor } from './floor.js';
 import { offerPlan } from './installation_plan.js';
 import { openLog } from './log_dialog.js';
 import { openHistory } from './marker_history.js';

@@ -1,6 +1,6 @@
 // The panel beside the map: the selection in numbers, coverage, issues, and all markers as a table.
 import type { Issue } from './api.js';
-import type { Coverage } from './coverage.js';
+import type { CountedCoverage } from './counted.js';
 import { button, byId, el, plural } from './dom.js';
 import type { Editor } from './editor.js';
 import { IssueList } from './issue_list.js';
@@ -115,7 +115,7 @@ export class Panel {
 
   // -- coverage -------------------------------------------------------------------------------------------
 
-  showCoverage(coverage: Coverage): void {
+  showCoverage(coverage: CountedCoverage): void {
     const { one, two } = coverage.shares();
     const percent = (share: number) => `${(100 * share).toFixed(1)} %`;
     this.coverageWords.textContent = `${percent(one)} of the floor where the robot can stand sees a marker, ${percent(two)} two or more, ` +

@@ -1,6 +1,6 @@
 // Earlier states of zones, lanes and places, as pictures and in words.
 import * as api from './api.js';
-import type { Floor } from './coverage.js';
+import type { Floor } from './floor.js';
 import { chooseState } from './history_dialog.js';
 import { mapPicture } from './map_picture.js';
 import type { PlacesDocument, PlacesEditor } from './places_doc.js';

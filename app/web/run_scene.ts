@@ -1,7 +1,7 @@
 // The map and the markers that a run was driven on: those of today may be others.
 import { getCellsOfRun } from './api.js';
 import type { Run, Site } from './api.js';
-import { Coverage, Floor } from './coverage.js';
+import { Floor } from './floor.js';
 import { Editor } from './editor.js';
 import type { Registry } from './editor.js';
 import { FloorPaint } from './floor_paint.js';
@@ -32,7 +32,7 @@ export async function sceneOf(run: Run, stage: Stage, site: Site): Promise<RunSc
   const words = since.length === 0 ? '' : `Drawn over the map and markers that it drove on. Changed since then: ${since.join(' and ')}.`;
   if (isSameMap) return { scene: { floor: stage.floorPaint, markers: markersOf(run.registry) }, words };
   const floor = new Floor({ ...run.map, heights: null }, cells, site.coverage.room_m);
-  const paint = new FloorPaint(floor, new Coverage(floor, site), stage.layers);
+  const paint = new FloorPaint(floor, new Uint16Array(cells.length), stage.layers);
   paint.paint();
   return { scene: { floor: paint, markers: markersOf(run.registry) }, words };
 }

@@ -1,7 +1,9 @@
 // The three layers: floor (map and coverage), ceiling (markers), overlay (selection, handles, pointers).
 import { coloursNow } from './colours.js';
 import type { Colours } from './colours.js';
-import type { Coverage, Floor } from './coverage.js';
+import type { CountedCoverage } from './counted.js';
+import type { Box } from './coverage.js';
+import type { Floor } from './floor.js';
 import type { Editor } from './editor.js';
 import { FloorPaint } from './floor_paint.js';
 import { centerOf, pitchM, sideM } from './geometry.js';
@@ -33,10 +35,11 @@ export class Stage {
   private overlayWanted = false;
 
   constructor(readonly element: HTMLElement, readonly view: View, readonly editor: Editor,
-    readonly floor: Floor, readonly coverage: Coverage, readonly layers: Layers) {
+    readonly floor: Floor, readonly coverage: CountedCoverage, readonly layers: Layers) {
     const context = (id: string) => (document.getElementById(id) as HTMLCanvasElement).getContext('2d')!;
     [this.floorLayer, this.ceilingLayer, this.overlayLayer] = [context('floor'), context('ceiling'), context('overlay')];
-    this.floorPaint = new FloorPaint(floor, coverage, layers);
+    this.floorPaint = new FloorPaint(floor, coverage.counts, layers);
+    this.paintRaster();
     new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
   }
@@ -53,7 +56,6 @@ export class Stage {
       layer.canvas.style.height = `${this.view.height}px`;
       layer.setTransform(ratio, 0, 0, ratio, 0, 0);
     }
-    this.paintRaster();
     this.redraw();
   }
 
@@ -72,10 +74,16 @@ export class Stage {
     }
   }
 
-  /** Call when coverage, theme or the floor's colouring has changed. */
+  /** Call when theme or the floor's colouring has changed. */
   paintRaster(): void {
     this.floorPaint.paint();
     this.scene?.floor.paint();
+  }
+
+  /** Where the coverage has changed. */
+  paintCounted(boxes: Box[]): void {
+    this.floorPaint.paintCounted(boxes);
+    this.redrawDragged();
   }
 
   /** Draws everything with the next frame. */

@@ -74,8 +74,10 @@ TEST(MarkerCode, a_quarter_turn_takes_the_empty_corner_from_top_right_to_top_lef
 
 TEST(MarkerCode, distance_over_the_other_views_agrees_with_pictures_turned_by_hand) {
   for (const auto& [a, b] :
-       std::vector<std::pair<int, int>>{{0, 0}, {447, 447}, {447, 1782}, {5, 6}, {4095, 0}, {1, 4}})
+       std::vector<std::pair<int, int>>{{0, 0}, {447, 447}, {447, 1782}, {5, 6}, {4095, 0}, {1, 4}}) {
     EXPECT_EQ(turned_distance(a, b), least_over_other_views(a, b)) << a << " " << b;
+    EXPECT_EQ(is_turned(a, b), turned_distance(a, b) == 0) << a << " " << b;
+  }
 }
 
 TEST(MarkerCode, of_1_and_4_the_one_is_the_mirror_image_of_the_other) {

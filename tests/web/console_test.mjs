@@ -236,7 +236,11 @@ describe('with others', () => {
 
 describe('seeing', () => {
   story('coverage follows a drag, and a suggested marker closes a gap', async (page) => {
-    const share = () => page.evaluate(() => window.lodestar.console.coverage.shares().one);
+    const share = () => page.evaluate(async () => {
+      const { coverage } = window.lodestar.console;
+      await coverage.settled();
+      return coverage.shares().one;
+    });
     const before = await share();
     await page.getByRole('button', { name: 'Suggest next marker' }).click();
     await page.waitForFunction((then) => window.lodestar.console.coverage.shares().one > then + 0.02, before, { polling: 50 });
@@ -244,11 +248,11 @@ describe('seeing', () => {
     await page.waitForFunction((then) => window.lodestar.console.coverage.shares().one === then, before, { polling: 50 });
 
     // The same from scratch as by moving: nothing is left behind.
-    const equal = await page.evaluate(() => {
+    const equal = await page.evaluate(async () => {
       const { editor, coverage } = window.lodestar.console;
       editor.change([...editor.markers.values()].map((m) => ({ ...m, x: m.x + 0.31, y: m.y - 0.17 })));
-      const fresh = new coverage.constructor(coverage.floor, coverage.site);
-      fresh.update(editor.shown());
+      await coverage.settled();
+      const fresh = window.lodestar.countedAnew(editor.shown());
       return fresh.counts.every((count, i) => count === coverage.counts[i]);
     });
     assert.ok(equal);

@@ -232,13 +232,13 @@ describe('gaps', () => {
   story('filling them leaves no place unseen, with no marker that is not needed', async (page) => {
     await fill(page, 'k', { wanted: 1 }, 'Fill');
     await page.waitForFunction(() => /^Added \d+ markers/.test(document.getElementById('state').textContent), undefined, { polling: 100, timeout: 60_000 });
-    const result = await page.evaluate(() => {
+    const result = await page.evaluate(async () => {
       const { editor, coverage, floor } = window.lodestar.console;
+      await coverage.settled();
       const blind = [...coverage.counts].filter((count, i) => count === 0 && floor.canStand(i)).length;
       const added = [...editor.selection];
       const needless = added.filter((key) => {
-        const rest = new coverage.constructor(floor, coverage.site);
-        rest.update([...editor.shown()].filter((m) => m.key !== key));
+        const rest = window.lodestar.countedAnew([...editor.shown()].filter((m) => m.key !== key));
         return ![...rest.counts].some((count, i) => count < coverage.counts[i] && count === 0);
       });
       return { blind, added: added.length, needless: needless.length };
@@ -267,6 +267,7 @@ describe('gaps', () => {
           headers: { 'Content-Type': 'application/json', 'X-Lodestar': '1' } });
         const boxes = (await answer.json()).filter((i) => i.kind === 'gap').map((i) => ({ places: i.places_m, m2: Number.parseFloat(i.words) }));
         const cellM2 = floor.info.resolution_m ** 2;
+        await coverage.settled();
         const isIn = (p) => boxes.some(({ places: [low, high] }) =>
           p.x > low[0] - 1e-6 && p.y > low[1] - 1e-6 && p.x < high[0] + 1e-6 && p.y < high[1] + 1e-6);
         const blind = [...coverage.counts.keys()].filter((i) => coverage.counts[i] === 0 && floor.canStand(i));
@@ -314,7 +315,7 @@ describe('gaps', () => {
 describe('an OctoMap', () => {
   story('hides markers behind what it shows, and nothing else does', async (page) => {
     const seen = await page.evaluate(() => {
-      const { floor, coverage } = window.lodestar.console;
+      const { floor } = window.lodestar.console;
       const { columns, rows } = floor.info;
       const heights = { low_m: 1, step_m: 0.1, touch_m: 0.18, bands: new Uint32Array(columns * rows) };
       const floorWith = (bits, column) => {  // a beam from south to north in one column of cells
@@ -324,7 +325,7 @@ describe('an OctoMap', () => {
       };
       const at = { x: 7.525, y: 3.725 };
       const east = (hall) => {
-        const cells = new coverage.constructor(hall, coverage.site).visibleFrom(at, 2.6);
+        const cells = window.lodestar.countedAnew([], hall).visibleFrom(at, 2.6);
         return [[...cells].filter((c) => c % columns > 156).length, [...cells].filter((c) => c % columns < 150).length];
       };
       return { free: east(floorWith(0, 156)), wall: east(floorWith(0xffffffff, 156)), beam: east(floorWith(1 << 10, 156)) };

@@ -183,13 +183,12 @@ describe('stopping', () => {
   test('when the robot falls silent the page says so, and comes back by itself', async () => {
     const mortal = await serveRobot('--realtime');
     const page = await watch(undefined, undefined, mortal.url);
-    await page.context().setOffline(true);
-    await page.evaluate(() => window.lodestar.console.live.socket.socket.close());
+    await mortal.stop();
     await page.locator('#stale', { hasText: /No connection to the robot, and no data for \d+ s/ }).waitFor();
-    await page.context().setOffline(false);
+    const heir = await serveRobot('--realtime', '--port', new URL(mortal.url).port);
     await page.locator('#stale').waitFor({ state: 'hidden' });
     await page.context().close();  // its complaints are of the connection that was cut
-    await mortal.stop();
+    await heir.stop();
   });
 });
 

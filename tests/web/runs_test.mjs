@@ -167,14 +167,15 @@ describe('where it goes badly', () => {
     await look(page, 'heat');
     const before = await page.evaluate(() => window.lodestar.console.editor.markers.size);
     await worst.getByRole('button', { name: 'Suggest a marker here' }).click();
+    await page.waitForFunction((n) => window.lodestar.console.editor.markers.size > n, before, { polling: 20 });
     const placed = await page.evaluate(() => { const { editor, modes } = window.lodestar.console; return { mode: modes.now, count: editor.markers.size, chosen: editor.chosen() }; });
     assert.equal(placed.mode, 'edit');
     assert.equal(placed.count, before + 1);
     const sees = await page.evaluate(([at, marker]) => {
-      const { coverage, floor } = window.lodestar.console;
+      const { floor } = window.lodestar.console;
       const cell = floor.toGrid(at);
       const index = Math.floor(cell.y) * floor.info.columns + Math.floor(cell.x);
-      return [...coverage.visibleFrom({ x: marker.x + 0.06, y: marker.y - 0.06 }, marker.z)].includes(index) || !floor.canStand(index);
+      return [...window.lodestar.countedAnew([]).visibleFrom({ x: marker.x + 0.06, y: marker.y - 0.06 }, marker.z)].includes(index) || !floor.canStand(index);
     }, [{ x, y }, placed.chosen[0]]);
     assert.equal(sees, true);
     await page.keyboard.press('Control+z');
