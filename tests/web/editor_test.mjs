@@ -255,6 +255,25 @@ describe('gaps', () => {
     assert.equal(await page.evaluate(() => window.lodestar.console.editor.canUndo), false);
   });
 
+  story('a suggested marker closes as much as the best of all places', async (page) => {
+    const { gains, most } = await page.evaluate(async () => {
+      const { editor, coverage, floor } = window.lodestar.console;
+      editor.remove([...editor.markers.keys()].filter((_, i) => i % 3 === 1));
+      const before = window.lodestar.countedAnew(editor.shown());
+      const gainOf = (at) => [...before.visibleFrom(at, 2.6)].filter((cell) => before.counts[cell] === 0).length;
+      const { columns, rows, resolution_m } = floor.info;
+      const stride = Math.round(0.3 / resolution_m);
+      const best = await coverage.suggestion(2.6, () => {});
+      let most = 0;
+      for (let row = stride >> 1; row < rows; row += stride)
+        for (let column = stride >> 1; column < columns; column += stride)
+          if (floor.isFree(row * columns + column)) most = Math.max(most, gainOf(floor.centerOfCell(row * columns + column)));
+      return { gains: gainOf(best), most };
+    });
+    assert.ok(most > 100);
+    assert.equal(gains, most);
+  });
+
   story('what the page paints red is what the server calls gaps', async (page) => {
     for (const kept of [0, 1, 4, 25]) {
       await page.evaluate((n) => {
