@@ -138,14 +138,16 @@ void read_arrival(StrictYaml yaml, Robot& robot) {
   yaml.finish();
 }
 
-CameraSettings read_camera_settings(StrictYaml yaml) {
+/// A machine-vision camera's gain is in decibels, and its own clock stamps.
+CameraSettings read_camera_settings(StrictYaml yaml, bool is_machine_vision) {
   constexpr double s_per_ms = 1e-3;
   CameraSettings settings;
   if (yaml.has("exposure_ms")) settings.exposure_s = s_per_ms * yaml.number("exposure_ms", 0.1, 1000.0);
-  if (yaml.has("gain")) settings.gain = yaml.integer("gain", 0, 1'000'000);
+  if (yaml.has("gain"))
+    settings.gain = is_machine_vision ? yaml.number("gain", -100.0, 1e6) : yaml.integer("gain", 0, 1'000'000);
   if (yaml.has("rate_hz")) settings.rate_hz = yaml.number("rate_hz", 1.0, 1000.0);
   if (yaml.has("latency_ms")) settings.latency_s = s_per_ms * yaml.number("latency_ms", 0.0, 250.0);
-  if (yaml.has("stamped_at")) {
+  if (!is_machine_vision && yaml.has("stamped_at")) {
     const std::string moment = yaml.text("stamped_at");
     if (moment != "exposure_start" && moment != "arrival")
       yaml.refuse("stamped_at", "'" + moment + "'", "exposure_start or arrival");
@@ -299,9 +301,11 @@ Site load_site(const std::filesystem::path& folder) {
   check_speed_limits(site);
   if (yaml.has("camera")) site.camera = yaml.text("camera");
   if (yaml.has("camera_settings")) {
-    if (!site.camera.starts_with("v4l2:"))
-      yaml.refuse("camera_settings", "settings of camera '" + site.camera + "'", "them only for v4l2:");
-    site.camera_settings = read_camera_settings(yaml.mapping("camera_settings"));
+    const bool is_machine_vision = site.camera.starts_with("genicam:");
+    if (!is_machine_vision && !site.camera.starts_with("v4l2:"))
+      yaml.refuse("camera_settings", "settings of camera '" + site.camera + "'",
+                  "them only for v4l2: and genicam:");
+    site.camera_settings = read_camera_settings(yaml.mapping("camera_settings"), is_machine_vision);
   }
   if (yaml.has("scanner")) {
     site.scanner = yaml.text("scanner");

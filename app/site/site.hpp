@@ -92,7 +92,7 @@ struct BaseConnection {
 /// Of a V4L2 camera; empty: as the camera is set, and as its driver flags its stamps.
 struct CameraSettings {
   std::optional<double> exposure_s;
-  std::optional<int> gain;  ///< in the driver's unit
+  std::optional<double> gain;  ///< in the driver's unit; a whole number for V4L2
   std::optional<double> rate_hz;
   double latency_s = 0.0;                ///< from the end of exposure to the stamp of arrival
   std::optional<bool> stamped_at_start;  ///< of exposure; false: at arrival

@@ -27,7 +27,7 @@ void PluggableCamera::open_again() {
         try {
           return open();
         } catch (const InputError&) {
-          return std::unique_ptr<V4l2Camera>();  // not yet
+          return std::unique_ptr<DeviceCamera>();  // not yet
         }
       });
 }
@@ -45,6 +45,11 @@ std::string PluggableCamera::description() const {
 std::unique_ptr<Camera> open_v4l2_camera(const std::string& device, const V4l2CameraOptions& options) {
   return std::make_unique<PluggableCamera>(
       [device, options] { return std::make_unique<V4l2Camera>(open_video_device(device), device, options); });
+}
+
+std::unique_ptr<Camera> open_genicam_camera(const std::string& id, const GenicamCameraOptions& options) {
+  return std::make_unique<PluggableCamera>(
+      [id, options] { return std::make_unique<GenicamCamera>(id, options); });
 }
 
 }  // namespace lodestar

@@ -4,7 +4,8 @@
 #include <future>
 #include <memory>
 
-#include "drivers/camera/camera.hpp"
+#include "drivers/camera/device_camera.hpp"
+#include "drivers/camera/genicam_camera.hpp"
 #include "drivers/camera/v4l2_camera.hpp"
 #include "drivers/system/clock.hpp"
 
@@ -20,7 +21,7 @@ struct PluggableCameraOptions {
 /// since opening a USB camera takes longer than a moving robot may go without commands.
 class PluggableCamera final : public Camera {
  public:
-  using Open = std::function<std::unique_ptr<V4l2Camera>()>;
+  using Open = std::function<std::unique_ptr<DeviceCamera>()>;
 
   /// Opens it for the first time. Throws InputError when that fails: a camera that is missing at the start is
   /// a configuration error, one that disappears later is a fault.
@@ -35,13 +36,16 @@ class PluggableCamera final : public Camera {
 
   Open open_;
   PluggableCameraOptions options_;
-  std::unique_ptr<V4l2Camera> camera_;
+  std::unique_ptr<DeviceCamera> camera_;
   Stamp heard_;  ///< arrival of the newest frame, or time of the last attempt to open
-  std::future<std::unique_ptr<V4l2Camera>> opening_;
+  std::future<std::unique_ptr<DeviceCamera>> opening_;
 };
 
 /// The camera at the given device node (`/dev/video0`). The options apply at every opening, also after it was
 /// unplugged.
 std::unique_ptr<Camera> open_v4l2_camera(const std::string& device, const V4l2CameraOptions& options);
+
+/// The same of a machine-vision camera: see GenicamCamera.
+std::unique_ptr<Camera> open_genicam_camera(const std::string& id, const GenicamCameraOptions& options);
 
 }  // namespace lodestar

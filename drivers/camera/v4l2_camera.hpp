@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/camera/camera.hpp"
+#include "drivers/camera/device_camera.hpp"
 #include "drivers/camera/v4l2_pixels.hpp"
 #include "drivers/camera/video_device.hpp"
 
@@ -43,7 +43,7 @@ struct V4l2CameraOptions {
 /// A Linux V4L2 camera (USB, CSI) that streams into memory-mapped buffers. Stamps are the driver's
 /// (CLOCK_MONOTONIC), moved to mid-exposure where the camera reports its exposure time; with a driver that
 /// has no such stamps, the time of arrival.
-class V4l2Camera final : public Camera {
+class V4l2Camera final : public DeviceCamera {
  public:
   /// Starts streaming. Throws InputError, naming `name`, when the device is not a streaming camera, has no
   /// supported pixel format, does not deliver the requested size, or does not take a setting.
@@ -58,8 +58,7 @@ class V4l2Camera final : public Camera {
   /// Waits for a frame, a signal, or at most this long.
   void wait(Duration at_most) { device_->wait(at_most); }
 
-  /// True when the device has disappeared; poll() then never returns a frame again.
-  [[nodiscard]] bool lost() const { return lost_; }
+  [[nodiscard]] bool lost() const override { return lost_; }
 
   [[nodiscard]] const V4l2Layout& layout() const { return layout_; }
 

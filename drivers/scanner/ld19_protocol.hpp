@@ -1,7 +1,7 @@
 #pragma once
 
 #include "drivers/scanner/byte_stream.hpp"
-#include "drivers/scanner/device_clock.hpp"
+#include "drivers/system/device_clock.hpp"
 #include "drivers/scanner/ld19_wire.hpp"
 #include "drivers/scanner/scanner_protocol.hpp"
 #include "drivers/scanner/turn_assembler.hpp"

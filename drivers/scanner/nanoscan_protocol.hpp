@@ -2,7 +2,7 @@
 
 #include <deque>
 
-#include "drivers/scanner/device_clock.hpp"
+#include "drivers/system/device_clock.hpp"
 #include "drivers/scanner/nanoscan_wire.hpp"
 #include "drivers/scanner/scanner_protocol.hpp"
 #include "drivers/scanner/turn_assembler.hpp"

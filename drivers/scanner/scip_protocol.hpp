@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drivers/scanner/device_clock.hpp"
+#include "drivers/system/device_clock.hpp"
 #include "drivers/scanner/scanner_protocol.hpp"
 #include "drivers/scanner/scip_wire.hpp"
 #include "drivers/scanner/turn_assembler.hpp"

@@ -125,6 +125,9 @@ TEST(CameraSettings, are_read_from_the_site) {
 }
 
 TEST(CameraSettings, are_refused_where_they_mean_nothing) {
+  EXPECT_THAT(site_refusal("camera: genicam:\ncamera_settings: {stamped_at: arrival}\n"),
+              HasSubstr("stamped_at"));
+  EXPECT_EQ(site_with("camera: genicam:Basler-1\ncamera_settings: {gain: -1.5}\n").camera_settings.gain, -1.5);
   EXPECT_THAT(site_refusal("camera: simulated\ncamera_settings: {gain: 12}\n"), HasSubstr("only for v4l2:"));
   EXPECT_THAT(site_refusal("camera: v4l2:/dev/video0\ncamera_settings: {stamped_at: noon}\n"),
               HasSubstr("found 'noon', wanted exposure_start or arrival"));

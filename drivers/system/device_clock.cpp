@@ -1,4 +1,4 @@
-#include "drivers/scanner/device_clock.hpp"
+#include "drivers/system/device_clock.hpp"
 
 #include <algorithm>
 
