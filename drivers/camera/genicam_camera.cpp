@@ -40,8 +40,9 @@ void GenicamCamera::Unref::operator()(void* object) const {
 GenicamCamera::GenicamCamera(const std::string& id, const GenicamCameraOptions& options)
     : name_("genicam:" + id), options_(options) {
   Complaint complaint;
-  camera_.reset(arv_camera_new(id.empty() ? nullptr : id.c_str(), complaint));
+  camera_.reset(arv_camera_new(id == "any" ? nullptr : id.c_str(), complaint));
   if (!camera_) refuse("no such camera: " + complaint.words(), "one that arv-tool-0.8 lists");
+  arv_device_set_range_check_policy(arv_camera_get_device(camera_.get()), ARV_RANGE_CHECK_POLICY_ENABLE);
   choose_region();
   apply_settings();
   start();

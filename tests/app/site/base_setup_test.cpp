@@ -124,10 +124,14 @@ TEST(CameraSettings, are_read_from_the_site) {
   EXPECT_EQ(settings.stamped_at_start, false);
 }
 
+TEST(CameraSettings, of_a_machine_vision_camera_have_a_gain_in_decibels) {
+  EXPECT_EQ(site_with("camera: genicam:Basler-1\ncamera_settings: {gain: -1.5}\n").camera_settings.gain,
+            -1.5);
+}
+
 TEST(CameraSettings, are_refused_where_they_mean_nothing) {
-  EXPECT_THAT(site_refusal("camera: genicam:\ncamera_settings: {stamped_at: arrival}\n"),
+  EXPECT_THAT(site_refusal("camera: genicam:any\ncamera_settings: {stamped_at: arrival}\n"),
               HasSubstr("stamped_at"));
-  EXPECT_EQ(site_with("camera: genicam:Basler-1\ncamera_settings: {gain: -1.5}\n").camera_settings.gain, -1.5);
   EXPECT_THAT(site_refusal("camera: simulated\ncamera_settings: {gain: 12}\n"), HasSubstr("only for v4l2:"));
   EXPECT_THAT(site_refusal("camera: v4l2:/dev/video0\ncamera_settings: {stamped_at: noon}\n"),
               HasSubstr("found 'noon', wanted exposure_start or arrival"));

@@ -2,9 +2,12 @@
 
 #include <arv.h>
 #include <cmath>
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <thread>
+#include <unistd.h>
 
 #include "drivers/camera/pluggable_camera.hpp"
 #include "maps/input_error.hpp"
@@ -20,8 +23,15 @@ const std::string address = "127.0.0.1";
 /// A GigE Vision camera by Aravis, that speaks over the loopback interface.
 class GigECamera {
  public:
-  GigECamera() { plug_in(); }
-  ~GigECamera() { unplug(); }
+  /// Waits for other tests that use the port of this protocol, which is one for all.
+  GigECamera() : lock_(open("/tmp/lodestar-gige-vision.lock", O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
+    flock(lock_, LOCK_EX);
+    plug_in();
+  }
+  ~GigECamera() {
+    unplug();
+    close(lock_);
+  }
   GigECamera(const GigECamera&) = delete;
   GigECamera& operator=(const GigECamera&) = delete;
 
@@ -33,6 +43,7 @@ class GigECamera {
   [[nodiscard]] bool runs() const { return camera_ != nullptr && arv_gv_fake_camera_is_running(camera_); }
 
  private:
+  int lock_;
   ArvGvFakeCamera* camera_ = nullptr;
 };
 
@@ -94,6 +105,8 @@ TEST_F(GenicamCameraTest, keeps_what_it_is_set_to_where_nothing_is_asked) {
 TEST_F(GenicamCameraTest, refuses_what_it_does_not_deliver) {
   EXPECT_THAT(refusal(address, {.width_px = 64'000, .height_px = 480}),
               HasSubstr("wanted 64000 x 480, as its calibration"));
+  EXPECT_THAT(refusal(address, {.exposure = std::chrono::hours(1)}),
+              HasSubstr("no exposure that can be set"));
   EXPECT_THAT(refusal("127.0.0.2", vga), HasSubstr("genicam:127.0.0.2: found no such camera"));
 }
 
