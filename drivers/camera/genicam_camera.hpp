@@ -33,7 +33,7 @@ struct GenicamCameraOptions {
 class GenicamCamera final : public DeviceCamera {
  public:
   /// Starts streaming. `id`: the camera's name as `arv-tool-0.8` lists it ("Vendor-serial number"), its
-  /// address, or empty for the only one there is. Throws InputError when there is none, and when it does not
+  /// address, or "any" for the only one there is. Throws InputError when there is none, and when it does not
   /// deliver the requested size, gray pixels, or does not take a setting.
   GenicamCamera(const std::string& id, const GenicamCameraOptions& options);
   ~GenicamCamera() override;

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "drivers/scanner/byte_stream.hpp"
-#include "drivers/system/device_clock.hpp"
 #include "drivers/scanner/ld19_wire.hpp"
 #include "drivers/scanner/scanner_protocol.hpp"
 #include "drivers/scanner/turn_assembler.hpp"
+#include "drivers/system/device_clock.hpp"
 
 namespace lodestar {
 

@@ -2,10 +2,10 @@
 
 #include <deque>
 
-#include "drivers/system/device_clock.hpp"
 #include "drivers/scanner/nanoscan_wire.hpp"
 #include "drivers/scanner/scanner_protocol.hpp"
 #include "drivers/scanner/turn_assembler.hpp"
+#include "drivers/system/device_clock.hpp"
 
 namespace lodestar {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "drivers/system/device_clock.hpp"
 #include "drivers/scanner/scanner_protocol.hpp"
 #include "drivers/scanner/scip_wire.hpp"
 #include "drivers/scanner/turn_assembler.hpp"
+#include "drivers/system/device_clock.hpp"
 
 namespace lodestar {
 
