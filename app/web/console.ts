@@ -98,7 +98,7 @@ export class Console implements Page {
 
   private changed(): void {
     this.coverage.update(this.editor.shown());
-    void this.coverage.settled().then(() => this.panel.showCoverage(this.coverage));  // without any marker, too
+    this.coverage.settled().then(() => this.panel.showCoverage(this.coverage), complain);  // without any marker, too
     this.stage.redraw();
     this.panel.show();
     this.refreshTools();

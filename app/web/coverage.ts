@@ -8,7 +8,7 @@ import type { Marker, Point } from './geometry.js';
 
 export const enoughMarkers = 2;
 
-/** Cells of the map: [low, high) in columns and rows. */
+/** Cells of the map: this many columns and rows from a corner on. */
 export interface Box { column: number; row: number; columns: number; rows: number }
 
 export class Coverage {
