@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <fmt/format.h>
 #include <map>
 
@@ -106,8 +105,8 @@ void find_similar_ids(const MarkerRegistry& registry, std::vector<RegistryIssue>
     for (std::size_t j = i + 1; j < markers.size(); ++j) {
       const RegisteredMarker& a = markers[i];
       const RegisteredMarker& b = markers[j];
-      if (a.id == b.id) continue;                                     // reported as a repeated ID
-      if (std::has_single_bit(static_cast<unsigned>(a.id ^ b.id))) {  // id_distance() is 1
+      if (a.id == b.id) continue;  // reported as a repeated ID
+      if (id_distance(a.id, b.id) == 1) {
         issues.push_back(
             {IssueKind::similar_ids,
              false,

@@ -9,18 +9,21 @@ const badTint = [214, 60, 50], doubtTint = [232, 176, 40], goodTint = [46, 150, 
 const hatchCells = 5;  // from one line of the hatching to the next
 const goodDeviationM = 0.005, badDeviationM = 0.02;
 const stripeRows = 256;
+const sigmaSteps = 255;
 
 /** As pixels of an image. */
 interface Palette {
   unknown: number; wall: number; free: number; none: number; hatch: number; one: number; more: number;
-  tinted(tint: number[], share: number): number;
+  unseen: number;       // no marker at some heading
+  sigmas: Uint32Array;  // of deviations, from good to bad
 }
 
 function paletteOf(): Palette {
   const { unknown, wall, free } = coloursNow();
   const tinted = (tint: number[], share: number) => pixelOf(free.map((c, i) => c * (1 - share) + tint[i]! * share));
   return { unknown: pixelOf(unknown), wall: pixelOf(wall), free: pixelOf(free), none: tinted(badTint, 0.42), hatch: tinted(badTint, 1),
-    one: tinted(doubtTint, 0.3), more: tinted(goodTint, 0.3), tinted };
+    one: tinted(doubtTint, 0.3), more: tinted(goodTint, 0.3), unseen: tinted(badTint, 0.45),
+    sigmas: Uint32Array.from({ length: sigmaSteps + 1 }, (_, i) => tinted(goodTint.map((c, k) => c + i / sigmaSteps * (doubtTint[k]! - c)), 0.45)) };
 }
 
 /** Opaque; the bytes are in the order of an image's on whatever machine. */
@@ -69,9 +72,16 @@ export class FloorPaint {
     if (value < 0) return palette.unknown;
     if (value >= 50) return palette.wall;
     if (this.layers.floor === 'plain' || !floor.canStand(index)) return palette.free;
-    if (this.layers.floor === 'deviation') return palette.tinted(deviationTint(this.deviations?.[index] ?? 0), 0.45);
+    if (this.layers.floor === 'deviation') return this.colourOfSigma(this.deviations?.[index] ?? 0);
     const count = this.counts[index]!;
     return count === 0 ? (row + column) % hatchCells === 0 ? palette.hatch : palette.none : count === 1 ? palette.one : palette.more;
+  }
+
+  /** From green (good) to yellow (bad); red where no marker is seen. */
+  private colourOfSigma(sigmaM: number): number {
+    if (!(sigmaM > 0)) return this.palette.unseen;
+    const share = Math.min(1, Math.max(0, (sigmaM - goodDeviationM) / (badDeviationM - goodDeviationM)));
+    return this.palette.sigmas[Math.round(share * sigmaSteps)]!;
   }
 
   draw(c: CanvasRenderingContext2D, view: View): void {
@@ -102,11 +112,4 @@ export class FloorPaint {
     c.font = '12px system-ui, sans-serif';
     c.fillText(`${metres} m`, 14, 20);
   }
-}
-
-/** Interpolates from green (good) to yellow (bad); red where no marker is seen. */
-function deviationTint(sigmaM: number): number[] {
-  if (!(sigmaM > 0)) return badTint;
-  const share = Math.min(1, Math.max(0, (sigmaM - goodDeviationM) / (badDeviationM - goodDeviationM)));
-  return goodTint.map((c, i) => c + share * (doubtTint[i]! - c));
 }

@@ -112,11 +112,12 @@ void GenicamCamera::start() {
   if (!stream_) refuse("a camera that does not stream: " + complaint.words(), "a stream");
   for (int i = 0; i < options_.buffers; ++i)
     arv_stream_push_buffer(stream_.get(), arv_buffer_new(bytes, nullptr));
-  // From a thread of Aravis, when heartbeats are not answered or the cable is out.
-  const auto note_loss = +[](ArvDevice*, std::atomic<bool>* lost) { *lost = true; };
-  g_signal_connect(arv_camera_get_device(camera), "control-lost", G_CALLBACK(note_loss), &lost_);
   arv_camera_start_acquisition(camera, complaint);
   if (complaint.is_there()) refuse("a camera that does not start: " + complaint.words(), "a stream");
+  // From a thread of Aravis, when heartbeats are not answered or the cable is out. Last: the destructor,
+  // which ends it, is not for a constructor that has thrown.
+  const auto note_loss = +[](ArvDevice*, std::atomic<bool>* lost) { *lost = true; };
+  g_signal_connect(arv_camera_get_device(camera), "control-lost", G_CALLBACK(note_loss), &lost_);
 }
 
 /// The camera stamps the start of exposure by its own clock, whose origin is learned from arrivals: what
