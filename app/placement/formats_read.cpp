@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -77,17 +78,33 @@ std::string trimmed(const std::string& word) {
   return word.substr(first, word.find_last_not_of(" \t\r\"") - first + 1);
 }
 
-std::vector<std::string> cells_of(const std::string& row) {
+/// How a spreadsheet wrote its cells. Where the comma is the decimal mark, semicolons or tabs stand between
+/// cells.
+char separator_of(const std::string& header) {
+  for (const char separator : {';', '\t'}) {
+    if (header.find(separator) != std::string::npos) return separator;
+  }
+  return ',';
+}
+
+std::vector<std::string> cells_of(const std::string& row, char separator) {
   std::vector<std::string> cells;
   std::istringstream stream(row);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(trimmed(cell));
+  for (std::string cell; std::getline(stream, cell, separator);) cells.push_back(trimmed(cell));
   return cells;
 }
 
+/// A number with a point, or with a comma where none stands between cells.
+double decimal_in(std::string word, char separator, const fs::path& file, int line) {
+  if (separator != ',' && word.find('.') == std::string::npos) std::ranges::replace(word, ',', '.');
+  return number_in(word, file, line);
+}
+
 /// The columns by name, with or without their unit; size, name and dots are ignored.
-std::map<std::string, std::size_t> columns_of(const std::string& header, const fs::path& file) {
+std::map<std::string, std::size_t> columns_of(const std::string& header, char separator,
+                                              const fs::path& file) {
   std::map<std::string, std::size_t> columns;
-  const std::vector<std::string> names = cells_of(header);
+  const std::vector<std::string> names = cells_of(header, separator);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string& name = names[i];
     const bool has_unit = name.ends_with("_m") && name.size() == 3;
@@ -106,13 +123,14 @@ MarkerRegistry read_csv(const std::string& text, const fs::path& file) {
   std::istringstream stream(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
   std::string row;
   std::getline(stream, row);
-  const std::map<std::string, std::size_t> columns = columns_of(row, file);
+  const char separator = separator_of(row);
+  const std::map<std::string, std::size_t> columns = columns_of(row, separator, file);
   for (int line = 2; std::getline(stream, row); ++line) {
     if (trimmed(row).empty()) continue;
-    const std::vector<std::string> cells = cells_of(row);
+    const std::vector<std::string> cells = cells_of(row, separator);
     const auto number = [&](const char* name) {
       const std::size_t column = columns.at(name);
-      return number_in(column < cells.size() ? cells[column] : "", file, line);
+      return decimal_in(column < cells.size() ? cells[column] : "", separator, file, line);
     };
     intake.add_flat(line, number("id"), {number("x"), number("y"), number("z")}, number("yaw_deg"));
   }

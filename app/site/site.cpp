@@ -11,6 +11,7 @@
 #include "app/site/ranging_settings.hpp"
 #include "maps/camera_file.hpp"
 #include "maps/input_error.hpp"
+#include "maps/path_kind.hpp"
 #include "maps/strict_yaml.hpp"
 
 namespace lodestar {
@@ -271,6 +272,11 @@ std::optional<std::string> unknown_action(const Places& places, const Site& site
 }
 
 Site load_site(const std::filesystem::path& folder) {
+  if (is_folder(folder) && !is_file(folder / "site.yaml")) {
+    throw InputError(
+        folder, 0, "no site.yaml",
+        "a site folder; `lodestar site new PLAN_OR_MAP -o FOLDER` makes one from a plan or a map");
+  }
   StrictYaml yaml = StrictYaml::load(folder / "site.yaml");
   expect_format(yaml, "lodestar-site");
   Site site;

@@ -6,6 +6,7 @@ export interface Command {
   key?: string;          // as shown
   button?: string;       // its text in the toolbar; none: a key only
   everywhere?: boolean;  // not only while markers are edited
+  mapless?: boolean;     // where the map with its markers is not shown, too
   onMap?: boolean;       // by its key only while the map has the focus: lists and fields use it too
   surveying?: boolean;   // also during a survey, which proposes changes
   placing?: boolean;     // only while zones, lanes and places are drawn

@@ -198,6 +198,7 @@ export class Console implements Page {
   private isPossibleNow(command: Command): boolean {
     const mode = document.body.dataset['mode'];
     if (command.placing) return mode === 'places';
+    if (mode === 'map' || mode === 'new') return command.mapless === true;
     return mode === 'edit' || command.everywhere === true || (mode === 'survey' && command.surveying === true);
   }
 

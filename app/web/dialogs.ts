@@ -29,10 +29,19 @@ export async function exportTo(editor: Editor, formats: string[]): Promise<void>
 }
 
 export async function importFrom(editor: Editor, file: File): Promise<string> {
-  const registry = await api.importMarkers(file.name, await file.text());
-  editor.replaceAll(registry);
-  return `${plural(registry.markers.length, 'marker')} read from ${file.name}; undo restores the previous markers`;
+  const read = await api.importMarkers(file.name, await file.text());
+  const words = `${plural(read.markers.length, 'marker')} read from ${file.name}`;
+  const joined = editor.joined(read);
+  const way = editor.markers.size === 0 ? 'replace' : await askHowToImport(words, editor.registry(), joined, read);
+  if (way === '') return 'Nothing was imported';
+  editor.replaceAll(way === 'add' ? joined : read);
+  return `${words}; undo restores the previous markers`;
 }
+
+const askHowToImport = (words: string, now: Registry, joined: Registry, read: Registry): Promise<string> => ask(words,
+  [el('p', { id: 'import-add' }, `Added to those here: ${summary(now, joined)}.`), ...changesOf(now, joined),
+    el('p', { id: 'import-replace' }, `In place of all here: ${summary(now, read)}.`), ...changesOf(now, read)],
+  [['add', 'Add'], ['replace', 'Replace all'], ['', 'Cancel']]);
 
 export async function printChosen(editor: Editor): Promise<void> {
   const chosen = editor.chosen();

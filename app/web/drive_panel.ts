@@ -22,7 +22,7 @@ export class DrivePanel {
       button('Drive', 'Drive to the goals', () => live.drive(), { id: 'drive-go', class: 'main' }),
       this.more,
       button('Clear', 'Remove the goals', () => live.goals.set([]), { id: 'drive-clear' }),
-      button('Set robot pose', 'Set the robot\'s initial pose to the first goal', () => live.placeRobot(), { id: 'drive-place' }), this.charge), this.nameField());
+      button('Set robot pose', 'Set the robot\'s initial pose to the first goal and its heading: drag its arrow', () => live.placeRobot(), { id: 'drive-place' }), this.charge), this.nameField());
   }
 
   private nameField(): HTMLElement {

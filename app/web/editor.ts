@@ -113,6 +113,15 @@ export class Editor {
       .filter((c) => c.before !== undefined));
   }
 
+  /** What there is with these added, in the alignment of what there is; one takes the place of that with its ID. */
+  joined(registry: Registry): Registry {
+    const others = new Editor();
+    others.load(registry);
+    const come = [...others.shown()].map((m) => this.fromMap(m));
+    const ids = new Set(come.map((m) => m.id));
+    return this.registryOf([...[...this.markers.values()].filter((m) => !ids.has(m.id)), ...come]);
+  }
+
   /** Replaces everything in one step: an import, a merge, another user's version. */
   replaceAll(registry: Registry): void {
     const gone = [...this.markers.values()].map((m) => ({ key: m.key, before: m, after: undefined }));

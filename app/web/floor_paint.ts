@@ -1,11 +1,14 @@
 // The floor: the map's cells, coloured by coverage or deviation, and a scale bar.
-import { coloursNow } from './colours.js';
+import { coloursNow, pixelOf } from './colours.js';
 import type { Box } from './coverage.js';
 import type { Floor } from './floor.js';
+import { font } from './fonts.js';
 import type { Layers } from './layers.js';
 import type { View } from './view.js';
 
-const badTint = [214, 60, 50], doubtTint = [232, 176, 40], goodTint = [46, 150, 80];
+// Yellow and blue differ to everybody, in lightness too; red is hatched besides.
+const badTint = [214, 60, 50], doubtTint = [232, 176, 40], goodTint = [0, 100, 140];
+const oneShare = 0.3, moreShare = 0.5, noneShare = 0.42, sigmaShare = 0.45;
 const hatchCells = 5;  // from one line of the hatching to the next
 const goodDeviationM = 0.005, badDeviationM = 0.02;
 const stripeRows = 256;
@@ -18,16 +21,33 @@ interface Palette {
   sigmas: Uint32Array;  // of deviations, from good to bad
 }
 
+/** A tint over the floor. */
+const over = (free: number[], tint: number[], share: number): number[] => free.map((c, i) => c * (1 - share) + tint[i]! * share);
+
 function paletteOf(): Palette {
   const { unknown, wall, free } = coloursNow();
-  const tinted = (tint: number[], share: number) => pixelOf(free.map((c, i) => c * (1 - share) + tint[i]! * share));
-  return { unknown: pixelOf(unknown), wall: pixelOf(wall), free: pixelOf(free), none: tinted(badTint, 0.42), hatch: tinted(badTint, 1),
-    one: tinted(doubtTint, 0.3), more: tinted(goodTint, 0.3), unseen: tinted(badTint, 0.45),
-    sigmas: Uint32Array.from({ length: sigmaSteps + 1 }, (_, i) => tinted(goodTint.map((c, k) => c + i / sigmaSteps * (doubtTint[k]! - c)), 0.45)) };
+  const tinted = (tint: number[], share: number) => pixelOf(over(free, tint, share));
+  return { unknown: pixelOf(unknown), wall: pixelOf(wall), free: pixelOf(free), none: tinted(badTint, noneShare), hatch: tinted(badTint, 1),
+    one: tinted(doubtTint, oneShare), more: tinted(goodTint, moreShare), unseen: tinted(badTint, sigmaShare),
+    sigmas: Uint32Array.from({ length: sigmaSteps + 1 }, (_, i) => tinted(goodTint.map((c, k) => c + i / sigmaSteps * (doubtTint[k]! - c)), sigmaShare)) };
 }
 
-/** Opaque; the bytes are in the order of an image's on whatever machine. */
-const pixelOf = (colour: number[]): number => new Uint32Array(Uint8ClampedArray.from([...colour.slice(0, 3), 255]).buffer)[0]!;
+export type FloorKey = 'none' | 'one' | 'more' | 'free' | 'good' | 'bad' | 'unseen';
+
+/** What a legend shows of the floor's colours: CSS backgrounds, exactly as they are painted. */
+export function floorSwatch(key: FloorKey): string {
+  const { free } = coloursNow();
+  const css = (tint: number[], share: number) => `rgb(${over(free, tint, share).map(Math.round).join(' ')})`;
+  switch (key) {
+    case 'none': return `repeating-linear-gradient(-45deg, ${css(badTint, 1)} 0 2px, ${css(badTint, noneShare)} 2px 5px)`;
+    case 'one': return css(doubtTint, oneShare);
+    case 'more': return css(goodTint, moreShare);
+    case 'free': return css(free, 0);
+    case 'good': return css(goodTint, sigmaShare);
+    case 'bad': return css(doubtTint, sigmaShare);
+    case 'unseen': return css(badTint, sigmaShare);
+  }
+}
 
 export class FloorPaint {
   /** Metres per cell; null before the first result, NaN where no marker is seen. */
@@ -64,7 +84,7 @@ export class FloorPaint {
     this.raster.getContext('2d')!.putImageData(image, box.column, this.floor.info.rows - box.row - box.rows);
   }
 
-  /** Gaps are hatched: their red and the green of what is covered look alike to many. */
+  /** Gaps are hatched: their red and the colours of what is covered look alike to some. */
   private colourOf(row: number, column: number): number {
     const { palette, floor } = this;
     const index = row * floor.info.columns + column;
@@ -77,7 +97,7 @@ export class FloorPaint {
     return count === 0 ? (row + column) % hatchCells === 0 ? palette.hatch : palette.none : count === 1 ? palette.one : palette.more;
   }
 
-  /** From green (good) to yellow (bad); red where no marker is seen. */
+  /** From blue (good) to yellow (bad); red where no marker is seen. */
   private colourOfSigma(sigmaM: number): number {
     if (!(sigmaM > 0)) return this.palette.unseen;
     const share = Math.min(1, Math.max(0, (sigmaM - goodDeviationM) / (badDeviationM - goodDeviationM)));
@@ -109,7 +129,7 @@ export class FloorPaint {
     c.beginPath();
     c.moveTo(12, 26); c.lineTo(12 + metres * view.pixelsPerM, 26);
     c.stroke();
-    c.font = '12px system-ui, sans-serif';
+    c.font = font(12);
     c.fillText(`${metres} m`, 14, 20);
   }
 }

@@ -3,6 +3,7 @@
 import * as api from './api.js';
 import type { HangingMarker, HangingState } from './api.js';
 import { button, byId, el } from './dom.js';
+import { pitchM, sideM } from './geometry.js';
 import type { Point } from './geometry.js';
 import type { Live } from './live.js';
 import type { Guest } from './pointer.js';
@@ -145,10 +146,11 @@ export class Hang implements Guest {
   }
 
   private paint(c: CanvasRenderingContext2D): void {
+    const radius = Math.max(12, 0.8 * (sideM + pitchM) * this.stage.view.pixelsPerM);  // px, around the plate
     for (const marker of this.markers) {
       const at = this.stage.view.toScreen({ x: marker.x_m, y: marker.y_m });
       c.beginPath();
-      c.arc(at.x, at.y, 12, 0, 2 * Math.PI);
+      c.arc(at.x, at.y, radius, 0, 2 * Math.PI);
       c.lineWidth = marker.id === this.now ? 5 : 2.5;
       c.strokeStyle = inks[marker.state];
       c.setLineDash(marker.state === 'planned' ? [4, 4] : []);
@@ -156,9 +158,9 @@ export class Hang implements Guest {
       c.setLineDash([]);
       if (marker.state !== 'verified') continue;
       c.beginPath();
-      c.moveTo(at.x + 8, at.y - 12);
-      c.lineTo(at.x + 12, at.y - 7);
-      c.lineTo(at.x + 19, at.y - 18);
+      c.moveTo(at.x + radius - 4, at.y - radius);
+      c.lineTo(at.x + radius, at.y - radius + 5);
+      c.lineTo(at.x + radius + 7, at.y - radius - 6);
       c.stroke();
     }
   }

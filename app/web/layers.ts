@@ -1,5 +1,7 @@
 // The map's layers, each of which can be switched off. The floor has one colouring at a time.
 import { byId, el } from './dom.js';
+import { floorSwatch } from './floor_paint.js';
+import type { FloorKey } from './floor_paint.js';
 import { inkNow } from './robot_paint.js';
 import type { Ink } from './robot_paint.js';
 import { zoneInkNow } from './places_paint.js';
@@ -12,9 +14,9 @@ const names: [LayerName, string][] = [
 const colours: [FloorColour, string][] = [
   ['coverage', 'coverage'], ['deviation', 'deviation'], ['plain', 'nothing']];
 
-const legends: Record<FloorColour, [string, string][]> = {
+const legends: Record<FloorColour, [FloorKey, string][]> = {
   coverage: [['none', 'no marker'], ['one', 'one'], ['more', 'two or more'], ['free', 'cannot stand']],
-  deviation: [['more', '5 mm or less'], ['one', '20 mm or more: standard deviation of a fix'], ['none', 'no marker at some heading']],
+  deviation: [['good', '5 mm or less'], ['bad', '20 mm or more: standard deviation of a fix'], ['unseen', 'no marker at some heading']],
   plain: [],
 };
 
@@ -51,30 +53,25 @@ export class Layers {
 
   /** The legend of lines and floor colours, for the present mode. */
   showLegend(): void {
+    const mode = document.body.dataset['mode'] ?? '';
     const colours = inkNow();
-    const lines: (HTMLElement | string)[] = (lineKeys[document.body.dataset['mode'] ?? ''] ?? []).flatMap(([kind, words]) => {
-      const swatch = el('span', { class: 'swatch' });
-      swatch.style.background = colours[kind];
-      return [swatch, words];
-    });
-    if (document.body.dataset['mode'] === 'live' && document.body.dataset['scanner'] !== undefined) {
-      for (const [kind, shape, words] of [['person', 'disc', 'scanner: person, or moves'], ['stands', '', 'stands, not on the map']] as const) {
-        const swatch = el('span', { class: `swatch ${shape}` });
-        swatch.style.background = colours[kind];
-        lines.push(swatch, words);
-      }
-    }
-    if (document.body.dataset['mode'] === 'places') lines.push(...placesLegend());
-    byId('legend').replaceChildren(lines.length === 0 ? 'From above, as through the ceiling.' : '', ...lines,
-      ...legends[this.floor].flatMap(([kind, words]) => [el('span', { class: `swatch ${kind}` }), words]));
+    const lines = (lineKeys[mode] ?? []).map(([kind, words]) => keyOf('', colours[kind], words));
+    if (mode === 'live' && document.body.dataset['scanner'] !== undefined)
+      lines.push(keyOf('disc', colours.person, 'scanner: person, or moves'), keyOf('', colours.stands, 'stands, not on the map'));
+    if (mode === 'places') lines.push(...placesLegend());
+    byId('legend').replaceChildren(...(lines.length === 0 ? [el('span', { class: 'key' }, 'From above, as through the ceiling.')] : lines),
+      ...legends[this.floor].map(([kind, words]) => keyOf('floor', floorSwatch(kind), words)));
   }
 }
 
-function placesLegend(): (HTMLElement | string)[] {
+function keyOf(shape: string, colour: string, words: string): HTMLElement {
+  const swatch = el('span', { class: `swatch ${shape}`.trim() });
+  swatch.style.setProperty('--swatch', colour);
+  return el('span', { class: 'key' }, swatch, words);
+}
+
+function placesLegend(): HTMLElement[] {
   const colours = zoneInkNow();
-  return ([['out', 'hatched', 'keep-out'], ['slow', 'tinted', 'speed zone'], ['lane', '', 'lane, arrows: one way'], ['spot', 'disc', 'place']] as const).flatMap(([kind, shape, words]) => {
-    const swatch = el('span', { class: `swatch ${shape}` });
-    swatch.style.setProperty('--swatch', colours[kind]);
-    return [swatch, words];
-  });
+  return ([['out', 'hatched', 'keep-out'], ['slow', 'tinted', 'speed zone'], ['lane', '', 'lane, arrows: one way'], ['spot', 'disc', 'place']] as const)
+    .map(([kind, shape, words]) => keyOf(shape, colours[kind], words));
 }

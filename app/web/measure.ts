@@ -1,4 +1,5 @@
 // A tape measure: click two points or markers, and read distance and direction.
+import { font } from './fonts.js';
 import { centerOf, degrees } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import type { Pointer } from './pointer.js';
@@ -57,7 +58,7 @@ export class Measure {
     }
     c.moveTo(a.x, a.y); c.lineTo(b.x, b.y);
     c.stroke();
-    c.font = 'bold 13px system-ui, sans-serif';
+    c.font = font(13, 'bold');
     if (!this.to) return;
     const at = { x: (a.x + b.x) / 2 + 10, y: (a.y + b.y) / 2 - 8 };
     c.lineWidth = 4;

@@ -1,5 +1,6 @@
 // What a new site's page shows beside its steps: the plan, on which two points give the scale, then the map, which can be
 // drawn on. Wheel and pinch zoom; the middle or the right button, and two fingers, move the picture.
+import { coloursNow, pixelOf } from './colours.js';
 import { byId, el } from './dom.js';
 import type { Point } from './geometry.js';
 import { floor, outside, wall } from './map_paint.js';
@@ -8,7 +9,6 @@ import { View } from './view.js';
 
 export type Tool = 'line' | 'rectangle' | 'fill';
 const pxPerUnit = 100;  // of a plan: the view is made for metres
-const inkOf = (cell: number): string => cell === wall ? '#343b4a' : cell === floor ? '#ffffff' : '#b4bec8';
 const fewCells = 20_000;  // are painted one by one
 const brushCells = 3;   // of what erases: walls are one cell wide
 
@@ -18,6 +18,7 @@ export class NewStage {
   points: Point[] = [];  // pixels of the plan, from its upper left corner
   tool: Tool = 'line';
   value: Cell = wall;
+  drawable = true;  // or else it is only looked at
   onPoints: () => void = () => {};
   onStroke: () => void = () => {};
   private plan: { image: ImageBitmap; width: number; height: number } | null = null;
@@ -30,6 +31,7 @@ export class NewStage {
   constructor() {
     byId('stage').append(this.canvas);
     new ResizeObserver(() => this.resize()).observe(byId('stage'));
+    new MutationObserver(() => { if (this.paint) this.showColours(this.paint); }).observe(document.documentElement, { attributeFilter: ['data-theme'] });
     this.listen();
   }
 
@@ -44,9 +46,14 @@ export class NewStage {
     this.paint = paint;
     this.plan = null;
     [this.tiles.width, this.tiles.height] = [paint.columns, paint.rows];
-    this.paintAll(this.tiles.getContext('2d')!, paint);
     paint.onChange = () => { this.redraw(); this.onStroke(); };
+    this.showColours(paint);
     this.fit();
+  }
+
+  private showColours(paint: MapPaint): void {
+    this.paintAll(this.tiles.getContext('2d')!, paint);
+    this.redraw();
   }
 
   fit(): void {
@@ -100,7 +107,7 @@ export class NewStage {
     const tiles = this.tiles.getContext('2d')!;
     if (paint.changed.length > fewCells) this.paintAll(tiles, paint);
     for (const index of paint.changed.splice(0)) {
-      tiles.fillStyle = inkOf(paint.cells[index]!);
+      tiles.fillStyle = `rgb(${inkOf(paint.cells[index]!).join(' ')})`;
       tiles.fillRect(index % paint.columns, paint.rows - 1 - Math.floor(index / paint.columns), 1, 1);
     }
     const corner = this.view.toScreen({ x: 0, y: paint.rows });
@@ -114,11 +121,12 @@ export class NewStage {
 
   private paintAll(tiles: CanvasRenderingContext2D, paint: MapPaint): void {
     const picture = new ImageData(paint.columns, paint.rows);
-    const pixels = new Uint32Array(picture.data.buffer);  // ABGR
+    const pixels = new Uint32Array(picture.data.buffer);
+    const inks = new Map([wall, floor, outside].map((cell) => [cell as number, pixelOf(inkOf(cell))]));
+    const unknown = inks.get(outside)!;
     for (let row = 0; row < paint.rows; ++row) {
       for (let column = 0; column < paint.columns; ++column) {
-        const cell = paint.cells[row * paint.columns + column];
-        pixels[(paint.rows - 1 - row) * paint.columns + column] = cell === wall ? 0xff4a3b34 : cell === floor ? 0xffffffff : 0xffc8beb4;
+        pixels[(paint.rows - 1 - row) * paint.columns + column] = inks.get(paint.cells[row * paint.columns + column]!) ?? unknown;
       }
     }
     tiles.putImageData(picture, 0, 0);
@@ -150,7 +158,7 @@ export class NewStage {
     if (this.fingers.size > 1 || e.button !== 0) return this.stopPainting();
     const at = this.view.toMap(this.placeOf(e));
     if (this.plan) return this.addPoint({ x: at.x * pxPerUnit, y: -at.y * pxPerUnit });
-    if (!this.paint) return;
+    if (!this.paint || !this.drawable) return;
     this.from = this.at = at;
     this.paint.begin(this.value);
     if (this.tool === 'fill') this.paint.fill(at);
@@ -175,7 +183,7 @@ export class NewStage {
       const apart = (p: Point) => Math.max(10, Math.hypot(p.x - other.x, p.y - other.y));
       this.view.zoomAt({ x: (now.x + other.x) / 2, y: (now.y + other.y) / 2 }, apart(now) / apart(before));
     }
-    if (other || e.buttons > 1) this.view.panBy((now.x - before.x) / (other ? 2 : 1), (now.y - before.y) / (other ? 2 : 1));
+    if (other || e.buttons > 1 || !this.drawable) this.view.panBy((now.x - before.x) / (other ? 2 : 1), (now.y - before.y) / (other ? 2 : 1));
     this.redraw();
   }
 
@@ -199,5 +207,11 @@ export class NewStage {
     this.redraw();
   }
 }
+
+/** Red, green and blue. */
+const inkOf = (cell: number): number[] => {
+  const { wall: onWall, free, unknown } = coloursNow();
+  return cell === wall ? onWall : cell === floor ? free : unknown;
+};
 
 export const valueNamed = (name: string): Cell => name === 'wall' ? wall : name === 'floor' ? floor : outside;

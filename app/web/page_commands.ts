@@ -51,8 +51,8 @@ export function pageCommands(page: Page): Command[] {
     { name: 'history', button: 'History', title: 'restore an earlier version', run: () => attempt(() => openHistory(editor, page.floor)) },
     { name: 'reload', button: 'Reload', title: 'reload the markers; unsaved changes are lost', run: () => attempt(() => page.documents.reload()) },
     { name: 'save', surveying: true, button: 'Save', key: 'Ctrl+S', title: 'save', run: () => attempt(() => page.documents.save()), possible: () => editor.dirty },
-    { name: 'log', everywhere: true, button: 'Log', title: 'who drove and who saved', run: () => attempt(() => openLog()) },
-    { name: 'theme', everywhere: true, button: 'Light/dark', title: 'light or dark', run: () => page.changeTheme() },
-    { name: 'help', everywhere: true, button: 'Help', key: '?', title: 'this help', run: () => attempt(() => showHelp(page.commands)) },
+    { name: 'log', everywhere: true, mapless: true, button: 'Log', title: 'who drove and who saved', run: () => attempt(() => openLog()) },
+    { name: 'theme', everywhere: true, mapless: true, button: 'Light/dark', title: 'light or dark', run: () => page.changeTheme() },
+    { name: 'help', everywhere: true, mapless: true, button: 'Help', key: '?', title: 'this help', run: () => attempt(() => showHelp(page.commands)) },
   ];
 }

@@ -1,4 +1,5 @@
 // Draws zones, lanes and places over the map: hatched keep-outs, tinted speed zones, arrows on one-way lanes.
+import { font } from './fonts.js';
 import type { Point } from './geometry.js';
 import { isLane, isSpot, isZone } from './places_doc.js';
 import type { Lane, PlacesEditor, Spot, Zone } from './places_doc.js';
@@ -27,7 +28,7 @@ function trace(c: CanvasRenderingContext2D, points: Point[]): void {
 
 /** With a rim of the paper's colour, so that it is legible on walls too. */
 function label(c: CanvasRenderingContext2D, text: string, at: Point, colour: string, paper: string): void {
-  c.font = '600 12px system-ui, sans-serif';
+  c.font = font(12, '600');
   c.lineJoin = 'round';
   c.setLineDash([]);
   c.lineWidth = 4;

@@ -1,6 +1,7 @@
 // Small plots over time, with the present values in words.
 import uPlot from 'uplot';
 import { el, positive } from './dom.js';
+import { font } from './fonts.js';
 
 export interface Line { label: string; unit: string; colour: string; digits: number; dash?: boolean }
 
@@ -42,7 +43,7 @@ export class Plot {
 
   private make(): void {
     this.plot?.destroy();
-    const axis = { stroke: colourOf('--faint'), grid: { stroke: colourOf('--line'), width: 1 }, ticks: { stroke: colourOf('--line'), width: 1 }, font: '11px system-ui, sans-serif' };
+    const axis = { stroke: colourOf('--faint'), grid: { stroke: colourOf('--line'), width: 1 }, ticks: { stroke: colourOf('--line'), width: 1 }, font: font(11) };
     this.plot = new uPlot({
       width: Math.max(50, this.box.clientWidth), height: this.heightPx, legend: { show: false }, padding: [6, 8, 0, 0],
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },

@@ -1,4 +1,5 @@
 // Draws the robot, its uncertainty ellipse, paths and goals over the map.
+import { font } from './fonts.js';
 import { degrees } from './geometry.js';
 import type { Point, Pose } from './geometry.js';
 import type { View } from './view.js';
@@ -98,7 +99,7 @@ export function drawGoal(c: CanvasRenderingContext2D, view: View, at: Point, yaw
     c.arc(end.x, end.y, 4, 0, 2 * Math.PI);
     c.fill();
   }
-  c.font = 'bold 13px system-ui, sans-serif';
+  c.font = font(13, 'bold');
   c.fillText(label, p.x + 13, p.y - 9);
   c.restore();
 }

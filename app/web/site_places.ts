@@ -122,20 +122,20 @@ export class SitePlaces {
     const any = () => editor.selected !== null;
     const nudges: Command[] = ([['', 0.01, '1 cm'], ['Shift+', 0.1, '10 cm'], ['Alt+', 0.001, '1 mm']] as const).flatMap(([mod, by, words]) =>
       ([['ArrowLeft', -1, 0], ['ArrowRight', 1, 0], ['ArrowUp', 0, 1], ['ArrowDown', 0, -1]] as const).map(([key, x, y]): Command =>
-        ({ name: `places-${mod}${key}`, placing: true, key: `${mod}${key}`, title: `Places: move the selection or its chosen corner by ${words} (with the map in focus)`, onMap: true, run: () => tools.nudge(x * by, y * by), possible: any })));
+        ({ name: `places-${mod}${key}`, placing: true, key: `${mod}${key}`, title: `Zones: move the selection or its chosen corner by ${words} (with the map in focus)`, onMap: true, run: () => tools.nudge(x * by, y * by), possible: any })));
     return [
-      { name: 'places-undo', placing: true, button: 'Undo', key: 'Ctrl+Z', title: 'Places: undo', run: () => editor.undo(), possible: () => editor.canUndo },
-      { name: 'places-redo', placing: true, button: 'Redo', key: 'Ctrl+Shift+Z', title: 'Places: redo', run: () => editor.redo(), possible: () => editor.canRedo },
-      { name: 'places-redo2', placing: true, key: 'Ctrl+Y', title: 'Places: redo', run: () => editor.redo() },
-      tool('keep_out', 'Keep-out', 'O', 'Places: draw an area that the robot must not enter'), tool('speed_zone', 'Speed zone', 'Z', 'Places: draw an area where it drives slower'),
-      tool('place', 'Place', 'P', 'Places: a named place to drive to'), tool('node', 'Node', 'N', 'Places: a point of the route graph'), tool('edge', 'Lane', 'L', 'Places: a lane between two of them'),
-      { name: 'places-close', placing: true, key: 'Enter', onMap: true, title: 'Places: close the polygon being drawn', run: () => tools.close() },
-      { name: 'places-back', placing: true, key: 'Backspace', onMap: true, title: 'Places: take back the last corner', run: () => tools.takeBack() },
-      { name: 'places-none', placing: true, key: 'Escape', title: 'Places: end drawing; clear the selection', run: () => this.escape() },
-      { name: 'places-delete', placing: true, button: 'Delete', key: 'Delete', title: 'Places: delete the selection, or its chosen corner (with the map in focus)', run: () => this.removeOrCorner(), possible: any },
-      { name: 'places-history', placing: true, button: 'History', title: 'Places: restore an earlier version', run: () => attempt(() => openPlacesHistory(editor, this.host.stage.floor)) },
-      { name: 'places-reload', placing: true, button: 'Reload', title: 'Places: reload them from the site', run: () => attempt(() => this.reload()) },
-      { name: 'places-save', placing: true, button: 'Save', key: 'Ctrl+S', title: 'Places: save', run: () => attempt(() => this.save()), possible: () => editor.dirty },
+      { name: 'places-undo', placing: true, button: 'Undo', key: 'Ctrl+Z', title: 'Zones: undo', run: () => editor.undo(), possible: () => editor.canUndo },
+      { name: 'places-redo', placing: true, button: 'Redo', key: 'Ctrl+Shift+Z', title: 'Zones: redo', run: () => editor.redo(), possible: () => editor.canRedo },
+      { name: 'places-redo2', placing: true, key: 'Ctrl+Y', title: 'Zones: redo', run: () => editor.redo() },
+      tool('keep_out', 'Keep-out', 'O', 'Zones: draw an area that the robot must not enter'), tool('speed_zone', 'Speed zone', 'Z', 'Zones: draw an area where it drives slower'),
+      tool('place', 'Place', 'P', 'Zones: a named place to drive to'), tool('node', 'Node', 'N', 'Zones: a point of the route graph'), tool('edge', 'Lane', 'L', 'Zones: a lane between two of them'),
+      { name: 'places-close', placing: true, key: 'Enter', onMap: true, title: 'Zones: close the polygon being drawn', run: () => tools.close() },
+      { name: 'places-back', placing: true, key: 'Backspace', onMap: true, title: 'Zones: take back the last corner', run: () => tools.takeBack() },
+      { name: 'places-none', placing: true, key: 'Escape', title: 'Zones: end drawing; clear the selection', run: () => this.escape() },
+      { name: 'places-delete', placing: true, button: 'Delete', key: 'Delete', title: 'Zones: delete the selection, or its chosen corner (with the map in focus)', run: () => this.removeOrCorner(), possible: any },
+      { name: 'places-history', placing: true, button: 'History', title: 'Zones: restore an earlier version', run: () => attempt(() => openPlacesHistory(editor, this.host.stage.floor)) },
+      { name: 'places-reload', placing: true, button: 'Reload', title: 'Zones: reload them from the site', run: () => attempt(() => this.reload()) },
+      { name: 'places-save', placing: true, button: 'Save', key: 'Ctrl+S', title: 'Zones: save', run: () => attempt(() => this.save()), possible: () => editor.dirty },
       ...nudges,
     ];
   }

@@ -6,6 +6,7 @@ import type { Box } from './coverage.js';
 import type { Floor } from './floor.js';
 import type { Editor } from './editor.js';
 import { FloorPaint } from './floor_paint.js';
+import { font } from './fonts.js';
 import { centerOf, pitchM, sideM } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import type { Layers } from './layers.js';
@@ -128,7 +129,7 @@ export class Stage {
     c.clearRect(0, 0, view.width, view.height);
     if (!this.layers.shown.markers) return;
     const sidePx = (sideM + 2 * pitchM / 2) * view.pixelsPerM;
-    c.font = '11px system-ui, sans-serif';
+    c.font = font(11);
     c.textAlign = 'center';
     const few = this.editor.markers.size < 400;
     for (const marker of this.scene?.markers ?? this.editor.shown()) {
@@ -212,7 +213,7 @@ export class Stage {
   }
 
   private drawPins(c: CanvasRenderingContext2D): void {
-    c.font = 'bold 13px system-ui, sans-serif';
+    c.font = font(13, 'bold');
     for (const pin of this.pins) {
       const at = this.view.toScreen(pin.at);
       c.beginPath();

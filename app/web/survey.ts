@@ -1,5 +1,6 @@
 // A survey under way: what is known of each marker, what ties them together, and where to drive next.
 import { button, byId, el } from './dom.js';
+import { font } from './fonts.js';
 import { centerOf } from './geometry.js';
 import type { Marker, Point } from './geometry.js';
 import type { Editor } from './editor.js';
@@ -174,7 +175,7 @@ export class SurveyView {
       c.globalAlpha = 1;
       c.stroke();
     }
-    c.font = '11px system-ui, sans-serif';
+    c.font = font(11);
     c.textAlign = 'center';
     c.fillText(`${marker.id}${marker.sigma_m === null ? '' : ` ±${mm(marker.sigma_m)}`}`, p.x, p.y - 12);
     c.restore();
@@ -203,7 +204,7 @@ export class SurveyView {
       c.closePath();
       c.fill();
     }
-    c.font = 'bold 12px system-ui, sans-serif';
+    c.font = font(12, 'bold');
     c.fillText(wordsOf(p), to.x + 16, to.y + 16);
     c.restore();
   }
@@ -217,7 +218,7 @@ export class SurveyView {
     c.beginPath();
     c.arc(p.x, p.y, 16, 0, 2 * Math.PI);
     c.stroke();
-    c.font = 'bold 12px system-ui, sans-serif';
+    c.font = font(12, 'bold');
     c.fillText('drive here next', p.x + 20, p.y + 4);
     c.restore();
   }

@@ -377,6 +377,32 @@ describe('other programs and other times', () => {
     });
   }
 
+  story('an import is shown marker by marker first, and added or put in place of all', async (page) => {
+    const file = join(server.site, '..', 'theirs.csv');
+    writeFileSync(file, 'id;x;y;z;yaw_deg\n77;1,5;2,5;2,6;90\n620;9,5;1,25;2,6;60\n');
+    const read = async (answer) => {
+      const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.locator('#tool-import').click()]);
+      await chooser.setFiles(file);
+      await page.locator('#import-add', { hasText: '1 changed, 1 added, 0 removed' }).waitFor();
+      await page.locator('#import-replace', { hasText: '1 changed, 1 added, 24 removed' }).waitFor();
+      await page.getByRole('dialog').getByText('620: x 9.446 → 9.5 m', { exact: false }).first().waitFor();
+      await page.getByRole('dialog').getByRole('button', { name: answer, exact: true }).click();
+    };
+    const there = () => page.evaluate(() => { const { editor } = window.lodestar.console; return [editor.markers.size, window.lodestar.marker(77)?.x, window.lodestar.marker(620)?.x]; });
+    await read('Cancel');
+    await stateIs(page, 'Nothing was imported');
+    assert.deepEqual(await there(), [25, undefined, 9.446]);
+    await read('Add');
+    await stateIs(page, '2 markers read');
+    assert.deepEqual(await there(), [26, 1.5, 9.5]);
+    await page.keyboard.press('Control+z');
+    await read('Replace all');
+    await stateIs(page, '2 markers read');
+    assert.deepEqual(await there(), [2, 1.5, 9.5]);
+    await page.keyboard.press('Control+z');
+    assert.deepEqual(await there(), [25, undefined, 9.446]);
+  });
+
   story('a former state is shown with what has changed since, and brought back', async (page) => {
     await page.evaluate(() => {
       const { editor } = window.lodestar.console;

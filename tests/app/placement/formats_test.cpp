@@ -94,6 +94,19 @@ TEST(MarkerFormats, take_a_spreadsheet_with_other_columns) {
   EXPECT_TRUE(registry.markers[0].position_m.isApprox(Vec3(1, 2, 2.6), 1e-12));
 }
 
+TEST(MarkerFormats, take_a_spreadsheet_with_semicolons_or_tabs_and_decimal_commas) {
+  for (const std::string text : {"id;x_m;y_m;z_m;yaw_deg\r\n9;1,5;-2,25;2,6;90\r\n10;1.5;2;2.6;0\r\n",
+                                 "id\tx\ty\tz\tyaw_deg\n9\t1,5\t-2,25\t2,6\t90\n10\t1.5\t2\t2.6\t0\n"}) {
+    const MarkerRegistry registry = parse_markers(text, MarkerFormat::csv, "s.csv");
+    ASSERT_EQ(registry.markers.size(), 2U) << text;
+    EXPECT_TRUE(registry.markers[0].position_m.isApprox(Vec3(1.5, -2.25, 2.6), 1e-12));
+    EXPECT_TRUE(registry.markers[1].position_m.isApprox(Vec3(1.5, 2, 2.6), 1e-12));
+  }
+  // What may mean thousands is no number.
+  EXPECT_THAT(error_of("id;x;y;z;yaw_deg\n9;1.000,5;2;2,6;90\n", MarkerFormat::csv),
+              HasSubstr("theirs:2: found '1.000,5'"));
+}
+
 TEST(MarkerFormats, refuse_what_hangs_on_no_ceiling_and_ids_that_are_not) {
   EXPECT_THAT(error_of("9 1 2 3 90 0 0 0 1\n", MarkerFormat::fiducial_slam),
               HasSubstr("theirs:1: found marker 9"));

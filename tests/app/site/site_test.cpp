@@ -104,6 +104,18 @@ TEST(Site, has_the_places_beside_it_and_no_zone_that_its_motors_cannot_obey) {
   }
 }
 
+TEST(Site, of_a_folder_with_a_map_alone_is_not_there_and_what_makes_one_is_named) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "map.yaml") << "image: map.pgm\n";
+  try {
+    load_site(folder.path());
+    ADD_FAILURE() << "took it for a site";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr(": found no site.yaml, wanted a site folder; `lodestar site new"));
+  }
+}
+
 TEST(Site, of_the_lab_is_the_papers) {
   const Site site = lab();
   EXPECT_EQ(site.map.map.columns, 306);
