@@ -13,6 +13,7 @@
 
 #include "app/common/worker.hpp"
 #include "app/net/beast_http.hpp"
+#include "app/net/waiting_connections.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -151,7 +152,8 @@ class HttpServer::Impl {
       error_code error;
       tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
       if (error) continue;
-      if (connections_ >= options_.max_connections) continue;  // closes it
+      // Who connects and says nothing shuts nobody out.
+      if (connections_ >= options_.max_connections && !waiting_.end_longest()) continue;  // closes it
       asio::co_spawn(context_, serve(std::move(socket)), asio::detached);
     }
   }
@@ -176,6 +178,7 @@ class HttpServer::Impl {
     parser.body_limit(options_.max_body_bytes);
     stream.expires_after(options_.patience);
     error_code error;
+    std::optional<WaitingConnections::Entry> waiting(std::in_place, waiting_, stream);
     co_await http::async_read_header(stream, buffer, parser,
                                      asio::redirect_error(asio::use_awaitable, error));
     if (error) co_return co_await complain(stream, error);
@@ -190,6 +193,7 @@ class HttpServer::Impl {
     if (!response && request.wants_socket) {
       response = no_socket(request);
       if (!response) {
+        waiting.reset();
         asio::co_spawn(context_, serve_socket(std::move(stream), parser.release(), request), asio::detached);
         co_return Next::upgraded;
       }
@@ -199,6 +203,7 @@ class HttpServer::Impl {
     if (!response) {
       co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
       if (error) co_return co_await complain(stream, error);
+      waiting.reset();
       request.body = std::move(parser.get().body());
       if (takes_long || uses_files) {
         Worker& worker = takes_long ? drafts_ : files_;
@@ -216,7 +221,9 @@ class HttpServer::Impl {
     if (chosen_protocol(protocols_, request.subprotocols) == nullptr) {
       return refusal(400, "found no subprotocol of ours in Sec-WebSocket-Protocol");
     }
-    if (sockets_ >= options_.max_sockets) return refusal(503, "found too many clients, try again later");
+    const bool drives = role_of(request, options_.access) == Role::drive;
+    const int most = drives ? options_.max_sockets : 3 * options_.max_sockets / 4;
+    if (sockets_ >= most) return refusal(503, "found too many clients, try again later");
     return std::nullopt;
   }
 
@@ -304,6 +311,7 @@ class HttpServer::Impl {
   tcp::acceptor acceptor_;
   int connections_ = 0;
   int sockets_ = 0;
+  WaitingConnections waiting_;
   Worker drafts_;  // both end before the context that they post to
   Worker files_;
 };

@@ -14,8 +14,8 @@ struct HttpServerOptions {
   AccessRules access;  ///< port 0: any free port
   std::size_t max_body_bytes = 4U << 20U;
   unsigned max_header_bytes = 16U << 10U;
-  int max_connections = 32;
-  int max_sockets = 128;
+  int max_connections = 32;  ///< the one that has sent nothing for longest makes room for another
+  int max_sockets = 128;     ///< three quarters of them for those who may not drive, who shut no driver out
   std::size_t max_socket_message_bytes = 64U << 10U;  ///< received over a WebSocket
   OutboxLimits outbox;
   std::chrono::seconds patience{15};  ///< timeout for a client that neither sends nor reads

@@ -185,6 +185,19 @@ TEST(Socket, takes_no_more_clients_than_it_may) {
   EXPECT_THAT(third.upgrade("echo.v1"), StartsWith("HTTP/1.1 503"));
 }
 
+TEST(Socket, keeps_room_for_who_drives_however_many_only_look) {
+  const Served served({.access = {.token = drive_token, .view_token = view_token}, .max_sockets = 4});
+  const std::string bearer = served.ours() + "Authorization: Bearer ";
+  std::vector<std::unique_ptr<SocketClient>> viewers;
+  for (int i = 0; i < 6; ++i) {
+    viewers.push_back(std::make_unique<SocketClient>(served.port()));
+    EXPECT_THAT(viewers.back()->upgrade("echo.v1", bearer + view_token + "\r\n"),
+                StartsWith(i < 3 ? "HTTP/1.1 101" : "HTTP/1.1 503"));
+  }
+  SocketClient driver(served.port());
+  EXPECT_THAT(driver.upgrade("echo.v1", bearer + drive_token + "\r\n"), StartsWith("HTTP/1.1 101"));
+}
+
 TEST(Outbox, keeps_order_replaces_values_and_overflows) {
   Outbox outbox({.most_messages = 3, .most_bytes = 100});
   outbox.queue(text_message("a"));
