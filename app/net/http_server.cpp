@@ -307,11 +307,12 @@ class HttpServer::Impl {
   HttpServerOptions options_;
   Handler handler_;
   std::vector<SocketProtocol> protocols_;
-  asio::io_context context_{1};
-  tcp::acceptor acceptor_;
+  // What coroutines count themselves in: they end with the context.
   int connections_ = 0;
   int sockets_ = 0;
   WaitingConnections waiting_;
+  asio::io_context context_{1};
+  tcp::acceptor acceptor_;
   Worker drafts_;  // both end before the context that they post to
   Worker files_;
 };

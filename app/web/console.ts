@@ -5,9 +5,11 @@ import { isTyping, keyOf } from './commands.js';
 import type { Command } from './commands.js';
 import { CountedCoverage } from './counted.js';
 import { Documents } from './documents.js';
+import { offerDraft } from './dialogs.js';
 import { Draft } from './draft.js';
 import { byId } from './dom.js';
 import { Editor } from './editor.js';
+import type { Registry } from './editor.js';
 import type { Floor } from './floor.js';
 import type { Point } from './geometry.js';
 import { Hang } from './hang.js';
@@ -47,7 +49,7 @@ export class Console implements Page {
   readonly hang: Hang;
   readonly map: MapMode;
   readonly places: SitePlaces;
-  private readonly draft: Draft;
+  private readonly draft: Draft<Registry>;
   readonly commands: Command[];
   readonly routes: Point[][];
   private readonly panel: Panel;
@@ -70,7 +72,8 @@ export class Console implements Page {
     this.actions = new Actions(this.editor, this.coverage, say);
     this.measure = new Measure(this.stage, this.pointer, say);
     this.documents = new Documents(this.editor, tagged, () => this.live.hello?.robot === true);
-    this.draft = new Draft(this.editor, site.name, complain);
+    this.draft = new Draft({ key: `lodestar-draft: ${site.name}`, what: 'changes', dirty: () => this.editor.dirty, document: () => this.editor.registry(),
+      ask: offerDraft, take: (registry) => this.editor.replaceAll(registry) }, complain);
     this.routes = site.routes.map((route) => route.map(([x, y]) => ({ x, y })));
     this.stage.painters.push((c) => { if (this.layers.shown.route && this.modes.now === 'edit') paintRoutes(c, this.stage, this.routes); });
     this.places = new SitePlaces({ stage: this.stage, snap: this.pointer.snap, goTo: (points) => this.goTo(points), refresh: () => this.refreshTools(),

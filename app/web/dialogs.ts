@@ -77,10 +77,10 @@ export async function confirmReload(theirs: Registry, mine: Registry): Promise<b
     [['', 'Keep editing'], ['go', 'Throw away and reload']]) === 'go';
 }
 
-/** `sinceWhen`: in words. */
+/** `sinceWhen`: in words. Who closes the question has not said to throw them away. */
 export async function offerDraft(saved: Registry, draft: Registry, sinceWhen: string): Promise<boolean> {
   return await ask('Changes that were not saved', [el('p', {}, `This browser kept changes of ${sinceWhen}: ${summary(saved, draft)}.`), ...changesOf(saved, draft)],
-    [['go', 'Bring them back'], ['', 'Throw them away']]) === 'go';
+    [['go', 'Bring them back'], ['no', 'Throw them away']]) !== 'no';
 }
 
 export async function showHelp(commands: Command[]): Promise<void> {

@@ -1,45 +1,59 @@
 // What has been changed and not saved, kept in the browser: a crash or a closed window loses nothing.
-import { offerDraft } from './dialogs.js';
-import type { Editor, Registry } from './editor.js';
 import { Latest } from './latest.js';
 
 const keepEveryMs = 1000;
 
-interface Kept { at: string; registry: Registry }
+interface Kept<T> { at: string; document: T }
 
-export class Draft {
-  private readonly key: string;
+export interface Drafted<T> {
+  key: string;   // in the browser's storage
+  what: string;  // of it was not saved, in the words of what is said afterwards
+  dirty: () => boolean;
+  document: () => T;
+  ask: (saved: T, left: T, sinceWhen: string) => Promise<boolean>;
+  take: (left: T) => void;
+}
+
+export class Draft<T> {
   private readonly keeping: Latest;
   private offered = false;
 
-  constructor(private readonly editor: Editor, site: string, fail: (error: unknown) => void) {
-    this.key = `lodestar-draft: ${site}`;
+  constructor(private readonly of: Drafted<T>, fail: (error: unknown) => void) {
     this.keeping = new Latest(keepEveryMs, async () => this.keep(), fail);
+    addEventListener('pagehide', () => this.keep());
   }
 
   /** What has just been saved is thrown away at once: a page that is opened meanwhile must not offer what it replaced. */
   changed(): void {
-    if (this.offered && !this.editor.dirty) this.keep();
+    if (!this.of.dirty()) this.keep();
     else this.keeping.want();
   }
 
   private keep(): void {
-    if (!this.editor.dirty) return localStorage.removeItem(this.key);
-    const kept: Kept = { at: new Date().toLocaleString(), registry: this.editor.registry() };
-    localStorage.setItem(this.key, JSON.stringify(kept));
+    if (!this.offered) return;  // what an earlier window left stays until it is decided on
+    if (!this.of.dirty()) return localStorage.removeItem(this.of.key);
+    const kept: Kept<T> = { at: new Date().toLocaleString(), document: this.of.document() };
+    localStorage.setItem(this.of.key, JSON.stringify(kept));
   }
 
   /** Offers what an earlier window left. */
   async offer(): Promise<string> {
-    const text = localStorage.getItem(this.key);
-    this.offered = true;
+    try {
+      return await this.bringBack();
+    } finally {
+      this.offered = true;
+      this.keep();
+    }
+  }
+
+  private async bringBack(): Promise<string> {
+    const text = localStorage.getItem(this.of.key);
     if (text === null) return '';
-    localStorage.removeItem(this.key);
-    const { at, registry } = JSON.parse(text) as Kept;
-    const saved = this.editor.registry();
-    if (JSON.stringify(saved) === JSON.stringify(registry)) return '';
-    if (!await offerDraft(saved, registry, at)) return 'Threw the unsaved changes away';
-    this.editor.replaceAll(registry);
-    return 'Brought the unsaved changes back';
+    const { at, document } = JSON.parse(text) as Kept<T>;
+    const saved = this.of.document();
+    if (JSON.stringify(saved) === JSON.stringify(document)) return '';
+    if (!await this.of.ask(saved, document, at)) return `Threw the unsaved ${this.of.what} away`;
+    this.of.take(document);
+    return `Brought the unsaved ${this.of.what} back`;
   }
 }

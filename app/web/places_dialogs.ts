@@ -15,3 +15,9 @@ export function askAboutPlaces(base: PlacesDocument, mine: PlacesDocument, their
     el('p', both.length > 0 ? { class: 'error' } : {}, both.length > 0 ? `Changed by both, a merge takes yours: ${both.join(', ')}.` : 'Nothing was changed by both.')],
   [['merge', 'Merge and save'], ['theirs', 'Take theirs'], ['mine', 'Overwrite theirs'], ['', 'Cancel']]);
 }
+
+/** Who closes the question has not said to throw them away. */
+export async function offerPlacesDraft(saved: PlacesDocument, left: PlacesDocument, sinceWhen: string): Promise<boolean> {
+  return await ask('Places that were not saved', [el('p', {}, `This browser kept changes of ${sinceWhen}.`), ...changesOfPlaces(placesDifferences(saved, left))],
+    [['go', 'Bring them back'], ['no', 'Throw them away']]) !== 'no';
+}

@@ -1,11 +1,12 @@
 // Zones, lanes and places of the site as a whole: editor, tools, panel, drafts, saving and what others save.
 import * as api from './api.js';
 import type { Command } from './commands.js';
-import { ask, byId, el } from './dom.js';
+import { ask, byId } from './dom.js';
+import { Draft } from './draft.js';
 import { isSpot, isZone } from './places_doc.js';
 import { PlacesEditor } from './places_doc.js';
 import type { Kind, PlacesDocument } from './places_doc.js';
-import { askAboutPlaces, changesOfPlaces } from './places_dialogs.js';
+import { askAboutPlaces, changesOfPlaces, offerPlacesDraft } from './places_dialogs.js';
 import { openPlacesHistory } from './places_history.js';
 import { mergedPlaces, placesDifferences } from './places_merge.js';
 import { paintDrawing, paintPlaces } from './places_paint.js';
@@ -18,7 +19,7 @@ import type { Stage } from './stage.js';
 import type { Snap } from './pointer.js';
 import { attempt, complain, say } from './words.js';
 
-const followEveryMs = 400, keepEveryMs = 1000;
+const followEveryMs = 400;
 
 export interface PlacesHost {
   readonly stage: Stage;
@@ -46,13 +47,13 @@ export class SitePlaces {
   private etag = '';
   private marks: Point[] = [];
   private busy: Promise<unknown> = Promise.resolve();
-  private readonly draftKey: string;
+  private readonly draft: Draft<PlacesDocument>;
   private readonly checking = new Latest(followEveryMs, () => this.check(), complain);
-  private readonly keeping = new Latest(keepEveryMs, async () => this.keep(), complain);
 
   constructor(private readonly host: PlacesHost, site: string, actions: string[]) {
     const { stage } = host;
-    this.draftKey = `lodestar-places-draft: ${site}`;
+    this.draft = new Draft({ key: `lodestar-places-draft: ${site}`, what: 'places', dirty: () => this.editor.dirty, document: () => this.editor.document(),
+      ask: offerPlacesDraft, take: (places) => this.editor.replaceAll(places) }, complain);
     this.tools = new PlacesTools(this.editor, stage.view, host.snap, () => this.redraw(), say);
     this.panel = new PlacesPanel(this.editor, { add: (kind) => this.addByNumbers(kind), goTo: (points) => host.goTo(points), remove: () => this.remove() });
     this.missions = new MissionsPanel(this.editor, actions);
@@ -69,14 +70,14 @@ export class SitePlaces {
     const tagged = await api.getPlaces();
     this.take(tagged);
     this.editor.load(tagged.places);
-    return await this.offerDraft();
+    return await this.draft.offer();
   }
 
   private changed(): void {
     this.redraw();
     this.panel.show();
     this.missions.show();
-    this.keeping.want();
+    this.draft.changed();
     if (this.host.isOn()) this.judge();
   }
 
@@ -237,26 +238,6 @@ export class SitePlaces {
   /** At once, not a second later: a page that is opened meanwhile must not offer what has been saved over. */
   private nowSaved(): void {
     this.editor.markSaved();
-    this.keep();
-  }
-
-  // -- drafts -------------------------------------------------------------------------------------------------
-
-  private keep(): void {
-    if (this.base === null) return;
-    if (!this.editor.dirty) return localStorage.removeItem(this.draftKey);
-    localStorage.setItem(this.draftKey, JSON.stringify({ at: new Date().toLocaleString(), places: this.editor.document() }));
-  }
-
-  private async offerDraft(): Promise<string> {
-    const text = localStorage.getItem(this.draftKey);
-    if (text === null) return '';
-    localStorage.removeItem(this.draftKey);
-    const { at, places } = JSON.parse(text) as { at: string; places: PlacesDocument };
-    const lines = placesDifferences(this.editor.document(), places);
-    if (lines.length === 0) return '';
-    if (await ask('Places that were not saved', [el('p', {}, `This browser kept changes of ${at}.`), ...changesOfPlaces(lines)], [['go', 'Bring them back'], ['', 'Throw them away']]) !== 'go') return 'Threw the unsaved places away';
-    this.editor.replaceAll(places);
-    return 'Brought the unsaved places back';
+    this.draft.changed();
   }
 }

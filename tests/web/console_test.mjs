@@ -283,6 +283,8 @@ describe('seeing', () => {
     await page.waitForFunction(() => window.lodestar.console.replay.run !== null, undefined, { polling: 50 });
     await page.getByLabel('Time').fill('1.5');
     await page.locator('#replay-words', { hasText: '1.5 of 3.0 s: 2.500, 5.600 m, 180.0°; error 10.0 mm' }).waitFor();
+    await page.getByText('No pictures').waitFor();
+    assert.equal(await page.locator('#replay-picture').isVisible(), false);  // nothing broken in its place
     await page.getByLabel('Speed').selectOption('50');
     await page.getByRole('button', { name: 'Play', exact: true }).click();
     await page.locator('#replay-words', { hasText: '3.0 of 3.0 s: 4.000' }).waitFor();

@@ -309,7 +309,6 @@ describe('others', () => {
     await page.locator('#stage').press('Escape');
     await polygon(page, 'keep_out', [[1.5, 5], [2.5, 5], [2.5, 6], [1.5, 6]]);
     await page.locator('#place-issues button[data-kind="in-keep-out"]', { hasText: 'Place 1' }).waitFor();
-    await page.waitForFunction(() => Object.keys(localStorage).some((key) => key.startsWith('lodestar-places-draft')), undefined, { polling: 100 });
     page.on('dialog', (dialog) => dialog.accept());
     await page.reload();
     await page.getByRole('button', { name: 'Bring them back' }).click();

@@ -195,20 +195,22 @@ TEST(HttpServer, lets_nobody_hold_all_its_connections_for_long) {
 }
 
 TEST(HttpServer, shuts_nobody_out_for_those_that_connect_and_send_nothing) {
-  const Served served({.max_connections = 8, .patience = std::chrono::seconds(60)});
-  const std::string host = "Host: " + served.host() + "\r\n";
-  const std::string half = "POST / HTTP/1.1\r\n" + host + json_of_ours + "Content-Length: 9\r\n\r\n1";
   std::vector<int> idlers;
-  for (int i = 0; i < 60; ++i) {
-    idlers.push_back(connected(served.port(), std::chrono::seconds(2)));
-    if (i % 2 == 0) {
-      ASSERT_EQ(::send(idlers.back(), half.data(), half.size(), MSG_NOSIGNAL), std::ssize(half));
+  {
+    const Served served({.max_connections = 8, .patience = std::chrono::seconds(60)});
+    const std::string host = "Host: " + served.host() + "\r\n";
+    const std::string half = "POST / HTTP/1.1\r\n" + host + json_of_ours + "Content-Length: 9\r\n\r\n1";
+    for (int i = 0; i < 60; ++i) {
+      idlers.push_back(connected(served.port(), std::chrono::seconds(2)));
+      if (i % 2 == 0) {
+        ASSERT_EQ(::send(idlers.back(), half.data(), half.size(), MSG_NOSIGNAL), std::ssize(half));
+      }
+      if (i % 5 == 0) {
+        EXPECT_THAT(served.ask("GET /", host), StartsWith("HTTP/1.1 200")) << i;
+      }
     }
-    if (i % 5 == 0) {
-      EXPECT_THAT(served.ask("GET /", host), StartsWith("HTTP/1.1 200")) << i;
-    }
-  }
-  EXPECT_EQ(served.handled, 12);
+    EXPECT_EQ(served.handled, 12);
+  }  // it ends while clients are still there
   for (const int idler : idlers) ::close(idler);
 }
 
