@@ -27,6 +27,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # libstdc++ 12 calls its own deprecated temporary buffers in std::stable_sort.
   target_compile_options(lodestar_properties INTERFACE -Wno-deprecated-declarations)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  # Remarks of how g++ 10 changed what it passes in registers: all of this is compiled by one compiler.
+  target_compile_options(lodestar_properties INTERFACE $<BUILD_INTERFACE:-Wno-psabi>)
+endif()
 if(LODESTAR_SANITIZE)
   target_compile_options(lodestar_properties INTERFACE -fsanitize=${LODESTAR_SANITIZE} -fno-sanitize-recover=all
     -fno-omit-frame-pointer)

@@ -50,6 +50,7 @@ export class Console implements Page {
   readonly map: MapMode;
   readonly places: SitePlaces;
   private readonly draft: Draft<Registry>;
+  private counting = 0;  // changes whose coverage is being counted
   readonly commands: Command[];
   readonly routes: Point[][];
   private readonly panel: Panel;
@@ -101,13 +102,20 @@ export class Console implements Page {
 
   private changed(): void {
     this.coverage.update(this.editor.shown());
-    this.coverage.settled().then(() => this.panel.showCoverage(this.coverage), complain);  // without any marker, too
+    attempt(() => this.tellCoverage());
     this.stage.redraw();
     this.panel.show();
     this.refreshTools();
     this.draft.changed();
     document.title = `${this.editor.dirty ? '• ' : ''}${this.site.name} - Lodestar`;
     this.judge();
+  }
+
+  /** Says no share that stands for a moment, while many markers are counted. */
+  private async tellCoverage(): Promise<void> {
+    ++this.counting;
+    await this.coverage.settled().finally(() => { --this.counting; });
+    if (this.counting === 0) this.panel.showCoverage(this.coverage);
   }
 
   private dragged(): void {
@@ -208,7 +216,7 @@ export class Console implements Page {
   private listen(): void {
     this.layers.onChange = () => this.layersChanged();
     this.layers.showLegend();
-    this.coverage.onCounted = (boxes) => { this.stage.paintCounted(boxes); this.panel.showCoverage(this.coverage); };
+    this.coverage.onCounted = (boxes) => { this.stage.paintCounted(boxes); if (this.counting === 0) this.panel.showCoverage(this.coverage); };
     this.pointer.onHover = (at) => { this.places.hoverAt(at); byId('where').textContent = at ? `${at.x.toFixed(3)}, ${at.y.toFixed(3)} m` : ''; };
     this.pointer.onDrag = () => this.dragged();
     this.editor.onChange = () => this.changed();

@@ -31,7 +31,7 @@ interface ListRow { row: HTMLTableRowElement; id: HTMLButtonElement; cells: HTML
 export class Panel {
   private shownSelection = '';
   private readonly issues: IssueList;
-  private readonly coverageWords = el('p', { id: 'coverage-words' });
+  private readonly coverageWords = el('p', { id: 'coverage-words' }, 'Counting from where a marker is seen');
   private readonly reason = el('p', { class: 'error', id: 'field-reason', role: 'alert' });
   private readonly rows = new Map<number, ListRow>();
   private listedKeys = '';

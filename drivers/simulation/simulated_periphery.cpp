@@ -1,6 +1,5 @@
 #include "drivers/simulation/simulated_periphery.hpp"
 
-#include <algorithm>
 #include <string_view>
 
 #include "drivers/base/agilex_v2_table.hpp"
@@ -39,9 +38,9 @@ void SimulatedPeriphery::answer_with_text() {
   constexpr std::size_t letters = 80;
   for (std::size_t at = 0; at < letters; at += agilex_tables::version_letters.size()) {
     CanFrame frame{agilex_tables::version_text.id, agilex_tables::version_text.length, {}};
-    frame.data.fill(' ');
-    const std::string_view part = text.substr(std::min(at, text.size()), frame.data.size());
-    std::ranges::copy(part, frame.data.begin());
+    for (std::size_t i = 0; i < frame.data.size(); ++i) {
+      frame.data[i] = at + i < text.size() ? static_cast<std::uint8_t>(text[at + i]) : ' ';
+    }
     answers_.push_back(frame);
   }
 }

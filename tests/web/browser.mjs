@@ -12,8 +12,11 @@ const flags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-ru
 
 export const launch = () => chromium.launch({ executablePath: '/usr/bin/chromium', headless: true, args: flags });
 
+/** LODESTAR_WINDOW=390x844 walks through a test at another size. */
+const [width, height] = (process.env.LODESTAR_WINDOW ?? '1280x800').split('x').map(Number);
+
 /** A page that has loaded, in a window of this size. */
-export async function open(browser, url, size = { width: 1280, height: 800 }, more = {}) {
+export async function open(browser, url, size = { width, height }, more = {}) {
   const context = await browser.newContext({ viewport: size, ...more });
   const page = await context.newPage();
   page.complaints = [];
