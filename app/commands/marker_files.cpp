@@ -1,11 +1,14 @@
+#include <algorithm>
 #include <fmt/core.h>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 
 #include "app/commands/commands.hpp"
 #include "app/placement/formats.hpp"
-#include "app/placement/sheet.hpp"
+#include "app/placement/place_sheet.hpp"
+#include "app/site/site_folder.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
@@ -27,6 +30,8 @@ struct ConvertArguments {
 struct PrintArguments {
   std::vector<int> ids;
   std::string output;
+  std::string site;
+  std::string date;
   std::string paper = "A4";
 };
 
@@ -65,14 +70,37 @@ ExitCode convert(const ConvertArguments& arguments) {
   return done;
 }
 
+std::vector<SheetPage> sheets_of(const PrintArguments& arguments) {
+  const PaperSize paper = *paper_named(arguments.paper);
+  std::vector<SheetPage> pages;
+  if (arguments.site.empty()) {
+    if (arguments.ids.empty())
+      throw InputError("markers print: found neither IDs nor a site, wanted one of them");
+    for (const int id : arguments.ids) pages.push_back(draw_marker_sheet(id, paper));
+    return pages;
+  }
+  const Site site = open_site(arguments.site);
+  const PlaceSheets places(site.map.map, site.name, arguments.date, paper);
+  std::vector<int> ids = arguments.ids;
+  if (ids.empty())
+    std::ranges::transform(site.registry.markers, std::back_inserter(ids), &RegisteredMarker::id);
+  if (ids.empty()) throw InputError(site.registry_file, 0, "no marker", "some to print");
+  for (const int id : ids) {
+    const RegisteredMarker* const marker = site.registry.find(id);
+    if (marker == nullptr)
+      throw InputError(site.registry_file, 0, fmt::format("no marker {}", id), "those to print");
+    pages.push_back(places.page(site.registry, *marker));
+  }
+  return pages;
+}
+
 ExitCode print_sheets(const PrintArguments& arguments) {
   const fs::path output = arguments.output;
   const bool pdf = output.extension() == ".pdf";
   if (!pdf && output.extension() != ".svg") {
     throw InputError("-o: found '" + arguments.output + "', wanted a name that ends in .pdf or .svg");
   }
-  std::vector<SheetPage> pages;
-  for (const int id : arguments.ids) pages.push_back(draw_marker_sheet(id, *paper_named(arguments.paper)));
+  const std::vector<SheetPage> pages = sheets_of(arguments);
   write_file_atomically(output, pdf ? pdf_text(pages) : svg_text(pages));
   fmt::print(stderr, "{} sheets in {}: print at 100 % and measure the ruler\n", pages.size(),
              arguments.output);
@@ -96,10 +124,14 @@ std::vector<Command> marker_file_commands(CLI::App& markers) {
   const auto printed = std::make_shared<PrintArguments>();
   CLI::App* print_command =
       markers.add_subcommand("print", "Sheets in true scale: dots, cut marks, ruler, arrow, drill crosses");
-  print_command->add_option("ids", printed->ids, "IDs, each on a sheet of its own")
-      ->required()
+  print_command
+      ->add_option("ids", printed->ids,
+                   "IDs, each on a sheet of its own; with --site: all of it when left out")
       ->check(CLI::Range(0, marker_id_count - 1));
   print_command->add_option("-o,--output", printed->output, "sheet.pdf or sheet.svg")->required();
+  CLI::Option* const site = print_command->add_option(
+      "--site", printed->site, "Site folder: each sheet says where its marker hangs, with a plan");
+  print_command->add_option("--date", printed->date, "With --site: the date to print")->needs(site);
   print_command->add_option("--paper", printed->paper, "A4 or A3")
       ->check(CLI::IsMember({"A4", "A3"}))
       ->capture_default_str();

@@ -13,7 +13,7 @@
 #include "app/console/registry_json.hpp"
 #include "app/placement/formats.hpp"
 #include "app/placement/installation.hpp"
-#include "app/placement/sheet.hpp"
+#include "app/placement/place_sheet.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
@@ -67,16 +67,29 @@ HttpResponse imported(const json& request) {
   return {.body = registry_json(parse_markers(text, *format, name)).dump()};
 }
 
-HttpResponse printed(const json& request) {
-  constexpr std::size_t most_sheets = 200;
+std::string today() {
+  return utc_text().substr(0, std::string_view("2026-11-26").size());
+}
+
+/// Sheets of IDs; with a registry, of where its markers hang.
+HttpResponse printed(const json& request, const Site& site) {
+  constexpr std::size_t most_sheets = marker_id_count;
   const json& ids = request.at("ids");
   const auto paper = paper_named(request.value("paper", "A4"));
   if (!paper || !ids.is_array() || ids.empty() || ids.size() > most_sheets) {
     return refusal(422, fmt::format("wanted A4 or A3 and 1 to {} IDs", most_sheets));
   }
+  std::optional<MarkerRegistry> registry;
+  if (request.contains("registry")) registry = registry_from_json(request["registry"].dump());
+  const PlaceSheets places(site.map.map, site.name, today(), *paper);
   std::vector<SheetPage> pages;
-  for (const json& id : ids)
-    pages.push_back(draw_marker_sheet(static_cast<int>(whole_number(id, marker_id_count - 1)), *paper));
+  for (const json& written : ids) {
+    const int id = static_cast<int>(whole_number(written, marker_id_count - 1));
+    const RegisteredMarker* const marker = registry ? registry->find(id) : nullptr;
+    if (registry && marker == nullptr)
+      return refusal(422, fmt::format("found no marker {} in the registry", id));
+    pages.push_back(marker != nullptr ? places.page(*registry, *marker) : draw_marker_sheet(id, *paper));
+  }
   return {.content_type = "application/pdf", .body = pdf_text(pages)};
 }
 
@@ -221,15 +234,14 @@ HttpResponse DocumentApi::post(const HttpRequest& request) const {
                   coverage_.deviations(site_, registry_from_json(request.body), request.cancelled).dump()};
     }
     if (request.target == "/api/markers/plan") {
-      const std::string day = utc_text().substr(0, std::string_view("2026-11-26").size());
       return {.body = json{{"text", installation_csv(registry_from_json(request.body), site_.map.map,
-                                                     site_.name, day)}}
+                                                     site_.name, today())}}
                           .dump(-1, ' ', false, json::error_handler_t::replace)};
     }
     const json body = parse_json(request.body);
     if (request.target == "/api/markers/export") return exported(body);
     if (request.target == "/api/markers/import") return imported(body);
-    if (request.target == "/api/markers/print") return printed(body);
+    if (request.target == "/api/markers/print") return printed(body, site_);
   } catch (const InputError& error) {
     return refusal(422, error.what());
   } catch (const json::exception& error) {

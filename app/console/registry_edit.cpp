@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "maps/registry_text.hpp"
@@ -50,6 +51,13 @@ bool is_one_a_line(const std::vector<std::string>& lines, const MarkerRegistry& 
   return !registry.markers.empty();
 }
 
+/// The index of the line that is the alignment as a whole.
+std::optional<std::size_t> line_of_alignment(const std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (lines[i].starts_with("alignment: {") && lines[i].find('}') != std::string::npos) return i;
+  return std::nullopt;
+}
+
 /// What a survey knows of a marker holds for as long as nobody moves it.
 MarkerRegistry with_sigmas_of(const MarkerRegistry& before, MarkerRegistry after) {
   for (RegisteredMarker& marker : after.markers) {
@@ -64,12 +72,17 @@ MarkerRegistry with_sigmas_of(const MarkerRegistry& before, MarkerRegistry after
 std::string edited_registry_text(const std::string& text, const MarkerRegistry& before,
                                  const MarkerRegistry& edited_registry) {
   const MarkerRegistry after = with_sigmas_of(before, edited_registry);
-  const std::vector<std::string> old_lines = lines_of(text);
+  std::vector<std::string> old_lines = lines_of(text);
   const bool alignment_stays = same(before.map_from_registry, after.map_from_registry);
-  if (!alignment_stays || after.markers.empty() || !is_one_a_line(old_lines, before)) {
+  const std::optional<std::size_t> alignment_line = line_of_alignment(old_lines);
+  if (after.markers.empty() || !is_one_a_line(old_lines, before) || (!alignment_stays && !alignment_line)) {
     return registry_text(after);
   }
   const std::vector<std::string> fresh = fresh_lines(after);
+  if (!alignment_stays) {
+    std::string& line = old_lines[*alignment_line];
+    line = fresh.front() + line.substr(line.find('}') + 1);
+  }
   std::map<int, std::size_t> place_in_after;
   for (std::size_t i = 0; i < after.markers.size(); ++i) place_in_after.emplace(after.markers[i].id, i);
   std::map<int, const RegisteredMarker*> marker_on_line;

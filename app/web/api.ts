@@ -134,8 +134,8 @@ export const importMarkers = (name: string, text: string): Promise<Registry> =>
   json(request('POST', '/api/markers/import', { name, text }));
 /** The table of `lodestar markers plan`, as CSV. */
 export const planOf = (registry: Registry): Promise<{ text: string }> => json(request('POST', '/api/markers/plan', registry));
-export const printSheets = async (ids: number[], paper: string): Promise<Blob> =>
-  (await request('POST', '/api/markers/print', { ids, paper })).blob();
+export const printSheets = async (ids: number[], registry: Registry, paper: string): Promise<Blob> =>
+  (await request('POST', '/api/markers/print', { ids, registry, paper })).blob();
 /** A state of a document that was saved over: when (UTC), and by whom if that is known. */
 export interface FormerState { number: number; at: string; by: string }
 export const getHistory = (): Promise<FormerState[]> => json(request('GET', '/api/markers/history'));

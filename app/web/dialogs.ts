@@ -47,10 +47,10 @@ export async function printChosen(editor: Editor): Promise<void> {
   const chosen = editor.chosen();
   const ids = [...new Set((chosen.length > 0 ? chosen : [...editor.markers.values()]).map((m) => m.id))].sort((a, b) => a - b);
   const [row, select] = choice('print-paper', 'Paper', ['A4', 'A3']);
-  const words = `${plural(ids.length, 'sheet')}, one for each ${chosen.length > 0 ? 'chosen ' : ''}marker, as a PDF in true scale. ` +
+  const words = `${plural(ids.length, 'sheet')}, one for each ${chosen.length > 0 ? 'chosen ' : ''}marker with where it hangs, as a PDF in true scale. ` +
     'Print at 100 % and measure the ruler.';
   if (ids.length === 0 || await ask('Print markers', [el('p', {}, words), row], [['go', 'Download'], ['', 'Cancel']]) !== 'go') return;
-  download('markers.pdf', await api.printSheets(ids, select.value));
+  download('markers.pdf', await api.printSheets(ids, editor.registry(), select.value));
 }
 
 export type Resolution = 'merge' | 'theirs' | 'mine' | '';

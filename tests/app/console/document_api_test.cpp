@@ -285,6 +285,12 @@ TEST_F(ConsoleTest, exports_imports_and_prints) {
        {json(4096), json(-1), json(1.5), json(1e20), json(4294967301), json(true), json("all")})
     EXPECT_EQ(post("/api/markers/print", {{"ids", json::array({id})}}).status, 422) << id;
   EXPECT_EQ(post("/api/markers/print", {{"ids", "all"}}).status, 422);
+  EXPECT_THAT(post("/api/markers/print", {{"ids", {447}}, {"registry", registry}}).body,
+              HasSubstr("(centre x "));
+  EXPECT_EQ(post("/api/markers/print", {{"ids", {5}}, {"registry", registry}}).status, 422) << "it has none";
+  json all = json::array();
+  for (int id = 0; id < 4096; ++id) all.push_back(id);
+  EXPECT_EQ(post("/api/markers/print", {{"ids", all}}).status, 200);
 }
 
 /// Printing such a value into a response recurses once per level, and would overflow the stack.
@@ -312,6 +318,9 @@ TEST(RegistryEdit, keeps_comments_and_rewrites_what_is_not_one_a_line) {
   std::string wanted = text;
   wanted.replace(wanted.find("x_m: 3,"), 7, "x_m: 4,");
   EXPECT_EQ(edited_registry_text(text, before, after), wanted);
+  after.map_from_registry.position_m.x() = 0.5;
+  wanted.replace(wanted.find("x_m: 0,"), 7, "x_m: 0.5,");
+  EXPECT_EQ(edited_registry_text(text, before, after), wanted) << "an alignment";
 
   const std::string block =
       "format: lodestar-markers\nversion: 1\nalignment: {x_m: 0, y_m: 0, yaw_deg: 0}\n"

@@ -1,14 +1,15 @@
-#include "app/placement/sheet.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
 
+#include "app/placement/place_sheet.hpp"
 #include "maps/marker.hpp"
 
 // Measures the sheets as with a ruler: in the written file, in millimetres on paper.
 namespace lodestar {
 namespace {
+
+using ::testing::HasSubstr;
 
 constexpr double mm_per_point = 25.4 / 72.0;
 
@@ -177,6 +178,38 @@ TEST_P(SheetInPdf, has_a_cross_to_drill_by_in_the_middle_of_each_dot) {
     EXPECT_EQ(count_of(strokes, middle - Vec2(3.0, 0.0), middle + Vec2(3.0, 0.0)), 1);
     EXPECT_EQ(count_of(strokes, middle - Vec2(0.0, 3.0), middle + Vec2(0.0, 3.0)), 1);
   }
+}
+
+TEST(MarkerSheet, of_a_site_says_where_its_marker_hangs_and_shows_it_on_a_plan) {
+  OccupancyMap map{
+      .columns = 60, .rows = 40, .resolution_m = 0.1, .map_from_grid = {{-1.0, 2.0}, 0.0}, .cells = {}};
+  map.cells.assign(60 * 40, OccupancyMap::free);
+  for (int row = 0; row < 40; ++row)
+    map.cells[map.index({0, row})] = OccupancyMap::occupied;  // ends at x = -0.9
+  MarkerRegistry registry;
+  registry.markers.push_back({7, {0.94, 4.06, 2.6}, 0.0});  // O; the square's centre is at 1, 4
+  const SheetPage page = PlaceSheets(map, "Hall (\xC3\x96st)", "2026-11-26", *paper_named("A4"))
+                             .page(registry, registry.markers[0]);
+  const std::string pdf = pdf_text({page});
+  for (const char* words :
+       {"(Hall \\(?st\\), 2026-11-26)", "(centre x 1.000 m, y 4.000 m)",
+        "(2.600 m above the floor, face down)", "(arrow O to X at 0.0 degrees on the plan)",
+        "(1.900 m from the wall on the left)"}) {
+    EXPECT_THAT(pdf, HasSubstr(words));
+  }
+  // 6 x 4 m drawn 51 x 34 mm with its upper right corner 12 mm inside the page's; the cross is 2 m from the
+  // left, half way up.
+  const double mm_per_m_of_plan = 34.0 / 4.0;
+  const Vec2 corner_mm(210.0 - 12.0 - 51.0, 297.0 - 12.0 - 34.0);
+  const Vec2 at_mm = corner_mm + mm_per_m_of_plan * Vec2(2.0, 2.0);
+  const std::vector<Stroke> strokes = strokes_in_pdf(pdf);
+  EXPECT_EQ(count_of(strokes, at_mm - Vec2(4.0, 0.0), at_mm + Vec2(4.0, 0.0)), 1);
+  EXPECT_EQ(count_of(strokes, at_mm - Vec2(0.0, 4.0), at_mm + Vec2(0.0, 4.0)), 1);
+  int walls = 0;
+  for (const Stroke& stroke : strokes)
+    if (std::abs(stroke.width_mm - 0.5) < 1e-3 && std::abs(stroke.from_mm.x() - corner_mm.x()) < 0.01)
+      ++walls;
+  EXPECT_EQ(walls, 68) << "each half millimetre of the wall on the left";
 }
 
 TEST(MarkerSheet, lists_its_objects_where_they_are) {
