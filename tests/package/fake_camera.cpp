@@ -2,7 +2,8 @@
 #include <csignal>
 #include <cstdio>
 
-// A GigE Vision camera on the loopback interface, Aravis' own, until it is told to end: what service_trials pulls.
+// A GigE Vision camera on the loopback interface, Aravis' own, until it is told to end: what service_trials
+// pulls.
 int main() {
   sigset_t ends;
   sigemptyset(&ends);
