@@ -21,11 +21,8 @@ std::optional<double> to_wall(const OccupancyMap& map, const Vec2& from, Cell st
 }
 
 /// "left,1.250", or ",".
-std::string nearer(const char* low, const std::optional<double>& low_m, const char* high,
-                   const std::optional<double>& high_m) {
-  if (!low_m && !high_m) return ",";
-  const bool is_low = low_m && (!high_m || *low_m <= *high_m);
-  return fmt::format("{},{:.3f}", is_low ? low : high, is_low ? *low_m : *high_m);
+std::string csv_of(const std::optional<NearerWall>& wall) {
+  return wall ? fmt::format("{},{:.3f}", wall->side, wall->distance_m) : ",";
 }
 
 /// Of RFC 4180.
@@ -37,6 +34,13 @@ std::string quoted(const std::string& words) {
 }
 
 }  // namespace
+
+std::optional<NearerWall> nearer_wall(const std::string& low, const std::optional<double>& low_m,
+                                      const std::string& high, const std::optional<double>& high_m) {
+  if (!low_m && !high_m) return std::nullopt;
+  const bool is_low = low_m && (!high_m || *low_m <= *high_m);
+  return NearerWall{is_low ? low : high, is_low ? *low_m : *high_m};
+}
 
 WallDistances wall_distances(const OccupancyMap& map, const Vec2& center_in_map_m) {
   const Vec2 from = (inverse(map.map_from_grid) * center_in_map_m) / map.resolution_m;
@@ -55,10 +59,10 @@ std::string installation_csv(const MarkerRegistry& registry, const OccupancyMap&
     const Vec3 center_m = center_in_map(registry, marker);
     const WallDistances walls = wall_distances(map, center_m.head<2>());
     const double yaw_rad = flattened(map_from_marker(registry, marker)).yaw_rad;
-    text += fmt::format("{},{:.3f},{:.3f},{:.3f},{:.1f},{},{},down,{},{}\n", marker.id, center_m.x(),
-                        center_m.y(), center_m.z(), degrees(yaw_rad),
-                        nearer("left", walls.left_m, "right", walls.right_m),
-                        nearer("below", walls.below_m, "above", walls.above_m), quoted(site), quoted(date));
+    text += fmt::format(
+        "{},{:.3f},{:.3f},{:.3f},{:.1f},{},{},down,{},{}\n", marker.id, center_m.x(), center_m.y(),
+        center_m.z(), degrees(yaw_rad), csv_of(nearer_wall("left", walls.left_m, "right", walls.right_m)),
+        csv_of(nearer_wall("below", walls.below_m, "above", walls.above_m)), quoted(site), quoted(date));
   }
   return text;
 }

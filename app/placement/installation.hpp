@@ -18,6 +18,15 @@ struct WallDistances {
   std::optional<double> above_m;  ///< towards +y
 };
 
+/// The nearer of two opposite walls, in the caller's words, and how far it is; nothing where there is
+/// neither.
+struct NearerWall {
+  std::string side;
+  double distance_m = 0.0;
+};
+std::optional<NearerWall> nearer_wall(const std::string& low, const std::optional<double>& low_m,
+                                      const std::string& high, const std::optional<double>& high_m);
+
 WallDistances wall_distances(const OccupancyMap& map, const Vec2& center_in_map_m);
 
 /// What whoever hangs the markers needs, as CSV: `id,x_m,y_m,z_m,yaw_deg,wall_x,wall_x_m,wall_y,wall_y_m,

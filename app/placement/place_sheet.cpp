@@ -26,12 +26,16 @@ std::string ascii(const std::string& words) {
   return plain;
 }
 
-/// "0.315 m from the wall above", or nothing.
-std::string nearer_wall(const char* low, const std::optional<double>& low_m, const char* high,
-                        const std::optional<double>& high_m) {
-  if (!low_m && !high_m) return "";
-  const bool is_low = low_m && (!high_m || *low_m <= *high_m);
-  return fmt::format("{:.3f} m from the wall {}", is_low ? *low_m : *high_m, is_low ? low : high);
+/// "1.030 m from the wall on the left, 0.315 m from the wall above", or of one, or nothing.
+std::string words_of(const WallDistances& walls) {
+  std::string words;
+  for (const auto& wall : {nearer_wall("on the left", walls.left_m, "on the right", walls.right_m),
+                           nearer_wall("below", walls.below_m, "above", walls.above_m)}) {
+    if (!wall) continue;
+    words +=
+        fmt::format("{}{:.3f} m from the wall {}", words.empty() ? "" : ", ", wall->distance_m, wall->side);
+  }
+  return words;
 }
 
 }  // namespace
@@ -79,18 +83,15 @@ Vec2 PlaceSheets::on_plan_mm(const Vec2& in_map_m) const {
 SheetPage PlaceSheets::page(const MarkerRegistry& registry, const RegisteredMarker& marker) const {
   SheetPage page = draw_marker_sheet(marker.id, paper_);
   const Vec3 center_m = center_in_map(registry, marker);
-  const double yaw_deg = degrees(flattened(map_from_marker(registry, marker)).yaw_rad);
-  const WallDistances walls = wall_distances(map_, center_m.head<2>());
-  const std::string x_wall = nearer_wall("on the left", walls.left_m, "on the right", walls.right_m);
-  const std::string y_wall = nearer_wall("below", walls.below_m, "above", walls.above_m);
+  const double yaw_rad = flattened(map_from_marker(registry, marker)).yaw_rad - map_.map_from_grid.yaw_rad;
   constexpr double size_mm = 3.5;
   constexpr double row_mm = 5.0;
   double y_mm = paper_.height_mm - page_margin_mm - size_mm;
   for (const std::string& words :
        {head_, fmt::format("centre x {:.3f} m, y {:.3f} m", center_m.x(), center_m.y()),
         fmt::format("{:.3f} m above the floor, face down", center_m.z()),
-        fmt::format("arrow O to X at {:.1f} degrees on the plan", yaw_deg),
-        x_wall + (x_wall.empty() || y_wall.empty() ? "" : ", ") + y_wall}) {
+        fmt::format("arrow O to X at {:.1f} degrees on the plan", degrees(wrap_angle(yaw_rad))),
+        words_of(wall_distances(map_, center_m.head<2>()))}) {
     page.marks.emplace_back(SheetText{{page_margin_mm, y_mm}, size_mm, words});
     y_mm -= row_mm;
   }
