@@ -80,15 +80,18 @@ HttpResponse printed(const json& request, const Site& site) {
     return refusal(422, fmt::format("wanted A4 or A3 and 1 to {} IDs", most_sheets));
   }
   std::optional<MarkerRegistry> registry;
-  if (request.contains("registry")) registry = registry_from_json(request["registry"].dump());
-  const PlaceSheets places(site.map.map, site.name, today(), *paper);
+  std::optional<PlaceSheets> places;
+  if (request.contains("registry")) {
+    registry = registry_from_json(request["registry"].dump());
+    places.emplace(site.map.map, site.name, today(), *paper);
+  }
   std::vector<SheetPage> pages;
   for (const json& written : ids) {
     const int id = static_cast<int>(whole_number(written, marker_id_count - 1));
     const RegisteredMarker* const marker = registry ? registry->find(id) : nullptr;
     if (registry && marker == nullptr)
       return refusal(422, fmt::format("found no marker {} in the registry", id));
-    pages.push_back(marker != nullptr ? places.page(*registry, *marker) : draw_marker_sheet(id, *paper));
+    pages.push_back(marker != nullptr ? places->page(*registry, *marker) : draw_marker_sheet(id, *paper));
   }
   return {.content_type = "application/pdf", .body = pdf_text(pages)};
 }

@@ -57,12 +57,12 @@ export type Resolution = 'merge' | 'theirs' | 'mine' | '';
 
 const mostLines = 40;
 
+/** A line for each change, and how many more there are. */
+export const changeList = (lines: string[]): HTMLElement[] => [el('ul', { class: 'plain' }, ...lines.slice(0, mostLines).map((line) => el('li', {}, line))),
+  ...(lines.length > mostLines ? [el('p', {}, `and ${lines.length - mostLines} more`)] : [])];
+
 /** The changes that are not saved, marker by marker. */
-const changesOf = (from: Registry, to: Registry): HTMLElement[] => {
-  const lines = differences(from, to);
-  return [el('ul', { class: 'plain' }, ...lines.slice(0, mostLines).map((line) => el('li', {}, line))),
-    ...(lines.length > mostLines ? [el('p', {}, `and ${lines.length - mostLines} more`)] : [])];
-};
+const changesOf = (from: Registry, to: Registry): HTMLElement[] => changeList(differences(from, to));
 
 export async function askAboutConflict(base: Registry, mine: Registry, theirs: Registry): Promise<Resolution> {
   const words = `Another user has saved: ${summary(base, theirs)}. You: ${summary(base, mine)}.`;

@@ -34,15 +34,14 @@ export class MapMode {
     this.before = await api.getTaggedCells();
     this.paint = new MapPaint(this.info.columns, this.info.rows, new Uint8Array(this.before.cells));
     this.stage = new NewStage();
+    this.stage.showMap(this.paint);
     if (this.live.hello?.robot) {
       this.stage.drawable = false;
-      this.stage.showMap(this.paint);
       byId('map').replaceChildren(el('p', {}, 'A robot runs on this map. End it, draw in the console of lodestar serve, and start the robot again.'));
       return;
     }
     this.tools = new MapTools(this.stage, () => this.paint);
     byId('map').replaceChildren(el('p', {}, 'The wheel zooms, the right button moves the map.'), this.tools.element, this.words, el('div', { class: 'row' }, this.save));
-    this.stage.showMap(this.paint);
     this.stage.onStroke = () => this.refresh();
     this.tools.pick('line', 'wall');
     this.refresh();

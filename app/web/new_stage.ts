@@ -31,7 +31,7 @@ export class NewStage {
   constructor() {
     byId('stage').append(this.canvas);
     new ResizeObserver(() => this.resize()).observe(byId('stage'));
-    new MutationObserver(() => { if (this.paint) this.showColours(this.paint); }).observe(document.documentElement, { attributeFilter: ['data-theme'] });
+    new MutationObserver(() => this.changeColours()).observe(document.documentElement, { attributeFilter: ['data-theme'] });
     this.listen();
   }
 
@@ -46,13 +46,14 @@ export class NewStage {
     this.paint = paint;
     this.plan = null;
     [this.tiles.width, this.tiles.height] = [paint.columns, paint.rows];
+    this.paintAll(this.tiles.getContext('2d')!, paint);
     paint.onChange = () => { this.redraw(); this.onStroke(); };
-    this.showColours(paint);
     this.fit();
   }
 
-  private showColours(paint: MapPaint): void {
-    this.paintAll(this.tiles.getContext('2d')!, paint);
+  private changeColours(): void {
+    if (this.paint === null) return;
+    this.paintAll(this.tiles.getContext('2d')!, this.paint);
     this.redraw();
   }
 
@@ -122,11 +123,11 @@ export class NewStage {
   private paintAll(tiles: CanvasRenderingContext2D, paint: MapPaint): void {
     const picture = new ImageData(paint.columns, paint.rows);
     const pixels = new Uint32Array(picture.data.buffer);
-    const inks = new Map([wall, floor, outside].map((cell) => [cell as number, pixelOf(inkOf(cell))]));
-    const unknown = inks.get(outside)!;
+    const [onWall, onFloor, unknown] = [pixelOf(inkOf(wall)), pixelOf(inkOf(floor)), pixelOf(inkOf(outside))];
     for (let row = 0; row < paint.rows; ++row) {
       for (let column = 0; column < paint.columns; ++column) {
-        pixels[(paint.rows - 1 - row) * paint.columns + column] = inks.get(paint.cells[row * paint.columns + column]!) ?? unknown;
+        const cell = paint.cells[row * paint.columns + column];
+        pixels[(paint.rows - 1 - row) * paint.columns + column] = cell === wall ? onWall : cell === floor ? onFloor : unknown;
       }
     }
     tiles.putImageData(picture, 0, 0);

@@ -6,7 +6,8 @@ import { Draft } from './draft.js';
 import { isSpot, isZone } from './places_doc.js';
 import { PlacesEditor } from './places_doc.js';
 import type { Kind, PlacesDocument } from './places_doc.js';
-import { askAboutPlaces, changesOfPlaces, offerPlacesDraft } from './places_dialogs.js';
+import { changeList } from './dialogs.js';
+import { askAboutPlaces, offerPlacesDraft } from './places_dialogs.js';
 import { openPlacesHistory } from './places_history.js';
 import { mergedPlaces, placesDifferences } from './places_merge.js';
 import { paintDrawing, paintPlaces } from './places_paint.js';
@@ -216,7 +217,7 @@ export class SitePlaces {
   private async reload(): Promise<string> {
     const tagged = await api.getPlaces();
     const lines = placesDifferences(tagged.places, this.editor.document());
-    if (this.editor.dirty && await ask('Throw away your changes?', changesOfPlaces(lines), [['', 'Keep editing'], ['go', 'Throw away and reload']]) !== 'go') return 'Kept your changes';
+    if (this.editor.dirty && await ask('Throw away your changes?', changeList(lines), [['', 'Keep editing'], ['go', 'Throw away and reload']]) !== 'go') return 'Kept your changes';
     this.take(tagged);
     this.editor.replaceAll(tagged.places);
     this.nowSaved();
