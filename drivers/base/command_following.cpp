@@ -1,6 +1,7 @@
 #include "drivers/base/command_following.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lodestar {
 namespace {
@@ -17,7 +18,7 @@ bool is_between(double value, double a, double b, double tolerance) {
 
 void CommandFollowing::restart(Stamp now, const BodyVelocity& measured) {
   last_ = now;
-  strayed_grossly_ = strayed_ = Duration::zero();
+  strayed_ = {};
   slowest_ = measured;
 }
 
@@ -30,16 +31,22 @@ bool CommandFollowing::strays(Stamp now, const BodyVelocity& commanded, const Bo
                                       options_.min_turn_acceleration_radps2 * elapsed_s);
   last_ = now;
 
-  const auto still_strayed = [&](Duration before, const FollowingTolerance& tolerance) {
-    const bool follows =
-        is_between(measured.forward_mps, slowest_.forward_mps, commanded.forward_mps,
-                   tolerance.forward_mps) &&
-        is_between(measured.turn_radps, slowest_.turn_radps, commanded.turn_radps, tolerance.turn_radps);
-    return follows ? Duration::zero() : before + elapsed;
+  const auto follows = [&](const FollowingTolerance& tolerance) {
+    const auto at_most = [&](double most, double command) {
+      return std::max(most, tolerance.share * std::abs(command));
+    };
+    return is_between(measured.forward_mps, slowest_.forward_mps, commanded.forward_mps,
+                      at_most(tolerance.forward_mps, commanded.forward_mps)) &&
+           is_between(measured.turn_radps, slowest_.turn_radps, commanded.turn_radps,
+                      at_most(tolerance.turn_radps, commanded.turn_radps));
   };
-  strayed_grossly_ = still_strayed(strayed_grossly_, options_.gross);
-  strayed_ = still_strayed(strayed_, options_.fine);
-  return strayed_grossly_ > options_.gross.patience || strayed_ > options_.fine.patience;
+  bool too_long = false;
+  for (std::size_t i = 0; i < strayed_.size(); ++i) {
+    const FollowingTolerance& tolerance = options_.tolerances[i];
+    strayed_[i] = follows(tolerance) ? Duration::zero() : strayed_[i] + elapsed;
+    too_long = too_long || strayed_[i] > tolerance.patience;
+  }
+  return too_long;
 }
 
 }  // namespace lodestar

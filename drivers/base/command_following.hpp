@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "maps/motion.hpp"
@@ -11,12 +12,18 @@ struct FollowingTolerance {
   double forward_mps = 0.0;
   double turn_radps = 0.0;
   Duration patience{};
+  double share = 0.0;  ///< of the command, where that is more
 };
 
 struct CommandFollowingOptions {
-  FollowingTolerance gross{.forward_mps = 0.3, .turn_radps = 0.8, .patience = std::chrono::milliseconds(200)};
-  /// One stuck wheel of a creeping robot deviates by no more than this.
-  FollowingTolerance fine{.forward_mps = 0.15, .turn_radps = 0.35, .patience = std::chrono::seconds(1)};
+  std::array<FollowingTolerance, 3> tolerances{{
+      {.forward_mps = 0.3, .turn_radps = 0.8, .patience = std::chrono::milliseconds(200)},
+      // One stuck wheel of a slow robot deviates by no more than this.
+      {.forward_mps = 0.15, .turn_radps = 0.35, .patience = std::chrono::seconds(1)},
+      // And one of a robot that creeps at 0.05 m/s: its controller turns against what the stuck wheel reports
+      // until the other one stands by the reports, too, at 2 x 0.05 m/s over the track width.
+      {.forward_mps = 0.1, .turn_radps = 0.2, .patience = std::chrono::milliseconds(1500), .share = 0.5},
+  }};
   double min_acceleration_mps2 = 1.0;  ///< reached by any healthy base, towards the command
   double min_turn_acceleration_radps2 = 3.0;
   Duration max_interval = std::chrono::milliseconds(50);  ///< most that counts of the time between two calls
@@ -44,8 +51,7 @@ class CommandFollowing {
  private:
   CommandFollowingOptions options_;
   Stamp last_;
-  Duration strayed_grossly_{};
-  Duration strayed_{};  ///< by more than the fine tolerance
+  std::array<Duration, 3> strayed_{};  ///< by more than each tolerance, without a break
   BodyVelocity slowest_;
 };
 

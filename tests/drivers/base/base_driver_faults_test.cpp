@@ -219,13 +219,7 @@ TEST_F(BaseDriverTest, latches_a_base_that_runs_away) {
 TEST_F(BaseDriverTest, latches_a_wheel_that_stands_while_the_robot_creeps) {
   make_ready();
   measured = {0.0, 0.0};
-  BaseFeedback feedback;
-  int periods_until_fault = 0;
-  for (; feedback.state != BaseState::fault && periods_until_fault < 100; ++periods_until_fault) {
-    driver.command({0.12, -0.57});
-    feedback = period();
-  }
-  EXPECT_EQ(feedback.fault, BaseFault::not_following);
+  const int periods_until_fault = periods_until_not_following({0.12, -0.57});
   // 0.12 s until even the slowest base turns at 0.35 rad/s, and 1 s of tolerance.
   EXPECT_NEAR(periods_until_fault, 56, 2);
 }
@@ -239,15 +233,19 @@ TEST_F(BaseDriverTest, bears_with_a_base_that_is_a_little_slow) {
   }
 }
 
+/// The controller of a robot that creeps turns against what a stuck encoder reports, until the other wheel
+/// stands: it drove on a circle for five seconds (mission 1677 of the campaign).
+TEST_F(BaseDriverTest, latches_a_base_that_creeps_and_does_not_turn_as_it_should) {
+  make_ready();
+  measured = {0.035, 0.0};
+  const int periods_until_fault = periods_until_not_following({0.07, -0.33});
+  // 0.07 s until even the slowest base turns at 0.2 rad/s, and 1.5 s of tolerance.
+  EXPECT_NEAR(periods_until_fault, 79, 2);
+}
+
 TEST_F(BaseDriverTest, latches_a_base_that_ignores_its_commands) {
   make_ready();
-  BaseFeedback feedback;
-  int periods_until_fault = 0;
-  for (; feedback.state != BaseState::fault && periods_until_fault < 100; ++periods_until_fault) {
-    driver.command({0.6, 0.0});
-    feedback = period();
-  }
-  EXPECT_EQ(feedback.fault, BaseFault::not_following);
+  const int periods_until_fault = periods_until_not_following({0.6, 0.0});
   // 0.3 s until even the slowest base moves at 0.3 m/s, and 0.2 s of tolerance.
   EXPECT_NEAR(periods_until_fault, 25, 2);
 }

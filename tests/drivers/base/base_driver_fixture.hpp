@@ -68,6 +68,18 @@ class BaseDriverTest : public ::testing::Test {
     bus.sent.clear();
   }
 
+  /// Until the base latches as one that does not follow this command, whatever it measures.
+  int periods_until_not_following(const BodyVelocity& commanded) {
+    BaseFeedback feedback;
+    int count = 0;
+    for (; feedback.state != BaseState::fault && count < 200; ++count) {
+      driver.command(commanded);
+      feedback = period();
+    }
+    EXPECT_EQ(feedback.fault, BaseFault::not_following);
+    return count;
+  }
+
   void expect_latched(BaseFault fault, const BaseFeedback& feedback) {
     EXPECT_EQ(feedback.state, BaseState::fault);
     EXPECT_EQ(feedback.fault, fault) << to_string(feedback.fault.value_or(BaseFault::send_failed));
