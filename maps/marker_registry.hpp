@@ -12,6 +12,7 @@ namespace lodestar {
 struct MarkerSigma {
   double position_m = 0.0;
   double yaw_rad = 0.0;
+  double tilt_rad = 0.0;  ///< about each horizontal axis, of a marker that should lie level
 };
 
 /// One surveyed marker: the centre of its dot O, and the direction O->X counter-clockwise from the x axis

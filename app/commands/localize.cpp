@@ -10,6 +10,7 @@
 #include "app/commands/frame_arguments.hpp"
 #include "app/commands/localize_methods.hpp"
 #include "app/common/rounding.hpp"
+#include "app/navigation/navigation_setup.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -22,6 +23,7 @@ struct LocalizeArguments {
   std::string format = "csv";
   bool upright = false;
   double tilt_sigma_deg = -1.0;
+  double marker_tilt_sigma_deg = 0.0;
   bool track = false;
   FrameArguments frames;
 };
@@ -29,14 +31,10 @@ struct LocalizeArguments {
 PoseFixOptions fix_options(const LocalizeArguments& arguments, const std::optional<Robot>& robot) {
   PoseFixOptions options;
   PosePrior& prior = options.prior;
-  if (robot) {
-    prior.tilt = rotation_from({robot->camera_mount.roll_rad, robot->camera_mount.pitch_rad, 0.0});
-    prior.tilt_sigma_rad = robot->mount_tilt_sigma_rad;
-    prior.height_m = robot->base_from_camera.translation().z();
-    prior.height_sigma_m = robot->mount_height_sigma_m;
-  }
+  if (robot) prior = pose_prior(*robot);
   if (arguments.upright) prior.tilt_sigma_rad = 0.0;
   if (arguments.tilt_sigma_deg >= 0.0) prior.tilt_sigma_rad = radians(arguments.tilt_sigma_deg);
+  options.marker_tilt_sigma_rad = radians(arguments.marker_tilt_sigma_deg);
   return options;
 }
 
@@ -145,11 +143,12 @@ std::unique_ptr<FrameLocalizer> localizer_for(const LocalizeArguments& arguments
   if (arguments.frames.method != "paper") {
     return default_localizer(registry, camera, robot, fix_options(arguments, robot), arguments.track);
   }
-  if (arguments.upright || arguments.tilt_sigma_deg >= 0.0 || arguments.track) {
+  if (arguments.upright || arguments.tilt_sigma_deg >= 0.0 || arguments.marker_tilt_sigma_deg > 0.0 ||
+      arguments.track) {
     throw InputError(
-        "--method paper: found --upright, --tilt-sigma-deg or --track, wanted none of them: the paper's pose "
-        "is "
-        "from one frame alone, with the tilt free");
+        "--method paper: found --upright, --tilt-sigma-deg, --marker-tilt-sigma-deg or --track, wanted none "
+        "of "
+        "them: the paper's pose is from one frame alone, with the tilt free and level markers");
   }
   return paper_localizer(registry, camera, robot);
 }
@@ -202,6 +201,12 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
                    "Standard deviation of the tilt about that of the mount, in degrees")
       ->check(CLI::Range(0.0, 45.0))
       ->excludes(upright);
+  command
+      ->add_option("--marker-tilt-sigma-deg", arguments->marker_tilt_sigma_deg,
+                   "Standard deviation of a marker's tilt about each horizontal axis, in degrees; drives "
+                   "assume 1. 0: the markers are level")
+      ->check(CLI::Range(0.0, 20.0))
+      ->capture_default_str();
   command->add_flag("--track", arguments->track,
                     "The frames are a sequence: search first where the last pose predicts the markers");
   command

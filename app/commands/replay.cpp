@@ -79,7 +79,6 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
                                 .pictures_hz = arguments.pictures_hz.value_or(arguments.serve ? 2.0 : 0.0),
                                 .realtime = arguments.realtime};
   if (!arguments.faults.empty()) options.faults = faults_named(arguments.faults);
-  use_people(arguments.people, options);
   if (!site.cameras.contains(options.camera)) {
     throw InputError(site.folder / "site.yaml", 0, "no camera '" + options.camera + "'",
                      "--camera to name one of its cameras");
@@ -99,6 +98,7 @@ SimulatedDriveOptions replay_options(const ReplayArguments& arguments, const Sit
   if (arguments.routes)
     options.goals =
         RouteGraph(site.places, site.robot.max_forward_mps).over_edges(site.start.position_m, options.goals);
+  use_people(arguments.people, site, options);
   return options;
 }
 
@@ -151,7 +151,7 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
   if (!end.loss.empty())
     fmt::print(stderr, "lodestar: warning: the run is not recorded as a whole: {}\n", end.loss);
   RunSummary summary = summarize(record);
-  if (options.people.count > 0) summary.people = record.contact_score;
+  if (options.has_people_or_things()) summary.people = record.contact_score;
   if (arguments.json) {
     fmt::print("{}\n", as_json(summary).dump(2));
   } else {
@@ -216,9 +216,9 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
   return all_arrived && is_recorded ? done : job_failed;
 }
 
-/// To see people, and to be at fault itself.
+/// To see people and things, and to be at fault itself.
 bool needs_scanner(const ReplayArguments& arguments) {
-  if (arguments.people.count > 0) return true;
+  if (arguments.people.any()) return true;
   return !arguments.faults.empty() &&
          std::ranges::any_of(faults_named(arguments.faults), concerns_scanner, &Fault::kind);
 }

@@ -62,6 +62,10 @@ std::optional<SurroundingsOptions> surroundings_options(const Robot& robot, cons
   return options;
 }
 
+/// A robot that may arrive far off its goal still goes as near as that, as the place is searched by the
+/// millimetre.
+constexpr double max_goal_slack_m = 0.015;
+
 NavigationOptions navigation_options(const Robot& robot) {
   NavigationOptions options;
   options.fix.prior = pose_prior(robot);
@@ -70,6 +74,12 @@ NavigationOptions navigation_options(const Robot& robot) {
   // a real ceiling, check the fixes' residual_px (run.mcap and the live viewers): half its square is about
   // the sum of the squares of this sigma and of the image noise, about 0.01 px.
   options.fix.dot_place_sigma_m = 0.00007;
+  // Assumed: what a careful person reaches with a laser. The price on an exact registry is half a millimetre
+  // (docs/decisions/0015-markers-off-their-places.md).
+  options.fix.unstated_sigma = {.position_m = 0.003, .yaw_rad = radians(0.3)};
+  // Assumed: tiles and film are level to this. A third of it would do on a level ceiling and not on one of 1
+  // degree; more costs nothing (docs/decisions/0014-markers-that-are-not-level.md).
+  options.fix.marker_tilt_sigma_rad = radians(1.0);
   options.filter.track_width_m = robot.track_width_m;
   options.filter.wheel_step_m = robot.encoder_step_m.value_or(options.filter.wheel_step_m);
   options.filter.wheel_noise_m_per_sqrt_m =
@@ -80,6 +90,7 @@ NavigationOptions navigation_options(const Robot& robot) {
   options.planner.radius_m = robot.radius_m;
   options.planner.footprint = robot.footprint;
   options.planner.preferred_clearance_m = robot.preferred_clearance_m;
+  options.planner.goal_slack_m = std::min(max_goal_slack_m, 0.5 * robot.arrival_distance_m);
   options.drive.max_forward_mps = robot.max_forward_mps;
   options.drive.max_turn_radps = robot.max_turn_radps;
   options.drive.max_acceleration_mps2 = robot.max_acceleration_mps2;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/filter/belief_offsets.hpp"
 #include "localization/filter/belief_pose.hpp"
 #include "maps/chi_square.hpp"
 
@@ -41,12 +42,16 @@ Eigen::Matrix<double, 3, 2> pose_by_arc(double yaw_rad, const Arc& arc) {
 /// in view. Assumed.
 constexpr double fix_bias_reach_m = 1.0;
 
-/// Covariance of the error that nearby fixes share: the site's part, and this fix's part from its markers.
+/// Covariance of the error that nearby fixes share: the site's part, and this fix's part from its markers but
+/// for the offsets that the belief has one by one.
 Mat3 shared_covariance(const PlanarFix& fix, const PoseFilterOptions& options) {
   constexpr double least_sigma = 1e-6;  // m, rad: sharing() divides by it
   const double position = square(std::max(options.fix_sigma_floor_m, least_sigma));
   const Vec3 of_site(position, position, square(std::max(options.fix_sigma_floor_rad, least_sigma)));
-  return fix.shared_covariance + Mat3(of_site.asDiagonal());
+  Mat3 shared = fix.shared_covariance + Mat3(of_site.asDiagonal());
+  for (const PlanarByOffset& by_offset : fix.by_offsets)
+    shared -= by_offset.jacobian * by_offset.jacobian.transpose();
+  return shared;
 }
 
 /// Covariance of the readings' rounding.
@@ -105,23 +110,24 @@ Belief sharing(const Belief& belief, const PlanarFix& fix, const PoseFilterOptio
   result.covariance.middleRows<3>(6) = scale * result.covariance.middleRows<3>(6);
   result.covariance.middleCols<3>(6) = result.covariance.middleCols<3>(6) * scale.transpose();
   result.covariance.block<3, 3>(6, 6) += (1.0 - kept * kept) * result.shared;
+  remember_offsets(fix, result);
   return result;
 }
 
-/// A fix observes the robot's pose plus the shared error.
 struct Innovation {
   Vec3 error;
   Mat3 covariance;
-  Eigen::Matrix<double, 3, 13> by_state;
+  Belief::ByState by_state;
 };
 
 Innovation innovation_of(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   Innovation innovation;
-  const Vec3 expected = pose_of(belief) + belief.mean.segment<3>(6);
+  innovation.by_state = fix_by_state(belief, fix);
+  const Eigen::Index offsets = belief.mean.size() - Belief::own_states;
+  const Vec3 expected = pose_of(belief) + belief.mean.segment<3>(6) +
+                        innovation.by_state.rightCols(offsets) * belief.mean.tail(offsets);
   innovation.error << fix.map_from_base.position_m - expected.head<2>(),
       wrap_angle(fix.map_from_base.yaw_rad - expected.z());
-  innovation.by_state = pose_by_state(belief);
-  innovation.by_state.middleCols<3>(6) = Mat3::Identity();
   innovation.covariance = innovation.by_state * belief.covariance * innovation.by_state.transpose() +
                           own_covariance(belief, fix, options);
   return innovation;
@@ -149,9 +155,10 @@ Vec3 pose_of(const Belief& belief) {
   return belief.mean.head<3>() + belief.mean[12] * velocity_in_map(belief);
 }
 
-Eigen::Matrix<double, 3, 13> pose_by_state(const Belief& belief) {
-  Eigen::Matrix<double, 3, 13> jacobian;
-  jacobian << Mat3::Identity(), Eigen::Matrix<double, 3, 9>::Zero(), velocity_in_map(belief);
+Belief::ByState pose_by_state(const Belief& belief) {
+  Belief::ByState jacobian = Belief::ByState::Zero(3, belief.mean.size());
+  jacobian.leftCols<3>().setIdentity();
+  jacobian.col(12) = velocity_in_map(belief);
   return jacobian;
 }
 
@@ -188,6 +195,13 @@ Belief belief_from(const PlanarFix& fix, const WheelTravel& travel, const WheelS
   belief.covariance.block<3, 3>(6, 6) = shared;
   belief.covariance.block<3, 3>(3, 3) = scales.covariance;
   belief.covariance(12, 12) = square(lag.sigma_s);
+  remember_offsets(fix, belief);
+  const Belief::ByState by_state = fix_by_state(belief, fix);
+  const Eigen::Index offsets = belief.mean.size() - Belief::own_states;
+  const auto by_offsets = by_state.rightCols(offsets);
+  belief.covariance.topLeftCorner<3, 3>() += by_offsets * by_offsets.transpose();
+  belief.covariance.topRightCorner(3, offsets) = -by_offsets;
+  belief.covariance.bottomLeftCorner(offsets, 3) = -by_offsets.transpose();
   return belief;
 }
 
@@ -217,7 +231,8 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   arc_by_wheels << 0.5, 0.5, -turn_per_m, turn_per_m;
   const Eigen::Matrix<double, 3, 2> by_wheels = by_arc * arc_by_wheels;
 
-  Belief::Covariance transition = Belief::Covariance::Identity();
+  using Transition = Eigen::Matrix<double, Belief::own_states, Belief::own_states>;
+  Transition transition = Transition::Identity();
   transition(0, 2) = -(pose.position_m.y() - from.mean.y());
   transition(1, 2) = pose.position_m.x() - from.mean.x();
   transition.block<3, 1>(0, 3) = by_wheels.col(0) * left_m;
@@ -226,7 +241,13 @@ Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOpti
   transition.diagonal().segment<3>(6).setConstant(kept);
 
   const Vec2 noise = square(options.wheel_noise_m_per_sqrt_m) * Vec2(std::abs(left_m), std::abs(right_m));
-  to.covariance.noalias() = transition * from.covariance * transition.transpose();
+  constexpr int own = Belief::own_states;
+  const Eigen::Index offsets = from.mean.size() - own;
+  to.covariance.topLeftCorner<own, own>() =
+      transition * from.covariance.topLeftCorner<own, own>() * transition.transpose();
+  to.covariance.topRightCorner(own, offsets).noalias() =
+      transition * from.covariance.topRightCorner(own, offsets);
+  to.covariance.bottomLeftCorner(offsets, own) = to.covariance.topRightCorner(own, offsets).transpose();
   to.covariance.topLeftCorner<3, 3>() += by_wheels * noise.asDiagonal() * by_wheels.transpose();
   to.covariance.diagonal().segment<3>(3).array() += square(options.wheel_scale_drift_per_sqrt_m) * way_m;
   to.covariance.block<3, 3>(6, 6) += (1.0 - kept * kept) * from.shared;
@@ -247,21 +268,19 @@ double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFi
 Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   const Belief expected = sharing(belief, fix, options);
   const Innovation innovation = innovation_of(expected, fix, options);
-  Eigen::Matrix<double, 13, 3> gain =
+  Belief::Gain gain =
       innovation.covariance.ldlt().solve(innovation.by_state * expected.covariance).transpose();
   gain.middleRows<3>(3) *= options.scales_learned_by_one_fix;
-  const Belief::Covariance keep = Belief::Covariance::Identity() - gain * innovation.by_state;
   Belief result = expected;
   result.mean += gain * innovation.error;
   result.mean[2] = wrap_angle(result.mean[2]);
-  // Joseph form: keeps the covariance positive, and is correct for any gain.
-  result.covariance = symmetric(keep * expected.covariance * keep.transpose() +
-                                gain * own_covariance(expected, fix, options) * gain.transpose());
+  result.covariance = after_correction(expected.covariance, gain, innovation.by_state,
+                                       own_covariance(expected, fix, options));
   return result;
 }
 
 Mat3 pose_covariance(const Belief& belief, const PoseFilterOptions& options) {
-  const Eigen::Matrix<double, 3, 13> by_state = pose_by_state(belief);
+  const Belief::ByState by_state = pose_by_state(belief);
   return by_state * belief.covariance * by_state.transpose() + reading_covariance(belief, options);
 }
 

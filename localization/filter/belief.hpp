@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "localization/ceiling/visual_odometry_increment.hpp"
+#include "localization/detection/inline_vector.hpp"
 #include "localization/filter/pose_filter_options.hpp"
 #include "localization/pose/mount.hpp"
 #include "maps/motion.hpp"
@@ -22,6 +23,12 @@ struct RecentMarker {
   double rolled_m = 0.0;
 };
 
+/// A marker whose offset from its registered place the belief has as a state.
+struct RecentOffset {
+  int id = 0;
+  Stamp used;  ///< by the newest fix that did
+};
+
 struct Lag {
   double mean_s = 0.0;
   double sigma_s = 0.0;
@@ -32,19 +39,29 @@ inline constexpr Lag initial_lag{.mean_s = 0.0, .sigma_s = 0.02};
 
 struct Belief {
   /// Four parts of three: the pose (x_m, y_m, yaw_rad) that the wheels' readings describe, the scales, the
-  /// error (x_m, y_m, yaw_rad) that nearby fixes share, and the keyframe's pose (x_m, y_m, yaw_rad). And the
-  /// readings' lag (s): the robot has left that pose at its velocity for so long.
-  using State = Eigen::Matrix<double, 13, 1>;
-  using Covariance = Eigen::Matrix<double, 13, 13>;
+  /// error (x_m, y_m, yaw_rad) that nearby fixes share, and the keyframe's pose (x_m, y_m, yaw_rad). The
+  /// readings' lag (s): the robot has left that pose at its velocity for so long. And of each marker in
+  /// `offsets` its offset as in PoseByOffset, in its sigmas.
+  static constexpr int own_states = 13;
+  static constexpr int states_of_offset = 5;
+  static constexpr int most_offsets = 8;  ///< a view has one to four, and a robot turns back to some
+  static_assert(most_offsets >= most_offsets_of_fix, "a fix needs all of its own");
+  static constexpr int most_states = own_states + most_offsets * states_of_offset;
+  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_states, 1>;
+  using Covariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_states, most_states>;
+  /// Derivative of what has three degrees of freedom.
+  using ByState = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_states>;
+  using Gain = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_states, 3>;
 
   WheelTravel travel;
   std::optional<Stamp> keyframe_stamp;  ///< capture time of the keyframe; nothing when there is none
   std::vector<RecentMarker> markers;    ///< used by fixes nearby
+  InlineVector<RecentOffset, most_offsets> offsets;
   /// Prior covariance of the error that nearby fixes share.
   Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();
   BodyVelocity velocity;  ///< by the readings, smoothed
-  State mean = State::Zero();
-  Covariance covariance = Covariance::Zero();
+  State mean = State::Zero(own_states);
+  Covariance covariance = Covariance::Zero(own_states, own_states);
 
   /// Where the robot is: the readings' pose, and the motion of their lag.
   [[nodiscard]] Pose2 map_from_base() const;

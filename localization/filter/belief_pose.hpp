@@ -9,7 +9,7 @@ namespace lodestar {
 Eigen::Vector3d pose_of(const Belief& belief);
 
 /// Its derivative by the state. That of the velocity's direction is left out: the lag's way is 1 cm at most.
-Eigen::Matrix<double, 3, 13> pose_by_state(const Belief& belief);
+Belief::ByState pose_by_state(const Belief& belief);
 
 /// Covariance between the robot's pose and the one that the readings give: of their rounding, and of their
 /// jitter in time. It is independent at each time and must not accumulate along the way, as it would in
@@ -22,6 +22,18 @@ template <typename Square>
 typename Square::PlainObject symmetric(const Square& covariance) {
   const typename Square::PlainObject whole = covariance;
   return 0.5 * (whole + whole.transpose());
+}
+
+/// Joseph form (Bucy and Joseph 1968): keeps the covariance positive, and is correct for any gain. Of
+/// (1 - K H) P (1 - K H)^T + K R K^T only products with three columns are formed.
+template <typename Square, typename Gain, typename ByState>
+Square after_correction(const Square& before, const Gain& gain, const ByState& by_state,
+                        const Eigen::Matrix3d& noise) {
+  Square after = before;
+  after.noalias() -= gain * (by_state * before).eval();
+  const Gain seen = after * by_state.transpose() - gain * noise;
+  after.noalias() -= seen * gain.transpose();
+  return symmetric(after);
 }
 
 }  // namespace lodestar

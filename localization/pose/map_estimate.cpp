@@ -37,8 +37,9 @@ Vec6 step_between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
 struct Normal {
   Mat6 information = Mat6::Zero();
   Mat6 information_of_dots = Mat6::Zero();  ///< without the prior's
-  Mat6 shared_of_gradient = Mat6::Zero();   ///< its covariance by the offsets of markers
-  Vec6 gradient = Vec6::Zero();             ///< of half the cost
+  Mat6 shared_of_gradient = Mat6::Zero();   ///< the gradient's covariance by the offsets of all markers
+  InlineVector<Mat65, most_offsets_of_fix> gradient_by_offsets;
+  Vec6 gradient = Vec6::Zero();  ///< of half the cost
   double cost = 0.0;
   bool is_quadratic = true;  ///< no dot is in the linear range of its Huber loss
 };
@@ -72,7 +73,11 @@ bool add_dots(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, 
 
 bool add_marker(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots, const DotsOfMarker& marker,
                 const CameraModel& camera, const PoseFixOptions& options, Normal& normal) {
-  if (!marker.sigma) return add_dots(pose, dots, camera, options, normal);
+  const bool is_listed = normal.gradient_by_offsets.size() < most_offsets_of_fix;
+  if (!marker.sigma) {
+    if (is_listed) normal.gradient_by_offsets.emplace_back(Mat65::Zero());
+    return add_dots(pose, dots, camera, options, normal);
+  }
   const auto known =
       eliminate_offset(pose, dots, marker.origin_m, *marker.sigma, camera, options.robust_scale);
   if (!known) return false;
@@ -80,7 +85,8 @@ bool add_marker(const Eigen::Isometry3d& pose, std::span<const SurveyedDot> dots
   normal.is_quadratic = normal.is_quadratic && known->is_quadratic;
   normal.gradient += known->gradient;
   normal.information += known->information;
-  normal.shared_of_gradient += known->shared_of_gradient;
+  normal.shared_of_gradient += known->gradient_by_offset * known->gradient_by_offset.transpose();
+  if (is_listed) normal.gradient_by_offsets.push_back(known->gradient_by_offset);
   return true;
 }
 
@@ -103,8 +109,11 @@ bool add_sight(const Eigen::Isometry3d& pose, const Sight& sight, Normal& normal
   const Eigen::Matrix3d& map_from_camera = pose.linear();
   turn(normal.information, map_from_camera);
   if (!sight.markers.empty()) turn(normal.shared_of_gradient, map_from_camera);
-  for (const Eigen::Index i : {0, 3})
+  for (const Eigen::Index i : {0, 3}) {
     normal.gradient.segment<3>(i) = map_from_camera * normal.gradient.segment<3>(i);
+    for (Mat65& by_offset : normal.gradient_by_offsets)
+      by_offset.middleRows<3>(i) = map_from_camera * by_offset.middleRows<3>(i);
+  }
   normal.information_of_dots = normal.information;
   return true;
 }
@@ -301,6 +310,8 @@ std::optional<MapEstimate> maximize_posterior(const Eigen::Isometry3d& guess,
         shared_part(dots) *
         (*covariance * (normal->information_of_dots - normal->shared_of_gradient) * *covariance);
   if (!markers.empty()) estimate.shared_covariance += *covariance * normal->shared_of_gradient * *covariance;
+  for (const Mat65& gradient : normal->gradient_by_offsets)
+    estimate.by_offsets.emplace_back(-*covariance * gradient);  // Newton's step
   const Vec3 center_from_camera = center_of(dots) - pose.translation();
   estimate.covariance = *covariance;
   auto of_place = estimate.covariance.topLeftCorner<3, 3>();
@@ -322,6 +333,7 @@ MapEstimate likelier(const MapEstimate& a, const MapEstimate& b) {
   result.covariance =
       (1.0 - share) * best.covariance + share * (other.covariance + apart * apart.transpose());
   result.shared_covariance = (1.0 - share) * best.shared_covariance + share * other.shared_covariance;
+  for (Mat65& by_offset : result.by_offsets) by_offset *= std::sqrt(1.0 - share);
   return result;
 }
 

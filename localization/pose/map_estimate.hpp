@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "localization/detection/inline_vector.hpp"
 #include "localization/pose/marker_offset.hpp"
 #include "localization/pose/pose_fix.hpp"
 #include "localization/pose/surveyed_dot.hpp"
@@ -16,6 +17,8 @@ struct MapEstimate {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();         ///< as in PoseFix
   Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< as in PoseFix
+  /// Derivatives by the offsets of the first of the `markers`, in sigmas.
+  InlineVector<Mat65, most_offsets_of_fix> by_offsets;
   double chi2 = 0.0;     ///< sum of the dots' squared residuals in sigmas, with Huber loss
   double freedom = 0.0;  ///< its expectation: two per dot less what the dots determine
   double cost = 0.0;     ///< -2 log posterior density, up to a constant

@@ -44,11 +44,15 @@ std::optional<Circle> algebraic_circle(const std::vector<Vec2>& points, const Ve
 PlanarFix compensate_mount(const PoseFix& fix, const Eigen::Isometry3d& base_from_camera) {
   const Eigen::Isometry3d map_from_base = fix.map_from_camera * base_from_camera.inverse();
   const Eigen::Matrix<double, 3, 6> jacobian = base_by_camera(fix.map_from_camera, map_from_base);
-  return {.stamp = fix.stamp,
-          .map_from_base = flattened(map_from_base),
-          .covariance = jacobian * fix.covariance * jacobian.transpose(),
-          .shared_covariance = jacobian * fix.shared_covariance * jacobian.transpose(),
-          .ids = fix.ids};
+  PlanarFix planar{.stamp = fix.stamp,
+                   .map_from_base = flattened(map_from_base),
+                   .covariance = jacobian * fix.covariance * jacobian.transpose(),
+                   .shared_covariance = jacobian * fix.shared_covariance * jacobian.transpose(),
+                   .by_offsets = {},
+                   .ids = fix.ids};
+  for (const PoseByOffset& by_offset : fix.by_offsets)
+    planar.by_offsets.push_back({by_offset.id, jacobian * by_offset.jacobian});
+  return planar;
 }
 
 std::optional<Circle> fit_circle(const std::vector<Vec2>& points) {

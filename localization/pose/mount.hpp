@@ -10,12 +10,19 @@
 
 namespace lodestar {
 
+/// As PoseByOffset, of (x_m, y_m, yaw_rad).
+struct PlanarByOffset {
+  int id = 0;
+  Eigen::Matrix<double, 3, 5> jacobian;
+};
+
 /// Robot pose from one camera fix. Covariances are of (x_m, y_m, yaw_rad) in the map frame.
 struct PlanarFix {
   Stamp stamp;
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d shared_covariance = Eigen::Matrix3d::Zero();  ///< the part of it that nearby fixes share
+  std::vector<PlanarByOffset> by_offsets;                       ///< of which that consists, among others
   std::vector<int> ids;                                         ///< of the markers used
 };
 

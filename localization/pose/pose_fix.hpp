@@ -32,6 +32,10 @@ struct PoseFixOptions {
   double dot_sigma_px = 0.03;  ///< standard deviation of a dot's coordinate, for dots without their own
   /// Standard deviation of a dot's position in its marker, per coordinate: film is cut and glued by hand.
   double dot_place_sigma_m = 0.0;
+  MarkerSigma unstated_sigma;  ///< of a marker of which the registry does not say how well it knows it
+  /// Standard deviation of a marker's tilt about each horizontal axis: no ceiling is quite level. It looks
+  /// like a tilt of the camera, in one marker.
+  double marker_tilt_sigma_rad = 0.0;
   /// Standard deviation of a common scale error of the image about its centre. Ceiling light that falls off
   /// towards the corners pulls dots inwards, by 0.0005 px at 175 px (test Dots.are_pulled).
   double scale_sigma = 3e-6;
@@ -46,6 +50,17 @@ struct PoseFixOptions {
   double robust_scale = 3.0;  ///< Huber loss is linear beyond this, in sigmas
 };
 
+/// What a marker's offset from its registered place moves a fix by: `jacobian` (in the axes of its
+/// covariance) times the offset in its sigmas (x, y, rotations about the map's z, x and y axes). The offset
+/// is the same in all fixes of the marker, while what it does to them depends on where they are taken.
+struct PoseByOffset {
+  int id = 0;
+  Eigen::Matrix<double, 6, 5> jacobian;
+};
+
+/// Markers of a frame whose offsets a fix knows one by one.
+inline constexpr int most_offsets_of_fix = 8;
+
 /// Camera pose in the map, from one frame.
 struct PoseFix {
   Stamp stamp;
@@ -55,6 +70,8 @@ struct PoseFix {
   /// The part of it from displaced dots and markers: fixes by the same ones, from about the same place, share
   /// that error.
   Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Of the first markers whose places are not known exactly; a part of what the covariance shares.
+  std::vector<PoseByOffset> by_offsets;
   std::vector<int> ids;      ///< of the markers used, the optimal one first
   double confidence = 0.0;   ///< of the optimal marker, Eq. (3)
   int dots = 0;              ///< dots used

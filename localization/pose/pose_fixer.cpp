@@ -21,6 +21,14 @@ double px_per_m(const DetectedMarker& seen) {
   return ((seen.x_px - seen.o_px).norm() + (seen.y_px - seen.o_px).norm()) / edges_m;
 }
 
+/// What the registry leaves open, and the ceiling.
+std::optional<MarkerSigma> doubt(std::optional<MarkerSigma> registered, const PoseFixOptions& options) {
+  MarkerSigma sigma = registered.value_or(options.unstated_sigma);
+  if (options.marker_tilt_sigma_rad > 0.0) sigma.tilt_rad = options.marker_tilt_sigma_rad;
+  const bool is_exact = sigma.position_m == 0.0 && sigma.yaw_rad == 0.0 && sigma.tilt_rad == 0.0;
+  return is_exact ? std::nullopt : std::optional(sigma);
+}
+
 KnownMarker known_marker(const DetectedMarker& seen, const Eigen::Isometry3d& map_from_marker,
                          const std::optional<MarkerSigma>& sigma, const PoseFixOptions& options,
                          double variance_factor) {
@@ -160,8 +168,8 @@ void PoseFixer::find_known(std::span<const DetectedMarker> markers, const PoseFi
     const auto times = std::ranges::count(markers, marker.id, &DetectedMarker::id);
     const MarkerInMap* const registered = marker_in_map(marker.id);
     if (registered == nullptr || times > 1 || marker.dots.empty()) continue;
-    known_.push_back(known_marker(marker, registered->map_from_marker, registered->sigma, options,
-                                  variance_factor_.value()));
+    known_.push_back(known_marker(marker, registered->map_from_marker, doubt(registered->sigma, options),
+                                  options, variance_factor_.value()));
   }
 }
 
@@ -257,6 +265,9 @@ void PoseFixer::conclude(Stamp stamp, const MapEstimate& estimate, const PoseFix
   fix_.map_from_camera = estimate.map_from_camera;
   fix_.covariance = estimate.covariance;
   fix_.shared_covariance = estimate.shared_covariance;
+  fix_.by_offsets.clear();
+  for (std::size_t i = 0; i < estimate.by_offsets.size(); ++i)
+    if (known_[i].sigma) fix_.by_offsets.push_back({known_[i].id, estimate.by_offsets[i]});
   fix_.ids.clear();
   double squared = 0.0;
   for (const KnownMarker& marker : known_) {

@@ -109,12 +109,16 @@ inline void drive(World& world, PoseFilter& filter, double from_s, double for_s,
 }
 
 /// Normalized estimation error squared: chi-square with 3 degrees of freedom for a consistent filter.
+inline double nees(const World& world, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
+  Vec3 error;
+  error << world.truth.position_m - map_from_base.position_m,
+      wrap_angle(world.truth.yaw_rad - map_from_base.yaw_rad);
+  return error.dot(covariance.ldlt().solve(error));
+}
+
 inline double nees(const World& world, const PoseFilter& filter) {
   const PoseEstimate estimate = *filter.estimate();
-  Vec3 error;
-  error << world.truth.position_m - estimate.map_from_base.position_m,
-      wrap_angle(world.truth.yaw_rad - estimate.map_from_base.yaw_rad);
-  return error.dot(estimate.covariance.ldlt().solve(error));
+  return nees(world, estimate.map_from_base, estimate.covariance);
 }
 
 inline double position_error(const World& world, const PoseFilter& filter) {

@@ -28,7 +28,8 @@ inline Eigen::Isometry3d view_from(const Vec3& position, double yaw_rad, double 
   return view;
 }
 
-/// A detector's output for these markers, with noise on the dots' centres.
+/// A detector's output for these markers, each tilted about dot O by the sigma that it may have, with noise
+/// on the dots' centres.
 inline std::vector<DetectedMarker> seen(const Eigen::Isometry3d& view, const MarkerRegistry& registry,
                                         const CameraModel& camera, double noise_px, Random& random) {
   std::vector<DetectedMarker> markers;
@@ -36,9 +37,15 @@ inline std::vector<DetectedMarker> seen(const Eigen::Isometry3d& view, const Mar
     DetectedMarker marker;
     marker.id = registered.id;
     marker.confidence = 0.9;
+    const double tilt_sigma_rad = registered.sigma.value_or(MarkerSigma{}).tilt_rad;
+    Eigen::Isometry3d map_from_tilted = map_from_marker(registry, registered);
+    if (tilt_sigma_rad > 0.0)
+      map_from_tilted.linear() =
+          rotation_from({tilt_sigma_rad * random.normal(), tilt_sigma_rad * random.normal(), 0.0}) *
+          map_from_tilted.linear();
     for (const GridCell cell : dots_of(registered.id)) {
       const Vec2 in_marker = cell_in_marker(cell);
-      const Vec3 in_map = map_from_marker(registry, registered) * Vec3(in_marker.x(), in_marker.y(), 0.0);
+      const Vec3 in_map = map_from_tilted * Vec3(in_marker.x(), in_marker.y(), 0.0);
       const Vec2 pixel =
           *camera.project(view.inverse() * in_map) + noise_px * Vec2(random.normal(), random.normal());
       marker.dots.push_back({cell, pixel});

@@ -36,7 +36,7 @@ TEST(Belief, moves_its_covariance_as_finite_differences_say) {
   const PoseFilterOptions options = without_noise();
   const WheelTravel travel{Stamp(from_seconds(0.02)), 0.010, 0.013};
   const Belief after = moved(belief, travel, options);
-  Belief::Covariance transition;
+  Belief::Covariance transition(belief.mean.size(), belief.mean.size());
   for (Eigen::Index k = 0; k < belief.mean.size(); ++k) {
     constexpr double step = 1e-6;
     Belief more = belief;
