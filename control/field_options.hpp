@@ -26,13 +26,15 @@ struct ProtectiveFieldOptions {
   /// Up to this speed what stands is passed like a wall: without it the noise of the range would end the
   /// drive in a gap that leaves 11 cm a side.
   double standing_creep_mps = 0.12;
-  /// A body around standing legs: 0.25 m from its middle, 0.2 m from the shins of legs side by side, and the
-  /// noise of five beams. Nearer than that it may touch the robot, which then only moves off.
-  double body_margin_m = 0.22;
+  /// A body around standing legs: 0.25 m from its middle, 0.2 m from the shins of legs side by side. Nearer
+  /// than that it may touch the robot, which then only moves off.
+  double body_m = 0.20;
+  double body_margin_m = 0.22;    ///< with the noise of five beams: a robot comes no nearer to legs by itself
   double mapped_margin_m = 0.01;  ///< the way's clearance is planned with elsewhere
-  /// Beside a wall that is nearer than that, the room may shrink by this share of the way to rest: with the
-  /// noise of the range the nearest hit along a wall is up to 5 cm ahead.
-  double mapped_slack_share = 0.2;
+  /// Beside what is nearer than its margin already, the room may shrink by this share of the way to rest:
+  /// with the noise of the range the nearest hit along a wall is up to 5 cm ahead, and with that of the
+  /// wheels a turn on the spot leads some tenths of a millimetre aside.
+  double slack_share = 0.2;
   /// Someone may step out from behind what hides them, at the speed at which people walk off (chosen by hand,
   /// half of the greatest). Before they can touch it the robot is down to the contact speed, not to rest.
   double hidden_mps = 1.0;

@@ -16,8 +16,18 @@ BodyVelocity operator*(double share, const BodyVelocity& velocity) {
 }
 
 FieldReason reason_for(Presence presence) {
-  if (presence == Presence::person || presence == Presence::legs) return FieldReason::person_near;
-  return presence == Presence::hidden ? FieldReason::hidden_corner : FieldReason::obstacle_ahead;
+  switch (presence) {
+    case Presence::legs:
+    case Presence::waiting:
+    case Presence::person:
+      return FieldReason::person_near;
+    case Presence::hidden:
+      return FieldReason::hidden_corner;
+    case Presence::mapped:
+    case Presence::standing:
+      break;
+  }
+  return FieldReason::obstacle_ahead;
 }
 
 }  // namespace
@@ -46,6 +56,7 @@ double ProtectiveField::reach_m(Presence presence, double time_s) const {
     case Presence::standing:
       return std::min(options_.person_mps * time_s, 0.5 * options_.start_mps2 * square(time_s));
     case Presence::legs:
+    case Presence::waiting:
       return std::min(options_.person_mps * time_s, 0.5 * options_.legs_start_mps2 * square(time_s));
     case Presence::person:
       return options_.person_mps * time_s;
@@ -62,6 +73,7 @@ double ProtectiveField::margin_m(Presence presence) const {
     case Presence::standing:
       return options_.standing_margin_m;
     case Presence::legs:
+    case Presence::waiting:
       return options_.body_margin_m;
     case Presence::person:
       return options_.swing_m;
@@ -138,17 +150,19 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   // Up to the creeping speed, what stands is passed like what is mapped.
   const bool is_passed = hit.presence == Presence::mapped || path.speed_mps() <= options_.standing_creep_mps;
   if (!is_passed) return rests_in_time(path, hit);
-  // Along a wall the room may be small already.
+  const double slack_m = options_.slack_share * path.travel_m();
   switch (hit.presence) {
     case Presence::legs:
-      return distance_m < margin ? moves_off(path, hit, distance_m) : stays_clear(path, hit, margin);
-    case Presence::standing:
-      return stays_clear(
-          path, hit,
-          std::min(distance_m, std::max(options_.least_standing_m, std::min(margin, least_room_m))));
+      if (distance_m >= margin) return stays_clear(path, hit, margin);
+      return moves_off(path, hit, distance_m) ||
+             (distance_m >= options_.body_m &&
+              stays_clear(path, hit, std::max(options_.body_m, distance_m - slack_m)));
+    case Presence::standing: {
+      const double room_m = least_room_m < margin ? least_room_m - slack_m : margin;
+      return stays_clear(path, hit, std::min(distance_m, std::max(options_.least_standing_m, room_m)));
+    }
     default:
-      return stays_clear(path, hit,
-                         std::min(margin, least_room_m - options_.mapped_slack_share * path.travel_m()));
+      return stays_clear(path, hit, std::min(margin, least_room_m - slack_m));
   }
 }
 

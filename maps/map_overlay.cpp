@@ -36,6 +36,8 @@ MapExplanation::MapExplanation(const ObstacleField& field, const Eigen::Matrix3d
                                const MapExplanationOptions& options)
     : field_(&field),
       options_(options),
+      cells_from_map_(Eigen::Rotation2Dd(-field.map().map_from_grid.yaw_rad).toRotationMatrix() /
+                      field.map().resolution_m),
       position_variance_m2_(square(larger_sigma(covariance.topLeftCorner<2, 2>()))),
       heading_variance_(std::max(covariance(2, 2), 0.0)) {}
 
@@ -44,12 +46,13 @@ bool MapExplanation::explains(const Vec2& hit_in_map, double range_m) const {
   const double sigma_m =
       std::sqrt(position_variance_m2_ + heading_variance_ * square(range_m) + square(options_.range_sigma_m));
   const double within_m = std::min(options_.sigmas * sigma_m + map.resolution_m, options_.most_m);
-  const Cell cell = map.cell_at(hit_in_map);
+  const Vec2 hit_in_grid = cells_from_map_ * (hit_in_map - map.map_from_grid.position_m);
+  const Cell cell = cell_at(hit_in_grid);
   if (!map.contains(cell)) return false;
   // The field measures between centres, and takes what is unknown for an obstacle: it only sorts out quickly.
   const double within_cells = within_m / map.resolution_m;
   if (field_->distance_cells(map.index(cell)) > within_cells + std::numbers::sqrt2) return false;
-  return is_occupied_within(map, inverse(map.map_from_grid) * hit_in_map / map.resolution_m, within_cells);
+  return is_occupied_within(map, hit_in_grid, within_cells);
 }
 
 }  // namespace lodestar

@@ -35,6 +35,7 @@ class MapExplanation {
  private:
   const ObstacleField* field_;
   MapExplanationOptions options_;
+  Eigen::Matrix2d cells_from_map_;  ///< the grid's axes, in cells per metre
   double position_variance_m2_ = 0.0;
   double heading_variance_ = 0.0;
 };

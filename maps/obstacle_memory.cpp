@@ -46,6 +46,13 @@ void ObstacleMemory::ask_beside(Place middle, const Ask& ask) const {
       if (const Seen* const seen = at({column, row}); seen != nullptr) ask(*seen);
 }
 
+template <typename Holds>
+bool ObstacleMemory::any_beside(const Vec2& point_m, const Holds& holds) const {
+  bool any = false;
+  ask_beside(place_of(point_m), [&](const Seen& seen) { any = any || holds(seen); });
+  return any;
+}
+
 void ObstacleMemory::add(const DeskewedScan& scan) {
   if (scan.rays.empty()) return;
   const Place middle = place_of(scan.rays.back().origin_m);
@@ -83,7 +90,7 @@ void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
   for (const std::size_t i : rays_at_legs(scan)) {
     const Place place = place_of(scan.rays[i].end_m);
     if (const std::int32_t index = index_[wrapped(place.column, place.row)]; index >= 0)
-      seen_[static_cast<std::size_t>(index)].legs = true;
+      seen_[static_cast<std::size_t>(index)].leg_at = scan.rays[i].stamp;
   }
 }
 
@@ -127,9 +134,13 @@ void ObstacleMemory::forget(Stamp now, const Place& middle) {
   }
 }
 
+bool ObstacleMemory::is_leg(const Seen& seen) const {
+  return seen.leg_at && seen.last_hit - *seen.leg_at < options_.not_a_leg_after;
+}
+
 bool ObstacleMemory::has_stood(const Seen& seen) const {
   const Duration hit_for = seen.last_hit - seen.first_hit;
-  if (seen.legs) return hit_for >= options_.to_stand_as_a_person;
+  if (is_leg(seen)) return hit_for >= options_.to_stand_as_a_person;
   return hit_for >= options_.to_stand &&
          (!seen.came_at || seen.last_hit - *seen.came_at >= options_.to_stand_as_a_person);
 }
@@ -150,16 +161,22 @@ std::optional<Stamp> ObstacleMemory::came_at(Place place, Stamp now) const {
 }
 
 bool ObstacleMemory::stands_at(const Vec2& point_m, Stamp now) const {
-  bool stands = false;
-  ask_beside(place_of(point_m),
-             [&](const Seen& seen) { stands = stands || (has_stood(seen) && is_remembered(seen, now)); });
-  return stands;
+  return any_beside(point_m, [&](const Seen& seen) { return has_stood(seen) && is_remembered(seen, now); });
+}
+
+/// What is hit in a cell for the first time may have come there as long ago as the floor was last seen free.
+bool ObstacleMemory::has_come_to(const Vec2& point_m) const {
+  const Seen* const seen = at(place_of(point_m));
+  return seen != nullptr && seen->came_at &&
+         seen->last_hit - *seen->came_at < options_.to_stand_as_a_person - options_.just_before;
 }
 
 bool ObstacleMemory::has_legs(const Vec2& point_m) const {
-  bool has = false;
-  ask_beside(place_of(point_m), [&](const Seen& seen) { has = has || seen.legs; });
-  return has;
+  return any_beside(point_m, [&](const Seen& seen) { return is_leg(seen); });
+}
+
+bool ObstacleMemory::has_come(const Vec2& point_m) const {
+  return any_beside(point_m, [](const Seen& seen) { return seen.came_at.has_value(); });
 }
 
 std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
@@ -171,10 +188,11 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
     const bool is_still =
         static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
     for (const std::size_t i : thing) {
-      stands[i] = is_still && (stood[i] || std::ranges::any_of(thing, [&](std::size_t k) {
-                                 return stood[k] &&
-                                        (scan.rays[k].end_m - scan.rays[i].end_m).norm() <= options_.shows_m;
-                               }));
+      const Vec2& end_m = scan.rays[i].end_m;
+      const bool shows = !has_come_to(end_m) && std::ranges::any_of(thing, [&](std::size_t k) {
+        return stood[k] && (scan.rays[k].end_m - end_m).norm() <= options_.shows_m;
+      });
+      stands[i] = is_still && (stood[i] || shows);
     }
     thing.clear();
   };
@@ -201,7 +219,7 @@ std::vector<Vec2> ObstacleMemory::standing_m(Stamp now) const {
 std::vector<Vec2> ObstacleMemory::standing_legs_m(Stamp now) const {
   std::vector<Vec2> points_m;
   for (const Seen& seen : seen_)
-    if (seen.legs && has_stood(seen) && is_remembered(seen, now)) points_m.push_back(center_m(seen.place));
+    if (is_leg(seen) && has_stood(seen) && is_remembered(seen, now)) points_m.push_back(center_m(seen.place));
   return points_m;
 }
 

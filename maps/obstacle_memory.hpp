@@ -25,6 +25,10 @@ struct ObstacleMemoryOptions {
   /// may walk on at once. So may who has legs. Chosen by hand.
   Duration to_stand_as_a_person = std::chrono::seconds(10);
   Duration just_before = std::chrono::seconds(3);  ///< in which a person has come, or has passed by
+  /// What has not looked like a leg for so long, though it was hit, is none: legs that pass close by a box
+  /// are hit in its cells. Legs, one behind the other or beside a wall, are rarely hidden for as
+  /// long.
+  Duration not_a_leg_after = std::chrono::seconds(10);
   Duration between_looks_back = std::chrono::milliseconds(250);
   /// Seen free is a place when nothing is hit within this of it: beams half a degree apart leave 4 cm between
   /// them at 4 m, and wheels turn the odometry frame by up to a degree meanwhile. Farther away a dark thing's
@@ -40,7 +44,7 @@ struct ObstacleMemoryOptions {
   double joins_m = 0.15;        ///< neighbouring hits within this of each other are one thing
   double standing_share = 0.6;  ///< of a thing's hits, for any of them to count as standing
   /// What comes into sight of a thing as the robot goes around it, within a second: so far from what has
-  /// stood it is the same thing.
+  /// stood it is the same thing, unless the floor was seen free there.
   double shows_m = 0.3;
 };
 
@@ -65,6 +69,9 @@ class ObstacleMemory {
   /// Is there, here or in a cell beside it, what may be a leg?
   [[nodiscard]] bool has_legs(const Vec2& point_m) const;
 
+  /// Was what is hit here, or in a cell beside it, seen to come? Else it may be furniture.
+  [[nodiscard]] bool has_come(const Vec2& point_m) const;
+
   /// Centres of the cells in which something stands, also where it has not been seen for a while.
   [[nodiscard]] std::vector<Vec2> standing_m(Stamp now) const;
 
@@ -88,7 +95,7 @@ class ObstacleMemory {
     bool hit_now = false;
     /// The floor here was seen free just before then, or beside here.
     std::optional<Stamp> came_at;
-    bool legs = false;  ///< what may be a leg was hit
+    std::optional<Stamp> leg_at;  ///< what may be a leg was hit last
   };
 
   [[nodiscard]] Place place_of(const Vec2& point_m) const;
@@ -101,11 +108,15 @@ class ObstacleMemory {
     RayFan fan;
   };
 
+  [[nodiscard]] bool is_leg(const Seen& seen) const;
   [[nodiscard]] bool has_stood(const Seen& seen) const;
+  [[nodiscard]] bool has_come_to(const Vec2& point_m) const;
   [[nodiscard]] bool was_seen_free(Place place, Stamp before) const;
   [[nodiscard]] std::optional<Stamp> came_at(Place place, Stamp now) const;
   template <typename Ask>
   void ask_beside(Place middle, const Ask& ask) const;
+  template <typename Holds>
+  [[nodiscard]] bool any_beside(const Vec2& point_m, const Holds& holds) const;
   [[nodiscard]] bool is_remembered(const Seen& seen, Stamp now) const;
   void mark_hits(const DeskewedScan& scan, const Place& middle);
   void hit(Place place, Stamp stamp);

@@ -18,7 +18,8 @@ int floor_to_int(double value) {
 }  // namespace
 
 Cell OccupancyMap::cell_at(const Vec2& point_in_map) const {
-  const Vec2 point_in_grid = inverse(map_from_grid) * point_in_map / resolution_m;
+  const Vec2 point_in_grid =
+      Eigen::Rotation2Dd(-map_from_grid.yaw_rad) * (point_in_map - map_from_grid.position_m) / resolution_m;
   return {floor_to_int(point_in_grid.x()), floor_to_int(point_in_grid.y())};
 }
 

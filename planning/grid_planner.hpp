@@ -39,10 +39,13 @@ struct GridPlannerOptions {
       0.15;                       ///< inflation: cells nearer than radius plus this to an obstacle cost more
   double clearance_weight = 1.0;  ///< up to (1 + weight) times at the edge; 0: shortest path
   AvoidedArea avoided;            ///< ignored by FootprintSearch
-  double turn_cost_m = 0.2;       ///< where few legs are made of a path: a turn counts as this much length
-  MotionLimits limits;            ///< of `fastest`
-  TurnSearchLimits turn_search;   ///< of `anyangle` and `fastest`
-  SamplingOptions sampling;       ///< of the OMPL planners
+  /// Of MarginPlanner: how far beside a goal without a margin a path may end. Half of the arrival distance,
+  /// which leaves the other half to the controller; else the robot would stop where it has not arrived.
+  double goal_slack_m = 0.005;
+  double turn_cost_m = 0.2;      ///< where few legs are made of a path: a turn counts as this much length
+  MotionLimits limits;           ///< of `fastest`
+  TurnSearchLimits turn_search;  ///< of `anyangle` and `fastest`
+  SamplingOptions sampling;      ///< of the OMPL planners
   /// When given and the path violates it, the cheapest 8-connected path that meets it is taken instead,
   /// shortened as far as it still does.
   std::optional<UncertaintyConstraint> uncertainty_constraint;

@@ -52,9 +52,9 @@ std::optional<Vec2> MarginPlanner::nearest_reachable(const Vec2& start_m, const 
 Vec2 MarginPlanner::goal_with_margin(const Vec2& goal_m) const {
   if (!goal_m.allFinite() || narrowest().is_clear(goal_m, goal_m)) return goal_m;
   constexpr double spacing_m = 0.001;
-  constexpr int reach = static_cast<int>(goal_slack_m / spacing_m);
+  const int reach = static_cast<int>(options_.goal_slack_m / spacing_m);
   std::optional<Vec2> nearest;
-  double least_m = goal_slack_m + 1e-9;
+  double least_m = options_.goal_slack_m + 1e-9;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -reach; x <= reach; ++x) {
       const Vec2 aside_m = spacing_m * Vec2(x, y);

@@ -17,10 +17,9 @@ inline constexpr std::array default_margins_m{0.03, 0.02, 0.01};
 /// Plans with the widest margin possible without a long detour. When start or goal have less, only the legs
 /// between them and the nearest place with that margin keep the narrowest. A goal without even the narrowest
 /// margin, as one that touches a wall, is replaced by the nearest position that has it, when that is within
-/// `goal_slack_m`: the path ends there. One query at a time.
+/// GridPlannerOptions::goal_slack_m: the path ends there. One query at a time.
 class MarginPlanner {
  public:
-  static constexpr double goal_slack_m = 0.015;
   /// A path with more margin may be longer than the shortest by detour_share of it plus detour_m. Chosen by
   /// hand: a step aside at a door post is worth its margin, another corridor is not.
   static constexpr double detour_share = 0.1;

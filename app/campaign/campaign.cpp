@@ -11,10 +11,9 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "app/campaign/random_doors.hpp"
 #include "app/campaign/random_faults.hpp"
+#include "app/campaign/random_obstacles.hpp"
 #include "app/campaign/random_site.hpp"
-#include "app/campaign/random_things.hpp"
 #include "app/common/parallel.hpp"
 #include "app/common/whole_number.hpp"
 #include "control/safety_stop.hpp"
@@ -27,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum MissionPurpose : std::uint64_t { building = 1, faults, registry_errors, people, things, doors };
+enum MissionPurpose : std::uint64_t { building = 1, faults, registry_errors, people };
 
 std::map<std::uint64_t, MissionOutcome> outcomes_in(const fs::path& file) {
   std::map<std::uint64_t, MissionOutcome> outcomes;
@@ -156,9 +155,7 @@ CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>
   if (!world.has_people) return mission;
   constexpr std::uint64_t most_people = 6;
   mission.replay.people.count = 1 + static_cast<int>(random.stream(people).below(most_people));
-  mission.replay.discs = random_things(mission.site, random.stream(things).bits());
-  std::vector<MovingDisc> door = random_door(mission.site, random.stream(doors).bits());
-  std::ranges::move(door, std::back_inserter(mission.replay.discs));
+  add_random_obstacles(mission.site, number, mission.replay);
   return mission;
 }
 

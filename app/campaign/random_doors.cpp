@@ -4,27 +4,16 @@
 #include <numbers>
 #include <optional>
 
-#include "app/navigation/navigation_setup.hpp"
+#include "app/campaign/random_things.hpp"
 #include "maps/map_overlay.hpp"
 #include "maps/random.hpp"
 #include "maps/ray_casting.hpp"
-#include "planning/margin_planner.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr double narrowest_m = 0.8;
 constexpr double widest_m = 1.6;
-constexpr double leaf_radius_m = 0.04;    ///< of one of the discs: half of a leaf's thickness
-constexpr double between_discs_m = 0.07;  ///< less than a disc is wide: no beam passes
-constexpr double slides_mps = 0.5;        ///< an automatic sliding door
-
-std::optional<Path> way_of(const Site& site, const OccupancyMap& map) {
-  const MarginPlanner planner(map, navigation_options(site.robot).planner);
-  const PlanResult planned = planner.plan(site.start.position_m, site.goals.front().position_m);
-  const auto* plan = std::get_if<Plan>(&planned);
-  return plan == nullptr ? std::nullopt : std::optional(plan->path);
-}
 
 /// Across the way, from wall to wall; nothing where either is farther away than half the widest doorway.
 std::optional<Doorway> gap_at(const OccupancyMap& map, const Vec2& place_m, double heading_rad) {
@@ -45,13 +34,12 @@ double width_m(const Doorway& door) {
   return (door.to_m - door.from_m).norm();
 }
 
-/// The leaf as it lies in the doorway, its discs from post to post.
-std::vector<Vec2> leaf_of(const Doorway& door) {
-  const auto count = static_cast<int>(std::ceil(width_m(door) / between_discs_m)) + 1;
-  std::vector<Vec2> discs_m;
-  for (int i = 0; i < count; ++i)
-    discs_m.emplace_back(door.from_m + (door.to_m - door.from_m) * i / (count - 1.0));
-  return discs_m;
+/// Points of the shut leaf, closer together than cells.
+std::vector<Vec2> across(const Doorway& door, double resolution_m) {
+  const auto steps = static_cast<int>(std::ceil(2.0 * width_m(door) / resolution_m));
+  std::vector<Vec2> points_m;
+  for (int i = 0; i <= steps; ++i) points_m.emplace_back(door.from_m + (door.to_m - door.from_m) * i / steps);
+  return points_m;
 }
 
 }  // namespace
@@ -86,33 +74,19 @@ std::vector<Doorway> doorways_of(const Site& site) {
   return doorways;
 }
 
-std::vector<MovingDisc> random_door(const Site& site, std::uint64_t seed) {
+std::optional<SlidingDoor> random_door(const Site& site, std::span<const MovingDisc> things,
+                                       std::uint64_t seed) {
   Random random(seed);
   const std::vector<Doorway> doorways = doorways_of(site);
-  if (doorways.empty() || random.uniform() < 0.5) return {};
-  const Doorway& door = doorways[random.below(doorways.size())];
-  const std::vector<Vec2> leaf_m = leaf_of(door);
-  const double shuts_s = random.uniform(1.0, 15.0);
-  const double shut_for_s = random.uniform(5.0, 25.0);
-  const bool may_stay = way_of(site, overlaid(site.map.map, leaf_m)).has_value();
-  const bool opens = !may_stay || random.uniform() < 0.5;
-
-  const Vec2 into_wall_m = door.from_m - door.to_m;  // where it waits, in the line of the wall
-  const Duration slide = from_seconds(width_m(door) / slides_mps);
-  const Duration shuts = from_seconds(shuts_s);
-  const Duration shut = shuts + slide;
-  const Duration open = shut + from_seconds(shut_for_s);
-  std::vector<MovingDisc> discs;
-  for (const Vec2& place_m : leaf_m) {
-    DiscTrajectory way{
-        .keys = {{Duration::zero(), place_m + into_wall_m}, {shuts, place_m + into_wall_m}, {shut, place_m}}};
-    if (opens) {
-      way.keys.push_back({open, place_m});
-      way.keys.push_back({open + slide, place_m + into_wall_m});
-    }
-    discs.push_back({.radius_m = leaf_radius_m, .trajectory = std::move(way)});
-  }
-  return discs;
+  if (doorways.empty() || random.uniform() < 0.5) return std::nullopt;
+  const Doorway& doorway = doorways[random.below(doorways.size())];
+  SlidingDoor door{.from_m = doorway.from_m, .to_m = doorway.to_m};
+  door.shuts = from_seconds(random.uniform(1.0, 15.0));
+  const Duration shut_for = from_seconds(random.uniform(5.0, 25.0));
+  const std::vector<Vec2> leaf_m = across(doorway, site.map.map.resolution_m);
+  const bool may_stay = way_of(site, overlaid(with_things(site.map.map, things), leaf_m)).has_value();
+  if (!may_stay || random.uniform() < 0.5) door.opens = door.shuts + shut_for;
+  return door;
 }
 
 }  // namespace lodestar

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "app/site/site.hpp"
 #include "drivers/simulation/moving_disc.hpp"
+#include "drivers/simulation/sliding_door.hpp"
 
 namespace lodestar {
 
@@ -17,9 +20,10 @@ struct Doorway {
 /// The doorways of a site's way, in its order; gaps of 0.8 to 1.6 m between posts.
 std::vector<Doorway> doorways_of(const Site& site);
 
-/// In half of the worlds that have a doorway, one that slides shut in front of the robot, or behind it, as a
-/// row of small discs that come out of the wall. It opens again after a while; where another way remains, it
-/// may stay shut. The same seed gives the same door.
-std::vector<MovingDisc> random_door(const Site& site, std::uint64_t seed);
+/// In half of the worlds that have a doorway, one that slides shut in front of the robot, or behind it, and
+/// opens again after a while; where another way remains around the things, it may stay shut. The same seed
+/// gives the same door.
+std::optional<SlidingDoor> random_door(const Site& site, std::span<const MovingDisc> things,
+                                       std::uint64_t seed);
 
 }  // namespace lodestar

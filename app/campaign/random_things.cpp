@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <variant>
 
 #include "app/navigation/navigation_setup.hpp"
@@ -39,9 +40,9 @@ Thing random_thing(const OccupancyMap& map, Random& random) {
 
 /// Of the way that remains: 11 cm a side beside things. Of a chair the scanner sees the legs, and the robot
 /// keeps a body's room around them.
-double keeps_m(const Thing& thing) {
+double keeps_m(const MovingDisc& thing) {
   constexpr double beside_m = 0.11;
-  return thing.radius_m + (thing.is_chair ? ProtectiveFieldOptions{}.body_margin_m : beside_m);
+  return thing.radius_m + (thing.has_legs ? ProtectiveFieldOptions{}.body_margin_m : beside_m);
 }
 
 bool is_free_round(const OccupancyMap& map, const Vec2& middle_m, double radius_m) {
@@ -54,21 +55,6 @@ bool is_free_round(const OccupancyMap& map, const Vec2& middle_m, double radius_
       if (!map.contains(cell) || !is_drivable(map.at(cell))) return false;
     }
   return true;
-}
-
-OccupancyMap with_thing(OccupancyMap map, const Thing& thing) {
-  for (int row = 0; row < map.rows; ++row)
-    for (int column = 0; column < map.columns; ++column) {
-      const Cell cell{column, row};
-      if ((map.center_of(cell) - thing.position_m).norm() <= keeps_m(thing))
-        map.cells[map.index(cell)] = OccupancyMap::occupied;
-    }
-  return map;
-}
-
-bool has_way(const Site& site, const OccupancyMap& map) {
-  const MarginPlanner planner(map, navigation_options(site.robot).planner);
-  return std::holds_alternative<Plan>(planner.plan(site.start.position_m, site.goals.front().position_m));
 }
 
 /// Pushed there in a straight line over free floor, while the robot is still a metre away: what begins to
@@ -96,6 +82,26 @@ DiscTrajectory pushed(const OccupancyMap& map, const Vec2& robot_m, const Thing&
 
 }  // namespace
 
+std::optional<Path> way_of(const Site& site, const OccupancyMap& map) {
+  const MarginPlanner planner(map, navigation_options(site.robot).planner);
+  const PlanResult planned = planner.plan(site.start.position_m, site.goals.front().position_m);
+  const auto* plan = std::get_if<Plan>(&planned);
+  return plan == nullptr ? std::nullopt : std::optional(plan->path);
+}
+
+OccupancyMap with_things(OccupancyMap map, std::span<const MovingDisc> things) {
+  for (const MovingDisc& thing : things) {
+    const Vec2& position_m = thing.trajectory.keys.back().position_m;
+    for (int row = 0; row < map.rows; ++row)
+      for (int column = 0; column < map.columns; ++column) {
+        const Cell cell{column, row};
+        if ((map.center_of(cell) - position_m).norm() <= keeps_m(thing))
+          map.cells[map.index(cell)] = OccupancyMap::occupied;
+      }
+  }
+  return map;
+}
+
 std::vector<MovingDisc> random_things(const Site& site, std::uint64_t seed) {
   Random random(seed);
   OccupancyMap map = site.map.map;
@@ -107,14 +113,13 @@ std::vector<MovingDisc> random_things(const Site& site, std::uint64_t seed) {
     const auto is_near = [&](const Vec2& place_m) { return (place_m - thing.position_m).norm() < apart_m; };
     if (is_near(site.start.position_m) || is_near(site.goals.front().position_m)) continue;
     if (!is_free_round(map, thing.position_m, thing.radius_m)) continue;
-    OccupancyMap with = with_thing(map, thing);
-    if (!has_way(site, with)) continue;
-    const bool is_pushed = random.uniform() < 0.5;
-    things.push_back({.radius_m = thing.radius_m,
-                      .has_legs = thing.is_chair,
-                      .trajectory = is_pushed
-                                        ? pushed(map, site.start.position_m, thing, random)
-                                        : DiscTrajectory{.keys = {{Duration::zero(), thing.position_m}}}});
+    MovingDisc disc{.radius_m = thing.radius_m,
+                    .has_legs = thing.is_chair,
+                    .trajectory = {.keys = {{Duration::zero(), thing.position_m}}}};
+    OccupancyMap with = with_things(map, {&disc, 1});
+    if (!way_of(site, with)) continue;
+    if (random.uniform() < 0.5) disc.trajectory = pushed(map, site.start.position_m, thing, random);
+    things.push_back(std::move(disc));
     map = std::move(with);
   }
   return things;

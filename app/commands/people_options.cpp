@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/simulate/simulated_drive.hpp"
+#include "app/campaign/random_obstacles.hpp"
+#include "maps/input_error.hpp"
 
 namespace lodestar {
 
@@ -18,10 +19,20 @@ void add_people_options(CLI::App& command, PeopleArguments& arguments) {
       ->check(CLI::IsMember({"ordinary", "oblivious", "threatening", "mixed"}))
       ->needs(people)
       ->capture_default_str();
+  command.add_flag(
+      "--obstacles", arguments.obstacles,
+      "Boxes, chairs and perhaps a sliding door that the map lacks, drawn from the seed; the robot "
+      "gets a scanner");
 }
 
-void use_people(const PeopleArguments& arguments, SimulatedDriveOptions& options) {
-  if (arguments.count == 0) return;
+void use_people(const PeopleArguments& arguments, const Site& site, SimulatedDriveOptions& options) {
+  if (arguments.obstacles) {
+    if (options.goals.empty())
+      throw InputError("--obstacles: found no goal, wanted one to which they leave a way");
+    Site driven = site;
+    driven.goals = options.goals;
+    add_random_obstacles(driven, options.seed, options);
+  }
   options.people.count = arguments.count;
   if (arguments.kind != "mixed") {
     options.people.oblivious_share = arguments.kind == "oblivious" ? 1.0 : 0.0;
@@ -30,8 +41,10 @@ void use_people(const PeopleArguments& arguments, SimulatedDriveOptions& options
 }
 
 std::string words_of(const PeopleArguments& arguments) {
-  if (arguments.count == 0) return {};
-  return fmt::format(" --people {} --people-kind {}", arguments.count, arguments.kind);
+  std::string words = arguments.obstacles ? " --obstacles" : "";
+  if (arguments.count > 0)
+    words += fmt::format(" --people {} --people-kind {}", arguments.count, arguments.kind);
+  return words;
 }
 
 }  // namespace lodestar

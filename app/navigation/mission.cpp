@@ -216,10 +216,15 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
     state.stopped_since = input.now;
   }
   state_ = state;
-  const bool waits = step.stop && waits_for_others(*step.stop);
-  const Duration patience = waits ? options_.max_wait : options_.max_stop;
-  if (!step.stop || input.now - *state.stopped_since < patience) return MissionEvent::none;
+  if (!step.stop || input.now - *state.stopped_since < patience_with(*step.stop)) return MissionEvent::none;
   return fail(input.now, fmt::format("stopped for too long: {}", to_string(*step.stop)));
+}
+
+/// With people as long as while they let it creep; a thing that blocks the way is moved away soon, or not at
+/// all.
+Duration Mission::patience_with(StopReason reason) const {
+  if (reason == StopReason::person_near) return options_.max_hindered;
+  return waits_for_others(reason) ? options_.max_wait : options_.max_stop;
 }
 
 MissionEvent Mission::advance(Held, const SensorInput& input, const NavigationStep&) {
@@ -281,23 +286,12 @@ MissionEvent Mission::advance(Settling state, const SensorInput& input, const Na
   const double distance_m = distance_to_goal_m(*step.estimate);
   if (distance_m <= drive_options_.arrival_distance_m) return arrive(input.now);
   ++attempt_;
-  const bool ends_short = path_ends_short();
-  if (ends_short || attempt_ >= options_.attempts)
-    return fail(input.now, fmt::format("not reached: {:.1f} mm from the goal{}, arrival is within {:.1f} mm",
-                                       1e3 * distance_m,
-                                       ends_short ? ", which is too near to an obstacle to come nearer"
-                                                  : fmt::format(" after {} attempts", attempt_),
-                                       1e3 * drive_options_.arrival_distance_m));
+  if (attempt_ >= options_.attempts)
+    return fail(input.now, fmt::format("not reached: {:.1f} mm from the goal after {} attempts, arrival is "
+                                       "within {:.1f} mm",
+                                       1e3 * distance_m, attempt_, 1e3 * drive_options_.arrival_distance_m));
   state_ = Starting{};
   return MissionEvent::none;
-}
-
-/// A path may end beside a goal that has too little room (MarginPlanner::goal_slack_m). Another attempt helps
-/// only where that leaves the controller, which stops some millimetres off, enough of the arrival distance.
-bool Mission::path_ends_short() const {
-  if (path_.waypoints_m.empty()) return false;
-  const double short_m = (path_.waypoints_m.back() - goals_[current_].position_m).norm();
-  return short_m > 0.5 * drive_options_.arrival_distance_m;
 }
 
 double Mission::distance_to_goal_m(const PoseEstimate& estimate) const {

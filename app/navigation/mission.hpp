@@ -20,10 +20,10 @@ struct MissionOptions {
   double max_rolled_unseen_m = 0.2;
   /// Of a passed goal where the trip ends: so near it counts as passed; as RouteOptions::left_path_m.
   double pass_within_m = 0.2;
-  Duration max_wait = std::chrono::seconds(60);  ///< the same for people and things that may go away
-  /// Slowed by them for so long while it comes no `progress_m` nearer to the goal along its path, it fails;
-  /// the time is not counted below. Five minutes a metre are chosen by hand: someone who waits looks after it
-  /// then.
+  Duration max_wait = std::chrono::seconds(60);  ///< the same for a thing that may go away
+  /// Slowed or stopped by people or things for so long while it comes no `progress_m` nearer to the goal
+  /// along its path, it fails; the time is not counted below. Five minutes a metre are chosen by hand:
+  /// someone who waits looks after it then.
   Duration max_hindered = std::chrono::minutes(5);
   /// A goal's action that has not been taken (take_action) by then fails: this program carries none out.
   Duration max_action_begin = std::chrono::seconds(5);
@@ -157,7 +157,7 @@ class Mission {
   [[nodiscard]] std::vector<Goal> trip() const;
   MissionEvent end_pass();
   MissionEvent arrive(Stamp now);
-  [[nodiscard]] bool path_ends_short() const;
+  [[nodiscard]] Duration patience_with(StopReason reason) const;
   [[nodiscard]] bool is_hindered_too_long(const SensorInput& input, const NavigationStep& step);
   [[nodiscard]] double distance_to_goal_m(const PoseEstimate& estimate) const;
   MissionEvent hold(const SensorInput& input);

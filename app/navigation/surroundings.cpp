@@ -179,10 +179,11 @@ void Surroundings::hold_against_map(const Scan& scan, const Pose2& map_from_odom
                          .heading_rad = std::sqrt(std::max(covariance(2, 2), 0.0))});
 }
 
-/// Deeper than the noise of the range: it touches the robot, or lies over the scanner.
+/// When the ray was measured, and deeper than the noise of the range: it touches the robot, or lies over the
+/// scanner.
 bool Surroundings::is_within_robot(const Ray& ray) const {
-  const double range_m = (ray.end_m - ray.origin_m).norm();
-  if (range_m > 2.0 * options_.shape.outer_radius_m()) return false;  // from wherever the scanner is mounted
+  // From wherever the scanner is mounted.
+  if ((ray.end_m - ray.origin_m).norm() > 2.0 * options_.shape.outer_radius_m()) return false;
   const std::optional<Pose2> odom_from_base = track_.pose_at(ray.stamp);
   return odom_from_base &&
          options_.shape.distance_m(inverse(*odom_from_base) * ray.end_m) < -outline_.margin_m;
@@ -201,7 +202,8 @@ std::vector<FieldPoint> Surroundings::presences(const DeskewedScan& scan, const 
     const double range_m = (ray.end_m - ray.origin_m).norm();
     if (explanation && explanation->explains(*map_from_odom * ray.end_m, range_m)) return Presence::mapped;
     if (!stands[i]) return Presence::person;
-    return memory.has_legs(ray.end_m) ? Presence::legs : Presence::standing;
+    if (!memory.has_legs(ray.end_m)) return Presence::standing;
+    return memory.has_come(ray.end_m) ? Presence::waiting : Presence::legs;
   };
   const std::vector<Vec2> smoothed_m = smoothed_ends_m(scan);
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
@@ -303,6 +305,8 @@ std::optional<std::vector<Vec2>> Surroundings::obstacles_in_the_way(Stamp now, c
                                                                     const Path& path) {
   if (path.waypoints_m.empty() || (last_look_ && now - *last_look_ < options_.between_detours))
     return std::nullopt;
+  if (!field_scan_ || looked_at_ == field_scan_->newest) return std::nullopt;
+  looked_at_ = field_scan_->newest;
   std::vector<Vec2> obstacles_m = unmapped_m(now, mapped);
   const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
   const bool is_blocked = std::ranges::any_of(

@@ -138,7 +138,8 @@ class Surroundings {
   std::deque<Scan> waiting_;             ///< for the wheel readings of their time
   std::optional<FieldScan> field_scan_;  ///< of all sources; its age is the newest scan's
   std::size_t scanned_points_ = 0;  ///< the first of its points; those of the depth camera come after them
-  std::optional<Stamp> last_look_;  ///< at a path
+  std::optional<Stamp> looked_at_;  ///< the newest scan when things in the way were last looked for
+  std::optional<Stamp> last_look_;  ///< at a path that was blocked
 };
 
 }  // namespace lodestar

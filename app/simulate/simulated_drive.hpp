@@ -15,6 +15,7 @@
 #include "drivers/simulation/scoring.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
 #include "drivers/simulation/simulated_scanner.hpp"
+#include "drivers/simulation/sliding_door.hpp"
 #include "drivers/simulation/walkers.hpp"
 #include "planning/grid_planner.hpp"
 
@@ -35,6 +36,7 @@ struct SimulatedDriveOptions {
   std::optional<SimulatedScannerOptions> scanner;  ///< without it: the robot's own, if it has one
   PeopleOptions people;                            ///< who walk about
   std::vector<MovingDisc> discs;                   ///< that no map has
+  std::vector<SlidingDoor> doors;                  ///< likewise
   std::vector<Overhang> overhangs;                 ///< likewise
   std::vector<DiscState> others;                   ///< robots in the same world, as at the start
   bool is_placed_at_start = false;                 ///< a person says where it starts, to 2 cm and 1 degree
@@ -52,6 +54,11 @@ struct SimulatedDriveOptions {
   std::function<void(const SensorInput&)> on_input;  ///< hears of all input, in drives and between
   /// Takes part after each step, in drives and between.
   std::function<void(const SensorInput&, const MissionStep&, Mission&)> attend;
+
+  /// Anything in its way that no map has, and that a judge of contacts looks at?
+  [[nodiscard]] bool has_people_or_things() const {
+    return people.count > 0 || !discs.empty() || !doors.empty();
+  }
 };
 
 /// Drives the simulated robot through the goals: the same navigator as on the real one, simulated drivers.

@@ -47,7 +47,7 @@ std::vector<RunSummary> simulate_drives(const Site& site, const SimulatedDriveOp
     const RunRecord record = simulate_drive(site, run);
     if (is_over()) return;  // perhaps in the middle of this one
     RunSummary summary = summarize(record);
-    if (options.people.count > 0) summary.people = record.contact_score;
+    if (options.has_people_or_things()) summary.people = record.contact_score;
     summaries[static_cast<std::size_t>(i)] = std::move(summary);
     done(++finished);
   });

@@ -41,6 +41,7 @@ SimulationOptions simulation_options(const Site& site, const SimulatedDriveOptio
   }
   options.overhangs = replay.overhangs;
   options.discs = replay.discs;
+  options.doors = replay.doors;
   options.people = replay.people;
   if (site.charging) {
     options.battery.emplace();

@@ -48,6 +48,14 @@ ContactJudgeOptions contact_options(const SimulationOptions& options) {
   return contacts;
 }
 
+/// They walk up to the disc that an outline holds at every heading.
+PeopleOptions people_about(const SimulationOptions& options) {
+  PeopleOptions people = options.people;
+  people.robot_radius_m =
+      options.robot_footprint ? options.robot_footprint->inner_radius_m() : options.robot_radius_m;
+  return people;
+}
+
 }  // namespace
 
 struct Simulation::World {
@@ -83,9 +91,10 @@ struct Simulation::World {
       depth_camera.emplace(open, options.overhangs, *options.depth_camera,
                            seed_for(chosen.seed, depth_stream));
     if (options.people.count > 0)
-      people.emplace(map, options.people, options.start, seed_for(chosen.seed, people_stream));
+      people.emplace(map, people_about(options), options.start, seed_for(chosen.seed, people_stream));
     if (options.battery) battery.emplace(*options.battery);
     for (const MovingDisc& disc : options.discs) trajectories.emplace_back(disc);
+    for (const SlidingDoor& door : options.doors) leaves.emplace_back(door);
     move_discs();
   }
 
@@ -108,10 +117,14 @@ struct Simulation::World {
   }
 
   void move_discs() {
-    if (!scanner && !depth_camera && trajectories.empty() && !people && options.others.empty()) return;
+    const bool is_empty = trajectories.empty() && leaves.empty() && !people && options.others.empty();
+    if (!scanner && !depth_camera && is_empty) return;
     next_discs += disc_period;
+    move_doors();
     discs.clear();
     for (FollowedTrajectory& trajectory : trajectories) discs.push_back(trajectory.at(now));
+    for (const SlidingLeaf& leaf : leaves)
+      discs.insert(discs.end(), leaf.discs().begin(), leaf.discs().end());
     discs.insert(discs.end(), options.others.begin(), options.others.end());
     if (people) {
       people->step(disc_period, motion.true_map_from_base(), discs);
@@ -120,6 +133,15 @@ struct Simulation::World {
     if (scanner) scanner->observe(now, motion.true_map_from_base(), discs);
     if (depth_camera) depth_camera->observe(now, motion.true_map_from_base(), discs);
     scorer.record_discs({now, motion.true_map_from_base()}, discs);
+  }
+
+  void move_doors() {
+    if (leaves.empty()) return;
+    std::vector<Vec2> present_m{motion.true_map_from_base().position_m};
+    for (const DiscState& other : options.others) present_m.push_back(other.position_m);
+    if (people)
+      for (const Walker& walker : people->walkers()) present_m.push_back(walker.disc.position_m);
+    for (SlidingLeaf& leaf : leaves) leaf.step(now, disc_period, present_m);
   }
 
   /// Applies the active faults to all parts.
@@ -168,6 +190,7 @@ struct Simulation::World {
   std::optional<FaultyScanner> faulty_scanner;
   std::optional<SimulatedDepthCamera> depth_camera;
   std::vector<FollowedTrajectory> trajectories;
+  std::vector<SlidingLeaf> leaves;
   std::optional<Walkers> people;
   std::optional<SimulatedBattery> battery;
   std::vector<DiscState> discs;

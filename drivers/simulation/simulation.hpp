@@ -20,6 +20,7 @@
 #include "drivers/simulation/simulated_depth_camera.hpp"
 #include "drivers/simulation/simulated_disk.hpp"
 #include "drivers/simulation/simulated_scanner.hpp"
+#include "drivers/simulation/sliding_door.hpp"
 #include "drivers/simulation/walkers.hpp"
 #include "maps/camera_model.hpp"
 #include "maps/footprint.hpp"
@@ -50,6 +51,7 @@ struct SimulationOptions {
   double robot_height_m = 1.2;      ///< what hangs lower is in its way
   PeopleOptions people;             ///< besides the discs; they walk about on the true map
   std::vector<MovingDisc> discs;    ///< not on any map; they do not block the robot
+  std::vector<SlidingDoor> doors;   ///< likewise
   std::vector<DiscState> others;    ///< moved from outside, such as other robots; as they are at the start
   /// What the judge goes by; the scanner's place, range and times are taken from `scanner` if there is one.
   ContactJudgeOptions contacts;

@@ -1,6 +1,7 @@
 #include "drivers/simulation/walkers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "drivers/simulation/disc_contact.hpp"
@@ -17,13 +18,17 @@ constexpr double angular_width = 2.0;       // n
 constexpr double braking_width = 3.0;       // n'
 constexpr double relaxation_s = 0.54;       // tau
 
-// Walls push as in Helbing and Molnar 1995.
-constexpr double wall_strength_mps2 = 10.0;
-constexpr double wall_range_m = 0.2;
+// Walls push as in the same paper, from a person's edge. As in Helbing and Molnar 1995 (10 m/s^2, 0.2 m) they
+// push harder than a goal draws, half a metre away: people then wait for minutes before a gap of 0.8 m.
+constexpr double wall_strength_mps2 = 3.0;
+constexpr double wall_range_m = 0.1;
 
 constexpr double arrived_m = 0.4;
 constexpr double from_robot_at_start_m = 2.0;
 constexpr Duration longest_way = std::chrono::seconds(15);
+/// Who gets no further goes elsewhere: nobody pushes against a robot for long.
+constexpr Duration longest_hold_up = std::chrono::seconds(2);
+constexpr double walking_mps = 0.05;
 /// A threatening person steps out when the robot is so near, to a place so far ahead of it, and stays there.
 constexpr double step_out_within_m = 3.5;
 constexpr double ahead_of_robot_m = 1.2;
@@ -31,6 +36,26 @@ constexpr Duration in_the_way = std::chrono::seconds(4);
 
 Vec2 direction_of(double heading_rad) {
   return {std::cos(heading_rad), std::sin(heading_rad)};
+}
+
+/// The part along a wall, and a little off it: who touches two walls at once would stay there for good by
+/// rounding. `away` from the wall is of length 1, or zero where there is none.
+Vec2 along_wall(const Vec2& away, const Vec2& velocity_mps) {
+  constexpr double off_share = 0.1;
+  const double speed_mps = velocity_mps.norm();
+  const Vec2 along_mps =
+      velocity_mps - (std::min(0.0, velocity_mps.dot(away)) - off_share * speed_mps) * away;
+  return along_mps.norm() > speed_mps ? Vec2(speed_mps * along_mps.normalized()) : along_mps;
+}
+
+/// Of length 1, from the one whose edge is nearest; zero where there is none.
+Vec2 away_from_nearest(const DiscState& self, std::span<const DiscState> solids) {
+  const auto apart_m = [&](const DiscState& solid) {
+    return (self.position_m - solid.position_m).norm() - solid.radius_m;
+  };
+  const auto nearest = std::ranges::min_element(solids, {}, apart_m);
+  if (nearest == solids.end()) return Vec2::Zero();
+  return (self.position_m - nearest->position_m).normalized();
 }
 
 }  // namespace
@@ -110,6 +135,7 @@ std::optional<Vec2> Walkers::random_place() {
 /// A free place in sight, so that the straight way leads there: through a door, perhaps.
 void Walkers::choose_goal(Walker& walker) {
   walker.goal_time = longest_way;
+  walker.held_up = Duration::zero();
   if (walker.leader) {
     walker.goal_m = walkers_[*walker.leader].goal_m;
     return;
@@ -145,10 +171,17 @@ void Walkers::step(Duration by, const Pose2& map_from_base, std::span<const Disc
     walker.goal_time -= by;
     const bool is_there = (walker.goal_m - walker.disc.position_m).norm() <= arrived_m;
     const bool stays = walker.waits || (walker.kind == PersonKind::threatening && is_there);
-    if (!walker.waits && (walker.goal_time <= Duration::zero() || (is_there && !stays))) choose_goal(walker);
+    walker.held_up =
+        walker.disc.velocity_mps.norm() < walking_mps && !stays ? walker.held_up + by : Duration::zero();
+    const bool gives_up = walker.goal_time <= Duration::zero() || walker.held_up >= longest_hold_up;
+    if (!walker.waits && (gives_up || (is_there && !stays))) choose_goal(walker);
     forces_mps2.push_back(force_mps2(i, robot, things));
   }
-  for (std::size_t i = 0; i < walkers_.size(); ++i) move(walkers_[i], forces_mps2[i], by_s, things);
+  std::vector<DiscState> solids(things.begin(), things.end());
+  if (options_.robot_radius_m > options_.gives_way_m)
+    solids.push_back(
+        {.radius_m = options_.robot_radius_m - options_.gives_way_m, .position_m = robot.position_m});
+  for (std::size_t i = 0; i < walkers_.size(); ++i) move(walkers_[i], forces_mps2[i], by_s, solids);
 }
 
 Vec2 Walkers::wall_force_mps2(const Vec2& position_m) const {
@@ -182,19 +215,20 @@ Vec2 Walkers::force_mps2(std::size_t index, const Robot& robot, std::span<const 
   return force_mps2;
 }
 
-/// Does the step lead neither into a wall nor farther into a thing?
+/// Does the step lead neither into a wall nor farther into something solid?
 bool Walkers::is_passable(const DiscState& self, const Vec2& place_m,
-                          std::span<const DiscState> things) const {
-  const auto leads_into = [&](const DiscState& thing) {
-    const double then_m = (place_m - thing.position_m).norm();
-    return then_m < self.radius_m + thing.radius_m && then_m < (self.position_m - thing.position_m).norm();
+                          std::span<const DiscState> solids) const {
+  const auto leads_into = [&](const DiscState& solid) {
+    const double then_m = (place_m - solid.position_m).norm();
+    return then_m < self.radius_m + solid.radius_m && then_m < (self.position_m - solid.position_m).norm();
   };
-  return is_free(place_m) && std::ranges::none_of(things, leads_into);
+  return is_free(place_m) && std::ranges::none_of(solids, leads_into);
 }
 
-/// Nobody walks through a wall: where the way ends at one, the part along it is left.
+/// Nobody walks through a wall or a thing: where the way ends at one, the part along it is left, else that
+/// along the grid.
 void Walkers::move(Walker& walker, const Vec2& force_mps2, double by_s,
-                   std::span<const DiscState> things) const {
+                   std::span<const DiscState> solids) const {
   DiscState& disc = walker.disc;
   const double size_mps2 = force_mps2.norm();
   const double share =
@@ -203,15 +237,20 @@ void Walkers::move(Walker& walker, const Vec2& force_mps2, double by_s,
   const double speed_mps = velocity_mps.norm();
   if (speed_mps > options_.fastest_mps) velocity_mps *= options_.fastest_mps / speed_mps;
   if (walker.waits) velocity_mps = Vec2::Zero();
-  for (const Vec2& part :
-       {velocity_mps, Vec2(velocity_mps.x(), 0.0), Vec2(0.0, velocity_mps.y()), Vec2(Vec2::Zero())}) {
-    velocity_mps = part;
-    if (is_passable(disc, disc.position_m + by_s * part, things)) break;
+  const auto leads_on = [&](const Vec2& part_mps) {
+    return is_passable(disc, disc.position_m + by_s * part_mps, solids);
+  };
+  if (!leads_on(velocity_mps)) {
+    const Vec2 away = wall_force_mps2(disc.position_m).normalized();
+    const std::array parts_mps{along_wall(away, velocity_mps),
+                               along_wall(away_from_nearest(disc, solids), velocity_mps),
+                               Vec2(velocity_mps.x(), 0.0), Vec2(0.0, velocity_mps.y())};
+    const auto part = std::ranges::find_if(parts_mps, leads_on);
+    velocity_mps = part == parts_mps.end() ? Vec2(Vec2::Zero()) : *part;
   }
   disc.velocity_mps = velocity_mps;
   disc.position_m += by_s * velocity_mps;
   disc.walked_m += by_s * velocity_mps.norm();
-  constexpr double walking_mps = 0.05;
   if (velocity_mps.norm() > walking_mps) disc.heading_rad = heading_of(velocity_mps);
 }
 

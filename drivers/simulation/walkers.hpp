@@ -34,6 +34,9 @@ struct PeopleOptions {
   double slowest_mps = 0.5;
   double fastest_mps = 2.0;
   double max_acceleration_mps2 = 3.0;  ///< from rest to a walk within half a second
+  /// The robot, which nobody walks through: who does not see it runs against it, and gives way a little.
+  double robot_radius_m = 0.0;
+  double gives_way_m = 0.02;
 };
 
 /// A person, as the social forces act on them.
@@ -42,6 +45,7 @@ struct Walker {
   double wanted_mps = 1.4;
   Vec2 goal_m = Vec2::Zero();
   Duration goal_time{};  ///< left for it
+  Duration held_up{};    ///< has got no further for so long
   bool waits = false;    ///< a threatening one, until the robot comes
   std::optional<std::size_t> leader;
   DiscState disc;
@@ -63,7 +67,7 @@ class Walkers {
           std::uint64_t seed);
 
   /// `things` are discs that move by themselves, such as boxes that are pushed: people go around these, and
-  /// walk through none.
+  /// walk through none, nor through the robot.
   void step(Duration by, const Pose2& map_from_base, std::span<const DiscState> things = {});
 
   [[nodiscard]] const std::vector<Walker>& walkers() const { return walkers_; }
@@ -83,8 +87,8 @@ class Walkers {
   [[nodiscard]] Vec2 force_mps2(std::size_t walker, const Robot& robot,
                                 std::span<const DiscState> things) const;
   [[nodiscard]] bool is_passable(const DiscState& self, const Vec2& place_m,
-                                 std::span<const DiscState> things) const;
-  void move(Walker& walker, const Vec2& force_mps2, double by_s, std::span<const DiscState> things) const;
+                                 std::span<const DiscState> solids) const;
+  void move(Walker& walker, const Vec2& force_mps2, double by_s, std::span<const DiscState> solids) const;
 
   OccupancyMap map_;
   DistanceField field_;

@@ -143,6 +143,51 @@ TEST(ProtectiveField, WithLegsInReachOfABodyItOnlyMovesOff) {
   EXPECT_EQ(disc_field().limit(beside, {0.1, 0.0}, {0.1, 0.0}).share, 1.0);
 }
 
+/// From rest at 3 m/s^2 they are at the robot before it is at rest, however slowly it creeps or moves off.
+TEST(ProtectiveField, BesideLegsThatWereSeenToComeItDoesNotEvenCreep) {
+  const double body_m = ProtectiveFieldOptions{}.body_margin_m;
+  for (const Presence presence : {Presence::legs, Presence::waiting}) {
+    const std::vector<FieldHit> beside{hit(0.0, radius_m + body_m + 0.02, presence)};
+    const double share = presence == Presence::legs ? 1.0 : 0.0;
+    EXPECT_EQ(disc_field().limit(beside, {}, {0.1, 0.0}).share, share);
+    EXPECT_EQ(disc_field().limit(beside, {}, {-0.1, 0.0}).share, share);
+    const std::vector<FieldHit> farther{hit(0.0, radius_m + body_m + 0.25, presence)};
+    EXPECT_EQ(disc_field().limit(farther, {}, {0.1, 0.0}).share, 1.0);
+  }
+}
+
+/// It comes up to them by itself, and the noise of five beams (7 mm) then takes them for nearer; that of the
+/// wheels has it move while it turns.
+TEST(ProtectiveField, BesideWhatItHasComeUpToItTurnsOnTheSpot) {
+  const ProtectiveFieldOptions options;
+  for (const auto& [presence, distance_m] : {std::pair(Presence::legs, options.body_margin_m),
+                                             std::pair(Presence::standing, options.standing_margin_m)}) {
+    for (const double noise_m : {-0.009, -0.002, 0.003}) {
+      for (const double rolls_mps : {-0.002, 0.0, 0.002}) {
+        const std::vector<FieldHit> hits{hit(radius_m + distance_m + noise_m, 0.0, presence)};
+        EXPECT_EQ(disc_field().limit(hits, {rolls_mps, 0.1}, {0.0, 0.1}).share, 1.0)
+            << distance_m << " " << noise_m << " " << rolls_mps;
+      }
+    }
+  }
+}
+
+/// However often it tries: neither the body around legs nor what stands is touched.
+TEST(ProtectiveField, WhatIsBesideATurnIsNotReachedByItsSlack) {
+  const ProtectiveFieldOptions options;
+  for (const auto& [presence, begins_m, least_m] :
+       {std::tuple(Presence::legs, options.body_margin_m, options.body_m),
+        std::tuple(Presence::standing, options.standing_margin_m, options.least_standing_m)}) {
+    double distance_m = begins_m;
+    for (int step = 0; step < 5000; ++step) {
+      const std::vector<FieldHit> hits{hit(radius_m + distance_m, 0.0, presence)};
+      const BodyVelocity wanted{0.03, 0.1};
+      distance_m -= 0.02 * disc_field().limit(hits, wanted, wanted).share * wanted.forward_mps;
+    }
+    EXPECT_GE(distance_m, least_m - 1e-6);
+  }
+}
+
 /// A corner that comes into sight when it is too late for the speed: braking to rest would help nobody more.
 TEST(ProtectiveField, AHiddenCornerNeverAsksForRest) {
   const double contact_mps = ProtectiveFieldOptions{}.hidden_contact_mps;

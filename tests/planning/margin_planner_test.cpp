@@ -76,13 +76,26 @@ TEST(MarginPlanner, gives_up_the_margin_only_where_start_and_goal_lie_near_to_wa
 }
 
 /// The controller may stop 1 cm off the goal, which at a wall would be a contact.
-TEST(MarginPlanner, stops_a_centimetre_short_of_a_goal_that_touches_a_wall) {
+TEST(MarginPlanner, ends_beside_a_goal_without_a_margin_only_where_the_robot_still_arrives_there) {
   const OccupancyMap map = rooms(60);
-  const Vec2 touching(0.6, 2.0 - radius_m);
-  const std::vector<Vec2> points = points_of(MarginPlanner(map, options).plan(start, touching));
-  ASSERT_GT(points.size(), 1U);
-  EXPECT_NEAR((points.back() - touching).norm(), 0.01, 0.0011);
-  EXPECT_TRUE(keeps(0.01, map, points));
+  const Vec2 with_margin(0.6, 2.0 - radius_m - 0.01);
+  for (const double slack_m : {0.005, 0.015}) {
+    GridPlannerOptions slack = options;
+    slack.goal_slack_m = slack_m;
+    const MarginPlanner planner(map, slack);
+    for (int mm = 1; mm <= 17; mm += 2) {
+      const Vec2 goal_m = with_margin + Vec2(0.0, 0.001 * mm);
+      const PlanResult result = planner.plan(start, goal_m);
+      const std::vector<Vec2> points = points_of(result);
+      ASSERT_EQ(points.empty(), 0.001 * mm > slack_m + 1e-9) << mm << " mm of " << slack_m;
+      if (points.empty()) {
+        EXPECT_EQ(std::get<PlanFailure>(result), PlanFailure::goal_occupied);
+        continue;
+      }
+      EXPECT_NEAR((points.back() - goal_m).norm(), 0.001 * mm, 0.0011);
+      EXPECT_TRUE(keeps(0.01, map, points));
+    }
+  }
 }
 
 TEST(MarginPlanner, takes_no_goal_inside_a_wall_and_offers_one_beside_it) {

@@ -34,12 +34,23 @@ MovingDisc paces_up_and_down() {
             true);
 }
 
+/// So near that the robot stands, for longer than it would wait for a thing; then aside.
+MovingDisc steps_from_foot_to_foot() {
+  std::vector<DiscKey> keys;
+  for (int s = 0; s < 75; s += 2) {
+    keys.push_back({std::chrono::seconds(s), start * Vec2(0.9, 0.0)});
+    keys.push_back({std::chrono::seconds(s + 1), start * Vec2(1.0, 0.0)});
+  }
+  keys.push_back({std::chrono::seconds(78), start * Vec2(1.0, -2.0)});
+  return on(std::move(keys), false);
+}
+
 struct Outcome {
   bool arrived = false;
   std::string failure;
 };
 
-Outcome drive_among(const MovingDisc& person) {
+Outcome drive_among(const MovingDisc& person, Duration max_hindered = std::chrono::seconds(15)) {
   Lab lab;
   lab.site.start = start;
   lab.site.robot.scanner.emplace();
@@ -54,7 +65,7 @@ Outcome drive_among(const MovingDisc& person) {
   Simulation simulation(lab.known.map, lab.installed, lab.known.camera, options);
   BaseDriver base(simulation.can());
   MissionOptions patience;
-  patience.max_hindered = std::chrono::seconds(15);
+  patience.max_hindered = max_hindered;
   patience.progress_m = 0.5;
   const std::vector<Goal> goals{{.position_m = start * Vec2(2.8, 0.0)}};
   Mission mission(lab.known, navigation_options(lab.site.robot), goals, patience);
@@ -81,6 +92,11 @@ TEST(Hindered, who_does_not_gives_up) {
   const Outcome outcome = drive_among(paces_up_and_down());
   EXPECT_FALSE(outcome.arrived);
   EXPECT_EQ(outcome.failure, "people or things in the way for too long");
+}
+
+TEST(Hindered, who_stands_before_a_person_waits_as_long_as_who_creeps) {
+  const Outcome outcome = drive_among(steps_from_foot_to_foot(), std::chrono::seconds(120));
+  EXPECT_TRUE(outcome.arrived) << outcome.failure;
 }
 
 }  // namespace

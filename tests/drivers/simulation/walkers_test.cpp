@@ -65,6 +65,24 @@ TEST(Walkers, go_around_things_and_never_through_them) {
   }
 }
 
+/// It stands in the door, where who does not see it would walk through.
+TEST(Walkers, who_do_not_see_the_robot_run_against_it_and_not_through_it) {
+  const OccupancyMap map = two_rooms();
+  const PeopleOptions options{
+      .count = 6, .oblivious_share = 1.0, .threatening_share = 0.0, .robot_radius_m = 0.3};
+  const Pose2 in_door{{6.0, 4.0}, 0.0};
+  Walkers people(map, options, in_door, 3);
+  const double apart_m = options.radius_m + options.robot_radius_m;
+  double least_m = 100.0;
+  for (int i = 0; i < 6000; ++i) {
+    people.step(step, in_door);
+    for (const Walker& walker : people.walkers())
+      least_m = std::min(least_m, (walker.disc.position_m - in_door.position_m).norm());
+  }
+  EXPECT_LT(least_m, apart_m) << "nobody came";
+  EXPECT_GE(least_m, apart_m - options.gives_way_m - 1e-9);
+}
+
 TEST(Walkers, repeat_by_their_seed) {
   const auto end_of = [](std::uint64_t seed) {
     Walkers people(two_rooms(), {.count = 3}, robot, seed);
@@ -117,6 +135,38 @@ TEST(Walkers, who_threaten_wait_until_the_robot_comes) {
   const Vec2 waits_at_m = people.walkers().front().disc.position_m;
   for (int i = 0; i < 100; ++i) people.step(step, {waits_at_m + Vec2(2.5, 0.0), radians(180.0)});
   EXPECT_GT(people.walkers().front().disc.walked_m, 0.3);
+}
+
+/// Through doors of 0.8 m, one of them with the robot in it, for five minutes.
+TEST(Walkers, who_walk_about_are_caught_at_no_wall) {
+  OccupancyMap map = empty_floor(240, 160, 0.05);
+  for (int row = 0; row < map.rows; ++row)
+    if ((row < 32 || row >= 48) && (row < 112 || row >= 128))
+      for (const int column : {118, 119, 120}) map.cells[map.index({column, row})] = OccupancyMap::occupied;
+  const Pose2 in_door{{5.975, 2.0}, 0.0};
+  int people_seen = 0;
+  int caught = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Walkers people(map, {.count = 6, .threatening_share = 0.0, .robot_radius_m = 0.25}, in_door, seed);
+    std::vector<double> moved_at_m(people.walkers().size());
+    std::vector<int> stands(people.walkers().size());
+    std::vector<int> longest(people.walkers().size());
+    for (int i = 0; i < 30'000; ++i) {
+      people.step(step, in_door);
+      for (std::size_t k = 0; k < stands.size(); ++k) {
+        const double walked_m = people.walkers()[k].disc.walked_m;
+        if (walked_m > moved_at_m[k] + 0.1) {
+          moved_at_m[k] = walked_m;
+          stands[k] = 0;
+        }
+        longest[k] = std::max(longest[k], ++stands[k]);
+      }
+    }
+    people_seen += static_cast<int>(longest.size());
+    caught += static_cast<int>(std::ranges::count_if(longest, [](int steps) { return steps > 4500; }));
+  }
+  EXPECT_EQ(people_seen, 60);
+  EXPECT_EQ(caught, 0) << "stood for 45 s, three times as long as they keep a goal";
 }
 
 }  // namespace
