@@ -75,6 +75,7 @@ const char* list_of(Presence presence) {
     case Presence::standing:
       return "standing";
     case Presence::legs:
+    case Presence::waiting:
     case Presence::person:
       return "person";
     case Presence::hidden:

@@ -115,11 +115,8 @@ std::optional<double> largest_sigma_m(const RunRecord& record) {
 
 /// By the truth, or by the estimate where nobody knows that.
 double driven_m(const RunRecord& record) {
+  if (!record.truth.empty()) return length_m(record.truth);
   double total = 0.0;
-  for (std::size_t i = 1; i < record.truth.size(); ++i) {
-    total += (record.truth[i].map_from_base.position_m - record.truth[i - 1].map_from_base.position_m).norm();
-  }
-  if (!record.truth.empty()) return total;
   for (std::size_t i = 1; i < record.steps.size(); ++i)
     total += (record.steps[i].estimate.map_from_base.position_m -
               record.steps[i - 1].estimate.map_from_base.position_m)
@@ -144,6 +141,13 @@ std::vector<std::vector<TruePose>> parts_of_track(const RunRecord& record) {
     parts.back().push_back(pose);
   }
   return parts;
+}
+
+double length_m(std::span<const TruePose> track) {
+  double total_m = 0.0;
+  for (std::size_t i = 1; i < track.size(); ++i)
+    total_m += (track[i].map_from_base.position_m - track[i - 1].map_from_base.position_m).norm();
+  return total_m;
 }
 
 std::vector<EstimateError> estimate_errors(const RunRecord& record) {

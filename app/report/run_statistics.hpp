@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "app/report/run_record.hpp"
@@ -26,6 +27,9 @@ std::optional<double> mean_nees(const std::vector<EstimateError>& errors);
 
 /// The true track, split where a goal was reached or given up.
 std::vector<std::vector<TruePose>> parts_of_track(const RunRecord& record);
+
+/// Driven along this track.
+double length_m(std::span<const TruePose> track);
 
 /// A stretch of the drive in which the robot stood because it had to.
 struct Wait {

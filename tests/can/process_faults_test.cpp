@@ -12,7 +12,7 @@ class ProcessFaults : public CanLab {
  protected:
   void drive() {
     start_base();
-    start_run("--goal 9.0,5.0");
+    start_run("--goal 9.0,5.2");
     wait_until_driving();
   }
 

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/report/run_statistics.hpp"
 #include "app/simulate/simulated_drive.hpp"
 #include "app/simulate/simulated_drives.hpp"
 
@@ -43,6 +45,33 @@ TEST(Replay, drives_from_s_to_e_and_back) {
     EXPECT_LT(run.worst_heading_rad, radians(3.0)) << "seed " << seed;
     EXPECT_LT(run.path_p95_m, 0.05) << "seed " << seed;
   }
+}
+
+/// Tiles that hang by a degree. Markers that counted as level put the robot off by 12 to 16 mm.
+TEST(Replay, knows_where_it_is_to_millimetres_under_markers_that_are_not_level) {
+  const Site site = lab();
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const RunRecord record = simulate_drive(site, {.camera = site.default_camera,
+                                                   .seed = seed,
+                                                   .goals = site.goals,
+                                                   .disturbances = {.tilted_rad = radians(1.0)}});
+    EXPECT_TRUE(record.arrived()) << "seed " << seed;
+    std::vector<double> errors_m;
+    for (const EstimateError& error : estimate_errors(record)) errors_m.push_back(error.position_m);
+    std::ranges::nth_element(errors_m, errors_m.begin() + static_cast<std::ptrdiff_t>(errors_m.size() / 2));
+    EXPECT_LT(errors_m[errors_m.size() / 2], 0.003) << "seed " << seed;
+  }
+}
+
+TEST(Replay, puts_things_in_the_way_that_the_map_lacks) {
+  const ScratchFolder scratch;
+  const std::string command = "replay " LODESTAR_SOURCE_DIR "/sites/lab --seed 3 --goal 9.4,1.2 --quiet ";
+  const Ran ran = run_lodestar(command + "--obstacles -o among", scratch.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("contacts while moving 0"));
+  EXPECT_THAT(read_text(scratch.path() / "among/summary.json"), HasSubstr(" --obstacles\""));
+  EXPECT_EQ(run_lodestar(command + "-o alone", scratch.path()).exit_code, 0);
+  EXPECT_NE(read_text(scratch.path() / "among/truth.tum"), read_text(scratch.path() / "alone/truth.tum"));
 }
 
 /// A fault of the robot's disk from 1 s to 2 s.
@@ -105,9 +134,9 @@ TEST(Replay, fails_with_a_reason_when_the_goal_is_in_a_wall) {
   EXPECT_THAT(record.goals[0].failure, ::testing::HasSubstr("goal"));
 }
 
-/// Beside the corner of the desk at (4.0, 5.75), which touches the robot at x = 4.2. Where the path has to
-/// end so far aside that it would not count as arrived, the robot stops there once and says why.
-TEST(Replay, reaches_a_goal_beside_an_obstacle_or_says_at_once_that_it_is_too_near) {
+/// Beside the corner of the desk at (4.0, 5.75), which touches the robot at x = 4.2. Where the path would
+/// have to end so far aside that it does not count as arrived, the robot does not set out.
+TEST(Replay, reaches_a_goal_beside_an_obstacle_or_does_not_set_out) {
   const Site site = lab();
   int reached = 0;
   for (int mm = 0; mm <= 20; mm += 2) {
@@ -116,10 +145,11 @@ TEST(Replay, reaches_a_goal_beside_an_obstacle_or_says_at_once_that_it_is_too_ne
       const RunRecord record = simulate_drive(
           site, {.camera = site.default_camera, .seed = seed, .goals = {{goal_m, std::nullopt}}});
       const GoalRecord& goal = record.goals.at(0);
-      EXPECT_LT(seconds(goal.travel_time), 22.0) << mm << " mm, seed " << seed << ": " << goal.failure;
-      EXPECT_THAT(goal.failure, goal.arrived ? HasSubstr("") : HasSubstr("too near to an obstacle"));
       EXPECT_EQ(record.contacts, 0);
       reached += goal.arrived ? 1 : 0;
+      if (goal.arrived) continue;
+      EXPECT_EQ(goal.failure, "goal occupied") << mm << " mm, seed " << seed;
+      EXPECT_LT(seconds(goal.travel_time), 1.0) << mm << " mm, seed " << seed;
     }
   }
   EXPECT_GE(reached, 18) << "from 10 mm on at the latest";

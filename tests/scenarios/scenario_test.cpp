@@ -101,6 +101,21 @@ TEST(Scenario, drives_around_a_table_that_only_a_depth_camera_sees) {
   }
 }
 
+/// Driving off would be a contact of a robot that moves.
+TEST(Scenario, stays_while_someone_who_has_come_leans_on_the_robot) {
+  const ScratchFolder scratch;
+  std::string text = hall +
+                     "discs: [{radius_m: 0.25, legs: true, keys: [[0, 0.5, 3.4], [0.8, 0.7, 2.3], [40, 0.7, "
+                     "2.3], [42, 0.5, 3.7]]}]\n";
+  text.replace(text.find("time_limit_s: 40"), 16, "time_limit_s: 90");
+  for (const auto& line : lines_of(run_scenario_text(scratch, text, "--json --seeds 3"))) {
+    EXPECT_EQ(line["success"], true) << line;
+    EXPECT_GT(line["time_s"].get<double>(), 42.0) << line;
+    EXPECT_EQ(line["contacts_moving"], 0) << line;
+    EXPECT_EQ(line["contacts_at_rest"], 1) << line;
+  }
+}
+
 TEST(Scenario, gives_up_at_its_time_limit) {
   const ScratchFolder scratch;
   std::string text = hall;

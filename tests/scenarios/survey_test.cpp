@@ -44,7 +44,7 @@ class SurveyCommand : public testing::Test {
   ScratchFolder scratch_;
 };
 
-constexpr const char* short_way = " --goal 4,2 --goal 4,5.5 --goal 2,4";
+constexpr const char* short_way = " --goal 4,2 --goal 4.2,5.3 --goal 2,4";
 
 TEST_F(SurveyCommand, writes_a_registry_and_where_it_comes_from) {
   drive("first", short_way, 3);

@@ -135,7 +135,7 @@ describe('stopping', () => {
   after(() => slow?.stop());
 
   const begin = async (page) => {
-    await page.evaluate(() => window.lodestar.console.live.goals.set([{ x: 5.4, y: 4.4, yawDeg: null }]));
+    await page.evaluate(() => window.lodestar.console.live.goals.set([{ x: 5.4, y: 4.3, yawDeg: null }]));
     await previewed(page);
     await page.getByRole('button', { name: 'Drive', exact: true }).click();
     await until(page, () => window.lodestar.console.live.state.measured.forward_mps > 0.2);
@@ -163,7 +163,7 @@ describe('stopping', () => {
 
   test('a driver who goes away leaves a robot that comes to rest, and another may go on', async () => {
     const page = await watch(undefined, undefined, slow.url);
-    await page.evaluate(() => window.lodestar.console.live.goals.set([{ x: 5.4, y: 4.4, yawDeg: null }]));
+    await page.evaluate(() => window.lodestar.console.live.goals.set([{ x: 5.4, y: 4.3, yawDeg: null }]));
     await previewed(page);
     await begin(page);
     await page.context().close();

@@ -16,7 +16,7 @@ let isThere = false;
 export async function driveOff(page) {
   isThere = !isThere;
   await page.locator('#tool-live').click();
-  await setGoals(page, isThere ? [5.4, 4.4] : [1.7, 5.6]);
+  await setGoals(page, isThere ? [5.4, 4.3] : [1.7, 5.6]);
   await planned(page);
   await page.getByRole('button', { name: 'Drive', exact: true }).click();
   await until(page, isMoving);

@@ -58,7 +58,7 @@ describe('on the page', () => {
     const page = await among();
     const isHeld = () => { const { state } = window.lodestar.console.live; return state.moving && state.field.state !== 'free'; };
     for (let i = 0; i < 6; ++i) {
-      await setGoals(page, i % 2 ? [1.7, 5.6] : [5.4, 4.4]);
+      await setGoals(page, i % 2 ? [1.7, 5.6] : [5.4, 4.3]);
       await planned(page);
       await page.getByRole('button', { name: 'Drive', exact: true }).click();
       const held = await page.waitForFunction(isHeld, undefined, { polling: 20, timeout: 8000 }).catch(() => null);

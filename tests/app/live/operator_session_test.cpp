@@ -151,7 +151,7 @@ TEST(OperatorSession, hands_over_the_newest_frame_as_it_is_and_keeps_no_state_fo
 TEST(OperatorSession, stops_within_the_limits_for_whoever_asks) {
   const Site site = lab();
   std::size_t stopped_at = 0;
-  const Story story = attended(site, {{.position_m = {5.4, 4.4}, .heading_rad = {}}},
+  const Story story = attended(site, {{.position_m = {5.4, 4.3}, .heading_rad = {}}},
                                [&](LiveLink& link, const Story& so_far) {
                                  if (stopped_at == 0 && drives_fast(so_far)) {
                                    link.stop();
@@ -196,7 +196,7 @@ TEST(OperatorSession, a_drive_of_the_command_line_needs_nobody_at_the_wheel) {
 TEST(OperatorSession, another_goal_ends_the_present_drive_gently_and_begins_the_next) {
   const Site site = lab();
   std::size_t told_at = 0;
-  const Story story = attended(site, {{.position_m = {5.4, 4.4}, .heading_rad = {}}},
+  const Story story = attended(site, {{.position_m = {5.4, 4.3}, .heading_rad = {}}},
                                [&](LiveLink& link, const Story& so_far) {
                                  link.hold_until(monotonic_now() + long_time);
                                  if (told_at == 0 && drives_fast(so_far) && link.give(go_to({1.7, 5.6})))
@@ -256,7 +256,7 @@ TEST(OperatorSession, ends_a_drive_before_it_steers_and_stop_ends_steering) {
   bool has_stopped = false;
   bool was_by_hand = false;
   const Story story = attended(
-      site, {{.position_m = {5.4, 4.4}, .heading_rad = {}}}, [&](LiveLink& link, const Story& so_far) {
+      site, {{.position_m = {5.4, 4.3}, .heading_rad = {}}}, [&](LiveLink& link, const Story& so_far) {
         link.hold_until(monotonic_now() + long_time);
         if (so_far.kept.empty() && !drives_fast(so_far)) return true;
         was_by_hand = was_by_hand || so_far.states.back().phase == MissionPhase::by_hand;
