@@ -95,6 +95,9 @@ std::vector<EvidenceRow> campaign_rows(const std::string& output) {
       rows.push_back(at_most("missions that arrived silently wrong", wrong, 0.0, ""));
       rows.push_back({.what = "missions that arrived; the others stopped",
                       .today = fmt::format("{} of {}", arrivals, missions)});
+    } else if (line.find(" with an excused contact") != std::string::npos) {
+      rows.push_back({.what = "missions with a contact whose cause nothing on board could show",
+                      .today = line.substr(0, line.find(' '))});
       // NOLINTNEXTLINE(cert-err34-c)
     } else if (std::sscanf(line.c_str(), "contacts with people: %d while moving, %d excused", &moving,
                            &excused) == 2) {

@@ -11,6 +11,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "app/campaign/excuse.hpp"
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_obstacles.hpp"
 #include "app/campaign/random_site.hpp"
@@ -159,7 +160,8 @@ CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>
   return mission;
 }
 
-MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, const CampaignWorld& world) {
+MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, const Site& site,
+                          const CampaignWorld& world) {
   const GoalRecord& goal = record.goals.front();
   MissionOutcome outcome{.mission = number, .spared = !world.has_faults};
   for (const FaultEvent& fault : record.faults) outcome.faults.emplace_back(to_string(fault.kind));
@@ -167,6 +169,7 @@ MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, const C
   if (const auto score = record.score_of(0)) outcome.error_m = score->position_error_m;
   outcome.failure = goal.failure;
   outcome.contacts = record.contacts;
+  if (record.contacts > 0) outcome.excuse = excuse_for_contact(record, site).value_or("");
   outcome.driven_s = record.truth.empty() ? 0.0 : seconds(record.truth.back().stamp);
   outcome.noticed_after_s = noticed_after_s(record);
   outcome.stopped_within_m = stopped_within_m(record);
@@ -190,6 +193,7 @@ nlohmann::ordered_json as_json(const MissionOutcome& outcome) {
       {"driven_s", outcome.driven_s},
       {"noticed_after_s", optional(outcome.noticed_after_s)},
       {"stopped_within_m", optional(outcome.stopped_within_m)}};
+  if (!outcome.excuse.empty()) json["excuse"] = outcome.excuse;
   if (outcome.spared) json["without_faults"] = true;
   if (outcome.people) {
     json["people"] = {{"moving", outcome.people->moving},
@@ -222,6 +226,7 @@ MissionOutcome outcome_from(const nlohmann::json& json) {
           .error_m = optional("error_m").value_or(0.0),
           .failure = json.at("failure"),
           .contacts = static_cast<int>(whole_number(json.at("contacts"), most_contacts)),
+          .excuse = json.value("excuse", ""),
           .driven_s = json.at("driven_s"),
           .noticed_after_s = optional("noticed_after_s"),
           .stopped_within_m = optional("stopped_within_m"),
@@ -258,7 +263,7 @@ std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const Ca
       mission.replay.goes_on = options.goes_on;
       const RunRecord record = simulate_drive(mission.site, mission.replay);
       if (is_over()) return;  // perhaps in the middle of this mission
-      outcome = outcome_of(number, record, options.world);
+      outcome = outcome_of(number, record, mission.site, options.world);
     }
     const std::lock_guard lock(mutex);
     if (before == known.end()) log << as_json(*outcome).dump() << "\n" << std::flush;

@@ -38,13 +38,17 @@ struct MissionOutcome {
   double error_m = 0.0;  ///< true distance from the goal, when arrival was reported
   std::string failure;   ///< in words, when it did not arrive
   int contacts = 0;
+  std::string excuse;     ///< of those with the map, as by excuse_for_contact(); empty for none
   double driven_s = 0.0;  ///< simulated
   /// From the start of the fault to the first notice or refused fix, for missions with exactly one fault.
   std::optional<double> noticed_after_s;
   std::optional<double> stopped_within_m;  ///< longest stopping distance after a reason to stop
   std::optional<PeopleContacts> people;    ///< of campaigns in which people walk about
 
-  [[nodiscard]] bool hit_something() const { return contacts > 0 || (people && people->moving > 0); }
+  [[nodiscard]] bool hit_something() const {
+    return (contacts > 0 && excuse.empty()) || (people && people->moving > 0);
+  }
+  [[nodiscard]] bool is_excused() const { return contacts > 0 && !hit_something(); }
   [[nodiscard]] bool silently_wrong() const { return arrived && error_m > silently_wrong_m; }
 };
 
@@ -58,7 +62,8 @@ struct CampaignMission {
 };
 CampaignMission mission_of(const Site& robot_and_cameras, const std::vector<int>& ids, std::uint64_t number,
                            const CampaignWorld& world = {});
-MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, const CampaignWorld& world = {});
+MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, const Site& site,
+                          const CampaignWorld& world = {});
 
 struct CampaignOptions {
   std::uint64_t first = 1;  ///< number of the first mission

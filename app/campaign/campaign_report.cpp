@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 
 #include "app/report/page.hpp"
@@ -21,6 +22,7 @@ struct Tally {
   int arrivals = 0;
   int safe_stops = 0;
   int contacts = 0;
+  int excused = 0;  ///< missions with a contact that nothing on board could have prevented
   int silently_wrong = 0;
   std::map<std::string, int> reasons;  ///< of the safe stops
   std::vector<double> noticed_after_s;
@@ -31,10 +33,11 @@ struct Tally {
   void add(const MissionOutcome& outcome) {
     ++missions;
     contacts += outcome.hit_something() ? 1 : 0;
+    excused += outcome.is_excused() ? 1 : 0;
     silently_wrong += outcome.silently_wrong() ? 1 : 0;
-    arrivals += outcome.arrived && !outcome.silently_wrong() ? 1 : 0;
+    arrivals += outcome.arrived && !outcome.silently_wrong() && !outcome.is_excused() ? 1 : 0;
     if (outcome.arrived) errors_m.push_back(outcome.error_m);
-    if (!outcome.arrived && !outcome.hit_something()) {
+    if (!outcome.arrived && !outcome.hit_something() && !outcome.is_excused()) {
       ++safe_stops;
       ++reasons[outcome.failure];
     }
@@ -82,6 +85,7 @@ Json as_json(const Tally& tally) {
             {"arrivals", tally.arrivals},
             {"safe_stops", tally.safe_stops},
             {"contacts", tally.contacts},
+            {"excused", tally.excused},
             {"silently_wrong", tally.silently_wrong},
             {"reasons", tally.reasons},
             {"error_m", spread(tally.errors_m)},
@@ -101,6 +105,22 @@ std::vector<MissionOutcome> failures(const std::vector<MissionOutcome>& outcomes
   for (const MissionOutcome& outcome : outcomes)
     if (outcome.hit_something() || outcome.silently_wrong()) bad.push_back(outcome);
   return bad;
+}
+
+std::vector<MissionOutcome> excused(const std::vector<MissionOutcome>& outcomes) {
+  std::vector<MissionOutcome> all;
+  std::ranges::copy_if(outcomes, std::back_inserter(all), &MissionOutcome::is_excused);
+  return all;
+}
+
+Json listed(const std::vector<MissionOutcome>& outcomes) {
+  Json list = Json::array();
+  for (const MissionOutcome& outcome : outcomes) {
+    Json entry = lodestar::as_json(outcome);
+    entry["repeat"] = repeat_command(outcome);
+    list.push_back(std::move(entry));
+  }
+  return list;
 }
 
 std::string cell(const std::vector<double>& values, double share, double factor) {
@@ -133,24 +153,22 @@ std::string repeat_command(const MissionOutcome& outcome) {
 Json campaign_json(const std::vector<MissionOutcome>& outcomes) {
   Json faults = Json::object();
   for (const auto& [kind, tally] : by_fault(outcomes)) faults[kind] = as_json(tally);
-  Json bad = Json::array();
-  for (const MissionOutcome& outcome : failures(outcomes)) {
-    Json entry = lodestar::as_json(outcome);
-    entry["repeat"] = repeat_command(outcome);
-    bad.push_back(std::move(entry));
-  }
-  return {{"all", as_json(all_of(outcomes))}, {"by_fault", faults}, {"failures", bad}};
+  return {{"all", as_json(all_of(outcomes))},
+          {"by_fault", faults},
+          {"failures", listed(failures(outcomes))},
+          {"excused", listed(excused(outcomes))}};
 }
 
 std::string campaign_html(const std::vector<MissionOutcome>& outcomes) {
   const Tally all = all_of(outcomes);
   std::string html = fmt::format(
       "<h1>Fault campaign</h1>\n<p class=\"lead\">{} missions: {} arrivals, {} safe stops, {} with contacts, "
-      "{} silently wrong.</p>\n<table><tr><th>Fault</th><th>Missions</th><th>Arrived</th><th>Stopped "
+      "{} with an excused one, {} silently "
+      "wrong.</p>\n<table><tr><th>Fault</th><th>Missions</th><th>Arrived</th><th>Stopped "
       "safely</th><th>Contacts</th><th>Silently wrong</th><th>Noticed after, ms: "
       "median</th><th>p99</th><th>max</th><th>Stopped within, mm: p99</th><th>Position error at the goal, "
       "mm: p99</th><th>max</th>{}</tr>\n",
-      all.missions, all.arrivals, all.safe_stops, all.contacts, all.silently_wrong,
+      all.missions, all.arrivals, all.safe_stops, all.contacts, all.excused, all.silently_wrong,
       all.people ? "<th>Contacts with people: moving</th><th>excused</th><th>at rest</th>" : "");
   html += row_of("all", all);
   for (const auto& [kind, tally] : by_fault(outcomes)) html += row_of(kind, tally);
@@ -158,15 +176,17 @@ std::string campaign_html(const std::vector<MissionOutcome>& outcomes) {
   for (const auto& [reason, count] : all.reasons)
     html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(reason), count);
   html += "</table>\n";
-  const std::vector<MissionOutcome> bad = failures(outcomes);
-  if (bad.empty()) return page_html("Lodestar: fault campaign", html);
-  html += "<h2>Failures</h2>\n<table><tr><th>What</th><th>Faults</th><th>Repeat with</th></tr>\n";
-  for (const MissionOutcome& outcome : bad) {
-    html += fmt::format("<tr><td>{}</td><td>{}</td><td><code>{}</code></td></tr>\n",
-                        outcome.hit_something() ? "contact" : "silently wrong",
+  std::string rows;
+  const auto append_row = [&](const MissionOutcome& outcome, const std::string& what) {
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td><code>{}</code></td></tr>\n", escaped(what),
                         fmt::join(outcome.faults, ", "), repeat_command(outcome));
-  }
-  return page_html("Lodestar: fault campaign", html + "</table>\n");
+  };
+  for (const MissionOutcome& outcome : failures(outcomes))
+    append_row(outcome, outcome.hit_something() ? "contact" : "silently wrong");
+  for (const MissionOutcome& outcome : excused(outcomes)) append_row(outcome, "excused: " + outcome.excuse);
+  if (rows.empty()) return page_html("Lodestar: fault campaign", html);
+  html += "<h2>Failures</h2>\n<table><tr><th>What</th><th>Faults</th><th>Repeat with</th></tr>\n";
+  return page_html("Lodestar: fault campaign", html + rows + "</table>\n");
 }
 
 }  // namespace lodestar

@@ -33,8 +33,10 @@ struct CampaignArguments {
 void print_failure(const MissionOutcome& outcome) {
   std::string faults;
   for (const std::string& fault : outcome.faults) faults += (faults.empty() ? "" : ", ") + fault;
-  fmt::print("{}: {} ({}); repeat with: {}\n", outcome.mission,
-             outcome.hit_something() ? "contact" : "silently wrong", faults, repeat_command(outcome));
+  const std::string what = outcome.is_excused()      ? "excused contact, " + outcome.excuse
+                           : outcome.hit_something() ? "contact"
+                                                     : "silently wrong";
+  fmt::print("{}: {} ({}); repeat with: {}\n", outcome.mission, what, faults, repeat_command(outcome));
 }
 
 ExitCode verdict(const std::vector<MissionOutcome>& outcomes) {
@@ -51,7 +53,7 @@ ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const Camp
                        {.seed = mission.replay.seed, .can_wait = true});
   mission.replay.watch = recorded.watcher();
   RunRecord record = simulate_drive(mission.site, mission.replay);
-  const MissionOutcome outcome = outcome_of(number, record, world);
+  const MissionOutcome outcome = outcome_of(number, record, mission.site, world);
   record.repeat = repeat_command(outcome);
   const RunFolderEnd end = recorded.finish(record);
   if (!end.loss.empty()) throw InputError(end.loss);
@@ -79,12 +81,14 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
   write_file_atomically(fs::path(arguments.output) / "campaign.json", report.dump(2) + "\n");
   write_file_atomically(fs::path(arguments.output) / "campaign.html", campaign_html(outcomes));
   for (const MissionOutcome& outcome : outcomes)
-    if (outcome.hit_something() || outcome.silently_wrong()) print_failure(outcome);
+    if (outcome.hit_something() || outcome.silently_wrong() || outcome.is_excused()) print_failure(outcome);
   const auto& all = report["all"];
   fmt::print("{} missions: {} arrivals, {} safe stops, {} with contacts, {} silently wrong; report: {}\n",
              all["missions"].get<int>(), all["arrivals"].get<int>(), all["safe_stops"].get<int>(),
              all["contacts"].get<int>(), all["silently_wrong"].get<int>(),
              (fs::path(arguments.output) / "campaign.html").string());
+  if (const int excused = all["excused"].get<int>(); excused > 0)
+    fmt::print("{} with an excused contact, whose cause nothing on board could show\n", excused);
   if (all.contains("people"))
     fmt::print("contacts with people: {} while moving, {} excused, {} at rest; at {:.2f} m/s at most\n",
                all["people"]["moving"].get<int>(), all["people"]["excused"].get<int>(),

@@ -181,7 +181,11 @@ std::optional<FixAttempt> MarkerLocalizer::look(const Frame& frame, Localization
     if (may_accuse) judge(single, known);
 
   if (!used) used = most_expected(doubted, known);
-  if (used) fuse(*used, known);
+  if (used) {
+    fuse(*used, known);
+  } else {
+    used = contradicted_by_twins(frame, markers, known);
+  }
   return used;
 }
 
@@ -208,6 +212,31 @@ std::vector<FixAttempt> MarkerLocalizer::fixes_by_each(const Frame& frame,
       fixes.push_back(std::move(*fix));
   }
   return fixes;
+}
+
+/// An ID seen twice gives no fix. But where neither of the two is where the estimate has it, the robot is
+/// elsewhere. Which of them tells where is unknown.
+std::optional<FixAttempt> MarkerLocalizer::contradicted_by_twins(const Frame& frame,
+                                                                 std::span<const DetectedMarker> markers,
+                                                                 LocalizationState& known) {
+  std::optional<FixAttempt> contradicting;
+  for (const DetectedMarker& marker : markers) {
+    if (std::ranges::count(markers, marker.id, &DetectedMarker::id) == 1) continue;
+    std::optional<FixAttempt> fix = fix_by(frame, std::span(&marker, 1));
+    const std::optional<FixExpectation> expected = fix ? known.filter.expectation(fix->planar) : std::nullopt;
+    if (!expected) continue;
+    if (expected->agrees) return std::nullopt;
+    fix->expected = expected->map_from_base;
+    fix->outcome = FixOutcome::refused_gate;
+    contradicting = std::move(fix);
+  }
+  if (contradicting)
+    known.integrity.add_fix({.stamp = frame.stamp,
+                             .ids = {},
+                             .map_from_base = contradicting->planar.map_from_base,
+                             .expected = contradicting->expected,
+                             .outcome = contradicting->outcome});
+  return contradicting;
 }
 
 /// Reports the fix of a single marker to marker trust, which counts contradictions to the estimate.

@@ -65,6 +65,8 @@ class MarkerLocalizer {
   [[nodiscard]] std::optional<FixAttempt> fix_by(const Frame& frame, std::span<const DetectedMarker> markers);
   [[nodiscard]] std::vector<FixAttempt> fixes_by_each(const Frame& frame,
                                                       std::span<const DetectedMarker> markers);
+  std::optional<FixAttempt> contradicted_by_twins(const Frame& frame, std::span<const DetectedMarker> markers,
+                                                  LocalizationState& known);
   void follow_ceiling(const Frame& frame, LocalizationState& known);
   std::optional<FixAttempt> look(const Frame& frame, LocalizationState& known);
   void judge(const FixAttempt& single, LocalizationState& known) const;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "localization/filter/belief_offsets.hpp"
 #include "localization/filter/belief_pose.hpp"
@@ -195,17 +196,21 @@ Belief belief_from(const PlanarFix& fix, const WheelTravel& travel, const WheelS
   belief.covariance.block<3, 3>(6, 6) = shared;
   belief.covariance.block<3, 3>(3, 3) = scales.covariance;
   belief.covariance(12, 12) = square(lag.sigma_s);
+  belief.registry_variance = options.registry_variance;
   remember_offsets(fix, belief);
   const Belief::ByState by_state = fix_by_state(belief, fix);
   const Eigen::Index offsets = belief.mean.size() - Belief::own_states;
-  const auto by_offsets = by_state.rightCols(offsets);
-  belief.covariance.topLeftCorner<3, 3>() += by_offsets * by_offsets.transpose();
-  belief.covariance.topRightCorner(3, offsets) = -by_offsets;
-  belief.covariance.bottomLeftCorner(offsets, 3) = -by_offsets.transpose();
+  const Belief::ByState by_offsets = by_state.rightCols(offsets);
+  const Belief::ByState with_offsets = by_offsets * belief.covariance.bottomRightCorner(offsets, offsets);
+  belief.covariance.topLeftCorner<3, 3>() += with_offsets * by_offsets.transpose();
+  belief.covariance.topRightCorner(3, offsets) = -with_offsets;
+  belief.covariance.bottomLeftCorner(offsets, 3) = -with_offsets.transpose();
   return belief;
 }
 
 Belief moved(const Belief& from, const WheelTravel& travel, const PoseFilterOptions& options) {
+  if (from.registry_variance != options.registry_variance)
+    return moved(with_registry_variance(from, options.registry_variance), travel, options);
   const double left_m = travel.left_m - from.travel.left_m;
   const double right_m = travel.right_m - from.travel.right_m;
   const double left_scale = from.mean[3];
@@ -263,6 +268,13 @@ double gate_squared_distance() {
 double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
   const Innovation innovation = innovation_of(sharing(belief, fix, options), fix, options);
   return innovation.error.dot(innovation.covariance.ldlt().solve(innovation.error));
+}
+
+double log_density(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {
+  const Innovation innovation = innovation_of(sharing(belief, fix, options), fix, options);
+  const Eigen::LDLT<Mat3> factors(innovation.covariance);
+  return -0.5 * (innovation.error.dot(factors.solve(innovation.error)) +
+                 factors.vectorD().array().log().sum() + 3.0 * std::log(2.0 * std::numbers::pi));
 }
 
 Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options) {

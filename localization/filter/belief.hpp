@@ -57,6 +57,7 @@ struct Belief {
   std::optional<Stamp> keyframe_stamp;  ///< capture time of the keyframe; nothing when there is none
   std::vector<RecentMarker> markers;    ///< used by fixes nearby
   InlineVector<RecentOffset, most_offsets> offsets;
+  double registry_variance = 1.0;  ///< of the offsets before any fix; as PoseFilterOptions::registry_variance
   /// Prior covariance of the error that nearby fixes share.
   Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();
   BodyVelocity velocity;  ///< by the readings, smoothed
@@ -82,6 +83,9 @@ double gate_squared_distance();
 
 /// Squared Mahalanobis distance, with 3 degrees of freedom, of a fix of the same time.
 double squared_distance(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options);
+
+/// Logarithm of the density (1/(m^2 rad)) that the belief expects there, of a fix of the same time.
+double log_density(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options);
 
 /// The belief corrected by a fix of the same time.
 Belief corrected(const Belief& belief, const PlanarFix& fix, const PoseFilterOptions& options);

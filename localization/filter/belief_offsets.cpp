@@ -32,6 +32,9 @@ void forget(std::size_t offset, Belief& belief) {
       before.covariance.bottomLeftCorner(behind, at), before.covariance.bottomRightCorner(behind, behind);
 }
 
+/// Those of the registry's sigmas; the others are of tilts.
+constexpr Eigen::Index registered_states = 3;
+
 /// In its sigmas: independent of all that is known.
 void add(int id, Belief& belief) {
   const Eigen::Index size = belief.mean.size();
@@ -41,6 +44,7 @@ void add(int id, Belief& belief) {
   belief.mean.head(size) = before.mean;
   belief.covariance.setIdentity(size + per_offset, size + per_offset);
   belief.covariance.topLeftCorner(size, size) = before.covariance;
+  belief.covariance.diagonal().segment<registered_states>(size).setConstant(belief.registry_variance);
 }
 
 }  // namespace
@@ -59,6 +63,27 @@ void remember_offsets(const PlanarFix& fix, Belief& belief) {
     }
     add(by_offset.id, belief);
   }
+}
+
+/// Between two priors of a state lies an observation of zero, whose variance is negative where knowledge is
+/// taken back: 1/after = 1/before + 1/noise.
+Belief with_registry_variance(const Belief& belief, double variance) {
+  Belief result = belief;
+  const double before = belief.registry_variance;
+  result.registry_variance = variance;
+  if (variance == before) return result;
+  const double noise = before * variance / (before - variance);
+  for (std::size_t offset = 0; offset < belief.offsets.size(); ++offset) {
+    for (Eigen::Index i = 0; i < registered_states; ++i) {
+      const Eigen::Index at = state_of(offset) + i;
+      const Belief::State column = result.covariance.col(at);
+      const double innovation_variance = column[at] + noise;
+      result.mean -= column * (result.mean[at] / innovation_variance);
+      result.covariance -= column * (column / innovation_variance).transpose();
+    }
+  }
+  result.mean[2] = wrap_angle(result.mean[2]);
+  return result;
 }
 
 Belief::ByState fix_by_state(const Belief& belief, const PlanarFix& fix) {

@@ -14,9 +14,11 @@ constexpr int fixes_to_relocate = 5;
 /// Below this distance, a relocation needs fixes of two markers or more: a displaced marker contradicts the
 /// estimate steadily too.
 constexpr double relocation_by_one_marker_m = 0.7;
-/// After this many consecutive refused visual-odometry increments, visual odometry is ignored until a fix
-/// agrees: either it or wheel odometry is wrong.
-constexpr int motions_refused_to_ignore = 2;
+/// After this many consecutive refused visual-odometry increments, either it or wheel odometry is wrong until
+/// a fix agrees.
+constexpr int motions_refused_to_doubt = 2;
+/// Random error of a wheel that may slip: half a metre later it has led the robot aside by 9 cm.
+constexpr double slipping_noise_m_per_sqrt_m = 0.1;
 /// Fixes that are ahead of the newest wheel reading by more are refused.
 constexpr Duration most_ahead = std::chrono::milliseconds(100);
 
@@ -42,11 +44,12 @@ void PoseFilter::add_travel(const WheelTravel& reading) {
 FixOutcome PoseFilter::add_fix(const PlanarFix& fix) {
   const std::optional<PlacedFix> at = placed(fix);
   if (!at || (believed_ && at->travel.stamp < believed_->oldest())) return FixOutcome::refused_late;
+  learn_registry(*at);
   if (believed_ && believed_->add_fix(at->fix, at->travel, options_)) {
     rival_.reset();
     last_fix_ = std::max(last_fix_, fix.stamp);
     last_agreed_ = std::max(last_agreed_, fix.stamp);
-    motions_refused_ = 0;
+    end_doubt();
     return FixOutcome::accepted;
   }
 
@@ -57,6 +60,24 @@ FixOutcome PoseFilter::add_fix(const PlanarFix& fix) {
   if (!rival_prevails()) return relocating ? FixOutcome::refused_gate : FixOutcome::collecting;
   begin_with(std::move(*rival_), fix.stamp);
   return relocating ? FixOutcome::relocated : FixOutcome::started;
+}
+
+/// By the first fix that uses a marker, whether the gate refuses it or not.
+void PoseFilter::learn_registry(const PlacedFix& placed) {
+  bool is_first = false;
+  for (const PlanarByOffset& by_offset : placed.fix.by_offsets)
+    is_first = markers_met_.insert(by_offset.id).second || is_first;
+  if (!is_first || !believed_ || doubt_) return;
+  RegistryVariance::LogDensities log_densities{};
+  for (std::size_t i = 0; i < log_densities.size(); ++i) {
+    PoseFilterOptions options = options_;
+    options.registry_variance = RegistryVariance::candidates.at(i);
+    const std::optional<Belief> expected = believed_->at(placed.travel, options);
+    if (!expected) return;
+    log_densities[i] = log_density(*expected, placed.fix, options);
+  }
+  registry_.add(log_densities);
+  options_.registry_variance = registry_.likeliest();
 }
 
 void PoseFilter::add_to_rival(const PlacedFix& placed) {
@@ -81,7 +102,7 @@ void PoseFilter::begin_with(Rival rival, Stamp last_fix) {
   believed_ = std::move(rival.history);
   rival_.reset();
   last_fix_ = last_agreed_ = last_fix;
-  motions_refused_ = 0;
+  end_doubt();
 }
 
 bool PoseFilter::start_at(const PlanarFix& fix) {
@@ -122,12 +143,43 @@ bool PoseFilter::set_keyframe(Stamp stamp, double sway_m) {
 bool PoseFilter::add_motion(const VisualOdometryIncrement& motion, bool becomes_keyframe) {
   const std::optional<WheelTravel> travel = travel_at(motion.to);
   if (!travel || !believed_) return false;
+  const std::optional<Belief> expected = believed_->at(*travel, options_);
   const bool agrees = believed_->add_motion(motion, *travel, becomes_keyframe, options_);
-  if (motions_refused_ < motions_refused_to_ignore) {
-    motions_refused_ = agrees ? 0 : motions_refused_ + 1;
-    if (agrees) last_agreed_ = std::max(last_agreed_, motion.to);
+  if (!agrees && expected) doubt_odometry(motion, *expected);
+  if (agrees && !doubt_) {
+    motions_refused_ = 0;
+    last_agreed_ = std::max(last_agreed_, motion.to);
   }
   return agrees;
+}
+
+void PoseFilter::doubt_odometry(const VisualOdometryIncrement& motion, const Belief& expected) {
+  ++motions_refused_;
+  if (motions_refused_ < motions_refused_to_doubt) return;
+  if (!doubt_) doubt_ = {.keyframe = motion.from, .since = expected.travel};
+  if (doubt_->keyframe != motion.from) return;
+  const Pose2 by_wheels = expected.map_from_base();
+  const Pose2 by_ceiling = expected.map_from_keyframe() * motion.then_from_now;
+  doubt_->apart << by_ceiling.position_m - by_wheels.position_m,
+      wrap_angle(by_ceiling.yaw_rad - by_wheels.yaw_rad);
+}
+
+/// The ceiling may be right, and wheels that slip go on doing so.
+Eigen::Matrix3d PoseFilter::covariance_of_doubt() const {
+  if (!doubt_) return Eigen::Matrix3d::Zero();
+  const WheelTravel& now = readings_.back();
+  const double way_m =
+      0.5 * (std::abs(now.left_m - doubt_->since.left_m) + std::abs(now.right_m - doubt_->since.right_m));
+  const double wheel = square(slipping_noise_m_per_sqrt_m) * way_m;
+  const double heading = 2.0 * wheel / square(options_.track_width_m);
+  const double position = 0.5 * wheel + heading * square(way_m) / 3.0;
+  return doubt_->apart * doubt_->apart.transpose() +
+         Eigen::Matrix3d(Vec3(position, position, heading).asDiagonal());
+}
+
+void PoseFilter::end_doubt() {
+  motions_refused_ = 0;
+  doubt_.reset();
 }
 
 /// Interpolates between readings; nothing beyond them and for what is older than the history.
@@ -179,7 +231,7 @@ std::optional<PoseEstimate> PoseFilter::estimate() const {
   const Belief& newest = believed_->newest();
   return PoseEstimate{.stamp = newest.travel.stamp,
                       .map_from_base = newest.map_from_base(),
-                      .covariance = pose_covariance(newest, options_),
+                      .covariance = pose_covariance(newest, options_) + covariance_of_doubt(),
                       .last_fix = last_fix_,
                       .last_agreed = last_agreed_};
 }
@@ -190,11 +242,12 @@ std::optional<PoseEstimate> PoseFilter::estimate_at(Stamp stamp) const {
   if (!origin || !believed_) return std::nullopt;
   const std::optional<Belief> belief = believed_->at(origin->travel, options_);
   if (!belief) return std::nullopt;
-  return PoseEstimate{.stamp = stamp,
-                      .map_from_base = belief->map_from_base() * inverse(origin->fix.map_from_base),
-                      .covariance = pose_covariance(*belief, options_) + origin->fix.covariance,
-                      .last_fix = last_fix_,
-                      .last_agreed = last_agreed_};
+  return PoseEstimate{
+      .stamp = stamp,
+      .map_from_base = belief->map_from_base() * inverse(origin->fix.map_from_base),
+      .covariance = pose_covariance(*belief, options_) + origin->fix.covariance + covariance_of_doubt(),
+      .last_fix = last_fix_,
+      .last_agreed = last_agreed_};
 }
 
 WheelScales PoseFilter::scales() const {

@@ -7,6 +7,7 @@
 #include "localization/filter/arrival_jitter.hpp"
 #include "localization/filter/belief_history.hpp"
 #include "localization/filter/pose_filter_options.hpp"
+#include "localization/filter/registry_variance.hpp"
 #include "localization/filter/zero_velocity_detector.hpp"
 #include "localization/pose/mount.hpp"
 #include "maps/motion.hpp"
@@ -62,8 +63,9 @@ class PoseFilter {
   bool set_keyframe(Stamp stamp, double sway_m);
 
   /// Corrects the belief by a visual-odometry increment from the keyframe; `becomes_keyframe`: the later
-  /// frame becomes the keyframe. False, without any change, where it contradicts odometry or starts from
-  /// another keyframe.
+  /// frame becomes the keyframe. False, without any change of the belief, where it contradicts odometry or
+  /// starts from another keyframe. After two contradictions in a row the ceiling confirms nothing until a fix
+  /// agrees, and the estimate is as uncertain as to cover both, and where wheels that slip may lead.
   bool add_motion(const VisualOdometryIncrement& motion, bool becomes_keyframe);
 
   /// Sets the initial pose, whatever was believed. False, without any change, when the fix is beyond the
@@ -94,6 +96,9 @@ class PoseFilter {
   /// Learned scale of turns: the track width as built over the effective one on this floor.
   [[nodiscard]] double turn_scale() const { return scales().mean.z(); }
 
+  /// Learned variance of the markers' offsets, in squared sigmas of the registry.
+  [[nodiscard]] double registry_variance() const { return options_.registry_variance; }
+
  private:
   /// A fix with the wheels' reading at its time.
   struct PlacedFix {
@@ -108,11 +113,22 @@ class PoseFilter {
     std::set<int> ids;  ///< of the markers used by its fixes
   };
 
+  /// Either the wheels or the ceiling tell a wrong motion: until a fix agrees.
+  struct OdometryDoubt {
+    Stamp keyframe;
+    Vec3 apart = Vec3::Zero();  ///< x_m, y_m, yaw_rad in the map: how far the ceiling tells another pose
+    WheelTravel since;
+  };
+
   [[nodiscard]] std::optional<WheelTravel> travel_at(Stamp stamp) const;
   [[nodiscard]] std::optional<PlacedFix> placed(const PlanarFix& fix) const;
   [[nodiscard]] PlacedFix at_newest_reading(const PlanarFix& fix) const;
+  void learn_registry(const PlacedFix& placed);
   void add_to_rival(const PlacedFix& placed);
   [[nodiscard]] bool rival_prevails() const;
+  void doubt_odometry(const VisualOdometryIncrement& motion, const Belief& expected);
+  [[nodiscard]] Eigen::Matrix3d covariance_of_doubt() const;
+  void end_doubt();
   void begin_with(Rival rival, Stamp last_fix);
   [[nodiscard]] Rival rival_from(const PlacedFix& placed) const;
 
@@ -120,13 +136,14 @@ class PoseFilter {
   ZeroVelocityDetector zero_velocity_;
   ArrivalJitter jitter_;
   std::deque<WheelTravel> readings_;  ///< by ascending stamp, over the history
+  RegistryVariance registry_;
+  std::set<int> markers_met_;  ///< each says once how good the registry is
   std::optional<BeliefHistory> believed_;
   std::optional<Rival> rival_;
   Stamp last_fix_;
   Stamp last_agreed_;
-  /// Consecutive refusals since a fix agreed; from `motions_refused_to_ignore` on, visual odometry is
-  /// ignored.
-  int motions_refused_ = 0;
+  int motions_refused_ = 0;  ///< consecutive, since a fix agreed
+  std::optional<OdometryDoubt> doubt_;
 };
 
 }  // namespace lodestar

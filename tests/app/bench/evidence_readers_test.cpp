@@ -50,11 +50,13 @@ TEST(EvidenceReaders, hold_plans_against_the_design) {
 TEST(EvidenceReaders, see_contacts_in_a_campaigns_last_lines) {
   const auto rows = campaign_rows(
       "7: contact (wheel_slip); repeat with: lodestar campaign --mission 7\n"
-      "100 missions: 70 arrivals, 29 safe stops, 1 with contacts, 0 silently wrong; report: x\n"
+      "100 missions: 70 arrivals, 27 safe stops, 1 with contacts, 0 silently wrong; report: x\n"
+      "2 with an excused contact, whose cause nothing on board could show\n"
       "contacts with people: 0 while moving, 2 excused, 5 at rest; at 0.00 m/s at most\n");
   EXPECT_THAT(rows, ElementsAre(standing(EvidenceStanding::missed), standing(EvidenceStanding::kept),
-                                standing(EvidenceStanding::measured), standing(EvidenceStanding::kept),
-                                standing(EvidenceStanding::measured)));
+                                standing(EvidenceStanding::measured), standing(EvidenceStanding::measured),
+                                standing(EvidenceStanding::kept), standing(EvidenceStanding::measured)));
+  EXPECT_EQ(rows.at(3).today, "2");
   EXPECT_TRUE(campaign_rows("killed").empty());
 }
 

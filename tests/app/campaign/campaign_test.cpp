@@ -246,8 +246,14 @@ TEST(Campaign, reports_contacts_and_silently_wrong_arrivals_with_the_command_tha
   const MissionOutcome wrong{.mission = 3, .faults = {}, .arrived = true, .error_m = 0.2};
   const MissionOutcome stopped{
       .mission = 4, .faults = {"can_loss"}, .failure = "the base is silent", .noticed_after_s = 0.1};
-  const auto report = campaign_json({fine, hit, wrong, stopped});
-  EXPECT_EQ(report["all"]["missions"], 4);
+  const MissionOutcome excused{
+      .mission = 5, .faults = {"kidnapping"}, .failure = "stuck", .contacts = 3, .excuse = "put down blind"};
+  const auto report = campaign_json({fine, hit, wrong, stopped, excused});
+  EXPECT_EQ(report["all"]["missions"], 5);
+  EXPECT_EQ(report["all"]["excused"], 1);
+  EXPECT_EQ(report["excused"][0]["repeat"], "lodestar campaign --mission 5");
+  EXPECT_NE(campaign_html({excused}).find("excused: put down blind"), std::string::npos);
+  EXPECT_EQ(as_json(outcome_from(as_json(excused))).dump(), as_json(excused).dump());
   EXPECT_EQ(report["all"]["arrivals"], 1);
   EXPECT_EQ(report["all"]["safe_stops"], 1);
   EXPECT_EQ(report["all"]["contacts"], 1);

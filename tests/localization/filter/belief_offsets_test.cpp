@@ -9,13 +9,18 @@ namespace {
 
 using namespace testing;
 
-/// A row of markers, each off by its own part of 10 mm and 1 degree, as measured by tape.
+/// A row of markers, each off by its own part of 10 mm and 1 degree, as measured by tape; or by so many times
+/// as much.
 class MarkerRow {
  public:
   static constexpr int count = 12;
 
-  explicit MarkerRow(Random& random) {
-    for (Vec3& offset : in_sigmas_) offset = Vec3(random.normal(), random.normal(), random.normal());
+  explicit MarkerRow(Random& random, double times = 1.0) {
+    for (Vec3& offset : in_sigmas_) offset = times * Vec3(random.normal(), random.normal(), random.normal());
+  }
+
+  void move_marker(int id, const Vec3& by_sigmas) {
+    in_sigmas_.at(static_cast<std::size_t>(id)) += by_sigmas;
   }
 
   /// By the two markers nearest to the robot, each of which moves the pose by half of its offset, and turns
@@ -55,8 +60,7 @@ struct Drive {
 };
 
 /// Along the row at 0.5 m/s, with 25 fixes a second.
-Drive driven(double way_m, std::uint64_t seed) {
-  const PoseFilterOptions options = without_floor();
+Drive driven(double way_m, std::uint64_t seed, const PoseFilterOptions& options = without_floor()) {
   Drive drive{.world = {.truth = {{0.5, 0.1}, 0.0}, .noise_m_per_sqrt_m = 0.002, .random = Random(seed)},
               .belief = {}};
   const MarkerRow row(drive.world.random);
@@ -115,6 +119,78 @@ TEST(BeliefOffsets, forgotten_leave_the_rest_as_it_was) {
                 .norm(),
             1e-9);
   EXPECT_LT((pose_covariance(after, options) - pose_covariance(belief, options)).norm(), 1e-9);
+}
+
+TEST(BeliefOffsets, of_another_prior_are_as_if_it_had_been_so_from_the_beginning) {
+  PoseFilterOptions of_worse = without_floor();
+  of_worse.registry_variance = 9.0;
+  const Belief belief = driven(4.0, 1).belief;
+  const Belief worse = driven(4.0, 1, of_worse).belief;
+  const Belief made_worse = with_registry_variance(belief, 9.0);
+  const Eigen::Matrix3d wanted = pose_covariance(worse, of_worse);
+  const Eigen::Matrix3d found = pose_covariance(made_worse, of_worse);
+  // But for where the corrections are linearized.
+  EXPECT_LT((found - wanted).norm(), 0.05 * wanted.norm());
+  EXPECT_LT((made_worse.mean - worse.mean).head<3>().norm(), 0.002);
+  EXPECT_GT(found(0, 0), 3.0 * pose_covariance(belief, without_floor())(0, 0));
+  const Belief back = with_registry_variance(made_worse, 1.0);
+  EXPECT_LT((back.mean - belief.mean).norm(), 1e-6);
+  EXPECT_LT((back.covariance - belief.covariance).norm(), 1e-6);
+}
+
+struct Filtered {
+  World world;
+  PoseFilter filter{without_floor()};
+};
+
+/// As driven(), by a filter, which may refuse a fix.
+Filtered filtered(double way_m, std::uint64_t seed, double times,
+                  const Vec3& moved_by_sigmas = Vec3::Zero()) {
+  constexpr int moved_marker = 3;
+  Filtered drive{.world = {.truth = {{0.5, 0.1}, 0.0}, .noise_m_per_sqrt_m = 0.002, .random = Random(seed)}};
+  MarkerRow row(drive.world.random, times);
+  row.move_marker(moved_marker, moved_by_sigmas);
+  const int steps = static_cast<int>(way_m / 0.02);
+  for (int i = 1; i <= steps; ++i) {
+    drive.world.roll(0.02, 0.02, 0.04 * i);
+    drive.filter.add_travel(drive.world.reported);
+    PlanarFix fix = row.seen_from(drive.world.truth, drive.world.random);
+    fix.stamp = drive.world.reported.stamp;
+    drive.filter.add_fix(fix);
+  }
+  return drive;
+}
+
+/// Drives in a hundred, after which the registry is thought worse than it says.
+int drives_with_doubt(double times, const Vec3& moved_by_sigmas = Vec3::Zero()) {
+  int doubting = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed)
+    doubting += filtered(8.0, seed, times, moved_by_sigmas).filter.registry_variance() > 1.0 ? 1 : 0;
+  return doubting;
+}
+
+TEST(RegistryVariance, is_that_of_a_registry_worse_than_it_says) {
+  EXPECT_GE(drives_with_doubt(3.0), 95);
+}
+
+TEST(RegistryVariance, of_a_registry_that_tells_the_truth_stays) {
+  EXPECT_LE(drives_with_doubt(1.0), 3);
+  EXPECT_EQ(drives_with_doubt(0.0), 0);
+}
+
+TEST(RegistryVariance, is_not_doubted_for_one_marker_that_was_moved) {
+  EXPECT_LE(drives_with_doubt(1.0, Vec3(8.0, -6.0, 5.0)), 5);
+}
+
+/// Taken at its word, the squared error of the estimate was 29.
+TEST(RegistryVariance, keeps_the_estimate_as_uncertain_as_it_is) {
+  constexpr int drives = 200;
+  double mean = 0.0;
+  for (int i = 0; i < drives; ++i) {
+    const Filtered drive = filtered(8.0, static_cast<std::uint64_t>(i), 3.0);
+    mean += nees(drive.world, drive.filter) / drives;
+  }
+  EXPECT_LT(mean, 6.0);
 }
 
 }  // namespace

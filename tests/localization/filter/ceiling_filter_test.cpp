@@ -168,6 +168,7 @@ TEST(CeilingFilter, refuses_what_contradicts_the_wheels_and_then_believes_neithe
   EXPECT_EQ(filter.estimate()->last_agreed, at(2.2));
   EXPECT_FALSE(pictures.show(filter, false, slip));
   EXPECT_FALSE(pictures.show(filter, false, slip));
+  EXPECT_GT(std::sqrt(filter.estimate()->covariance(2, 2)), radians(5.0)) << "it covers both";
   drive(world, filter, 2.2, 0.1, false);
   EXPECT_TRUE(pictures.show(filter, false));
   EXPECT_EQ(filter.estimate()->last_agreed, at(2.2)) << "ignored until a fix agrees";
@@ -175,6 +176,27 @@ TEST(CeilingFilter, refuses_what_contradicts_the_wheels_and_then_believes_neithe
   drive(world, filter, 2.3, 0.1, false);
   EXPECT_TRUE(pictures.show(filter, false));
   EXPECT_EQ(filter.estimate()->last_agreed, at(2.4));
+}
+
+/// Half a metre after its wheels began to slip, a robot was off by centimetres and claimed millimetres.
+TEST(CeilingFilter, grows_uncertain_where_wheels_and_ceiling_disagree_until_a_fix_agrees) {
+  World world;
+  PoseFilter filter(without_floor());
+  drive(world, filter, 0.0, 2.0, true);
+  Pictures pictures{.world = world, .sigma_m = 0.001, .sigma_rad = 0.001};
+  ASSERT_TRUE(pictures.keep(filter));
+  world.scales = {1.0, 0.6};
+  for (const double begin_s : {2.0, 2.2, 2.4, 2.6, 2.8}) {
+    drive(world, filter, begin_s, 0.2, false);
+    pictures.show(filter, false);
+  }
+  EXPECT_GT(position_error(world, filter), 0.05);
+  EXPECT_LT(nees(world, filter), 16.0);
+  const double before_rad = std::sqrt(filter.estimate()->covariance(2, 2));
+  world.scales = {1.0, 1.0};
+  drive(world, filter, 3.0, 1.0, true);
+  EXPECT_LT(position_error(world, filter), 0.01);
+  EXPECT_LT(std::sqrt(filter.estimate()->covariance(2, 2)), 0.1 * before_rad);
 }
 
 }  // namespace
