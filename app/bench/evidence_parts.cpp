@@ -123,7 +123,7 @@ EvidencePart campaign_part(bool with_people) {
                     .conclude = "that these missions, each repeatable by its number, ended as counted",
                     .not_conclude =
                         "a rate below 3 in the number of missions, nor anything about faults, buildings and "
-                        "people of other kinds; docs/safety.md has 4,000"};
+                        "people of other kinds; docs/safety.md has 10,000"};
   for (auto* const arguments : {&part.arguments, &part.quick_arguments}) {
     arguments->push_back("{folder}/" + part.name);
     if (with_people) arguments->push_back("--people");
