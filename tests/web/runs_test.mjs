@@ -158,7 +158,7 @@ describe('runs', () => {
 
 describe('where it goes badly', () => {
   test('the worst place without markers is where none was seen, and a marker suggested there is seen from it', async () => {
-    const page = await replaying('plain');
+    const page = await replaying('pushed');
     await page.locator('#heat-kind').selectOption({ label: 'time without a marker' });
     const worst = page.locator('#heat-worst li').first();
     await worst.waitFor();
