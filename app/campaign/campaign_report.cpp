@@ -100,17 +100,11 @@ Json as_json(const Tally& tally) {
   return json;
 }
 
-std::vector<MissionOutcome> failures(const std::vector<MissionOutcome>& outcomes) {
-  std::vector<MissionOutcome> bad;
-  for (const MissionOutcome& outcome : outcomes)
-    if (outcome.hit_something() || outcome.silently_wrong()) bad.push_back(outcome);
-  return bad;
-}
-
-std::vector<MissionOutcome> excused(const std::vector<MissionOutcome>& outcomes) {
-  std::vector<MissionOutcome> all;
-  std::ranges::copy_if(outcomes, std::back_inserter(all), &MissionOutcome::is_excused);
-  return all;
+std::vector<MissionOutcome> those_that(bool (MissionOutcome::*is_such)() const,
+                                       const std::vector<MissionOutcome>& outcomes) {
+  std::vector<MissionOutcome> such;
+  std::ranges::copy_if(outcomes, std::back_inserter(such), is_such);
+  return such;
 }
 
 Json listed(const std::vector<MissionOutcome>& outcomes) {
@@ -155,8 +149,8 @@ Json campaign_json(const std::vector<MissionOutcome>& outcomes) {
   for (const auto& [kind, tally] : by_fault(outcomes)) faults[kind] = as_json(tally);
   return {{"all", as_json(all_of(outcomes))},
           {"by_fault", faults},
-          {"failures", listed(failures(outcomes))},
-          {"excused", listed(excused(outcomes))}};
+          {"failures", listed(those_that(&MissionOutcome::has_failed, outcomes))},
+          {"excused", listed(those_that(&MissionOutcome::is_excused, outcomes))}};
 }
 
 std::string campaign_html(const std::vector<MissionOutcome>& outcomes) {
@@ -181,9 +175,10 @@ std::string campaign_html(const std::vector<MissionOutcome>& outcomes) {
     rows += fmt::format("<tr><td>{}</td><td>{}</td><td><code>{}</code></td></tr>\n", escaped(what),
                         fmt::join(outcome.faults, ", "), repeat_command(outcome));
   };
-  for (const MissionOutcome& outcome : failures(outcomes))
+  for (const MissionOutcome& outcome : those_that(&MissionOutcome::has_failed, outcomes))
     append_row(outcome, outcome.hit_something() ? "contact" : "silently wrong");
-  for (const MissionOutcome& outcome : excused(outcomes)) append_row(outcome, "excused: " + outcome.excuse);
+  for (const MissionOutcome& outcome : those_that(&MissionOutcome::is_excused, outcomes))
+    append_row(outcome, "excused: " + outcome.excuse);
   if (rows.empty()) return page_html("Lodestar: fault campaign", html);
   html += "<h2>Failures</h2>\n<table><tr><th>What</th><th>Faults</th><th>Repeat with</th></tr>\n";
   return page_html("Lodestar: fault campaign", html + rows + "</table>\n");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/campaign/random_faults.hpp"
 #include "drivers/simulation/disc_contact.hpp"
 #include "maps/marker.hpp"
 
@@ -43,12 +44,6 @@ bool sees_a_marker(const RunRecord& record, const Site& site, Stamp from, Stamp 
              return is_wholly_in_view(marker, pose.map_from_base, site, camera);
            });
   });
-}
-
-bool misleads(FaultKind kind) {
-  using enum FaultKind;
-  return kind == marker_moved || kind == marker_wrong_id || kind == markers_swapped ||
-         kind == marker_duplicated;
 }
 
 bool is_wrong(const FixRecord& fix, const RunRecord& record) {

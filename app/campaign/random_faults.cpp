@@ -27,9 +27,7 @@ constexpr double until_it_has_a_pose_s = 1.5;  ///< after the camera first deliv
 /// Faults that cannot be detected before the robot has seen another marker, and that would give it a wrong
 /// first pose. They begin once the robot has a pose.
 bool may_mislead_at_the_start(FaultKind kind) {
-  return kind == FaultKind::marker_moved || kind == FaultKind::marker_wrong_id ||
-         kind == FaultKind::markers_swapped || kind == FaultKind::marker_duplicated ||
-         kind == FaultKind::kidnapping;
+  return misleads(kind) || kind == FaultKind::kidnapping;
 }
 
 bool blinds(const Fault& fault) {
@@ -196,6 +194,12 @@ Fault random_fault(FaultKind kind, Random random) {
 }
 
 }  // namespace
+
+bool misleads(FaultKind kind) {
+  using enum FaultKind;
+  return kind == marker_moved || kind == marker_wrong_id || kind == markers_swapped ||
+         kind == marker_duplicated;
+}
 
 std::vector<Fault> random_faults(std::uint64_t seed, bool has_scanner) {
   Random random(seed);

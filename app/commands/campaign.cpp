@@ -40,10 +40,7 @@ void print_failure(const MissionOutcome& outcome) {
 }
 
 ExitCode verdict(const std::vector<MissionOutcome>& outcomes) {
-  const bool has_failed = std::ranges::any_of(outcomes, [](const MissionOutcome& outcome) {
-    return outcome.hit_something() || outcome.silently_wrong();
-  });
-  return has_failed ? job_failed : done;
+  return std::ranges::any_of(outcomes, &MissionOutcome::has_failed) ? job_failed : done;
 }
 
 ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const CampaignWorld& world,
@@ -81,7 +78,7 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
   write_file_atomically(fs::path(arguments.output) / "campaign.json", report.dump(2) + "\n");
   write_file_atomically(fs::path(arguments.output) / "campaign.html", campaign_html(outcomes));
   for (const MissionOutcome& outcome : outcomes)
-    if (outcome.hit_something() || outcome.silently_wrong() || outcome.is_excused()) print_failure(outcome);
+    if (outcome.has_failed() || outcome.is_excused()) print_failure(outcome);
   const auto& all = report["all"];
   fmt::print("{} missions: {} arrivals, {} safe stops, {} with contacts, {} silently wrong; report: {}\n",
              all["missions"].get<int>(), all["arrivals"].get<int>(), all["safe_stops"].get<int>(),

@@ -20,7 +20,7 @@ struct AuditEntry {
 };
 
 /// Who drove and who saved: one JSON object a line in .history/log.jsonl of the site folder. Names are those
-/// that people give themselves; a console with tokens knows what somebody may do, not who it is. At 1 MiB the
+/// that people give themselves; a console with tokens knows what someone may do, not who it is. At 1 MiB the
 /// file becomes log.1.jsonl, and that before it is gone.
 class AuditLog {
  public:

@@ -33,7 +33,7 @@ std::string in_words(int client, const std::string& name);
 /// Server to client: `hello` first (role, client number, session, whether a robot is connected), then
 /// `state`, `path` when it changes, `seen` by the scanner, `survey` (survey_json.hpp) when there is a new
 /// estimate, `preview`, `asked` {client, name} when another asks the driver for control, `control` when it
-/// was handed over to this client, `saved` {what} when somebody saved the site's markers or places, and
+/// was handed over to this client, `saved` {what} when someone saved the site's markers or places, and
 /// `refused` with the reason in words. Client to server: {"type": ...}
 ///   stop                                  from anyone who may view
 ///   camera   {on}                         pictures on or off

@@ -126,7 +126,7 @@ void OperatorSession::take(const Order& order, Mission& mission, BaseDriver& bas
   }
 }
 
-/// Behind the goals of a drive that somebody else has begun, too: who has control answers for all of it.
+/// Behind the goals of a drive that someone else has begun, too: who has control answers for all of it.
 void OperatorSession::take(const GoOrder& order, Mission& mission) {
   const bool is_stopping = mission.phase() == MissionPhase::stopping;
   if (order.is_more && !mission.finished() && !is_stopping) {

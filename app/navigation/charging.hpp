@@ -72,7 +72,7 @@ class Charging {
   Stamp entered_;  ///< the present state
   std::optional<Stamp> holds_since_;
   std::optional<Stamp> idle_since_;
-  bool goes_by_itself_ = true;  ///< when low; not again after a failure, until somebody has driven it
+  bool goes_by_itself_ = true;  ///< when low; not again after a failure, until someone has driven it
   double battery_v_ = 0.0;      ///< 0: not reported
   double rest_v_ = 0.0;         ///< before the contacts touch
 };

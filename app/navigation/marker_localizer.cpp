@@ -25,6 +25,10 @@ std::optional<FixAttempt> most_expected(const std::vector<FixAttempt>& fixes,
   return best;
 }
 
+bool is_seen_twice(const DetectedMarker& marker, std::span<const DetectedMarker> markers) {
+  return std::ranges::count(markers, marker.id, &DetectedMarker::id) > 1;
+}
+
 /// Has the robot driven since a frame agreed with the estimate? A view that changes while the wheels stand is
 /// that of a robot which was lifted, or of a ceiling at which people work now: it accuses no marker,
 /// unless others in the same frame agree.
@@ -207,7 +211,7 @@ std::vector<FixAttempt> MarkerLocalizer::fixes_by_each(const Frame& frame,
                                                        std::span<const DetectedMarker> markers) {
   std::vector<FixAttempt> fixes;
   for (const DetectedMarker& marker : markers) {
-    if (std::ranges::count(markers, marker.id, &DetectedMarker::id) > 1) continue;
+    if (is_seen_twice(marker, markers)) continue;
     if (std::optional<FixAttempt> fix = fix_by(frame, std::span(&marker, 1)))
       fixes.push_back(std::move(*fix));
   }
@@ -221,7 +225,7 @@ std::optional<FixAttempt> MarkerLocalizer::contradicted_by_twins(const Frame& fr
                                                                  LocalizationState& known) {
   std::optional<FixAttempt> contradicting;
   for (const DetectedMarker& marker : markers) {
-    if (std::ranges::count(markers, marker.id, &DetectedMarker::id) == 1) continue;
+    if (!is_seen_twice(marker, markers)) continue;
     std::optional<FixAttempt> fix = fix_by(frame, std::span(&marker, 1));
     const std::optional<FixExpectation> expected = fix ? known.filter.expectation(fix->planar) : std::nullopt;
     if (!expected) continue;

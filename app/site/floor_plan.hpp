@@ -8,7 +8,7 @@
 
 #include "maps/occupancy_map.hpp"
 
-// An occupancy map from somebody's plan of a building: a picture, a page of PDF or a drawing in DXF.
+// An occupancy map from someone's plan of a building: a picture, a page of PDF or a drawing in DXF.
 namespace lodestar {
 
 struct PlanOptions {

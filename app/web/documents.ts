@@ -33,7 +33,7 @@ export class Documents {
     }
   }
 
-  /** Somebody saved the markers, perhaps this page. */
+  /** Someone saved the markers, perhaps this page. */
   async heardOfSaving(): Promise<string> {
     await this.busy;
     const tagged = await api.getMarkers();

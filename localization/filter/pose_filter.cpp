@@ -143,23 +143,26 @@ bool PoseFilter::set_keyframe(Stamp stamp, double sway_m) {
 bool PoseFilter::add_motion(const VisualOdometryIncrement& motion, bool becomes_keyframe) {
   const std::optional<WheelTravel> travel = travel_at(motion.to);
   if (!travel || !believed_) return false;
-  const std::optional<Belief> expected = believed_->at(*travel, options_);
-  const bool agrees = believed_->add_motion(motion, *travel, becomes_keyframe, options_);
-  if (!agrees && expected) doubt_odometry(motion, *expected);
-  if (agrees && !doubt_) {
+  if (!believed_->add_motion(motion, *travel, becomes_keyframe, options_)) {
+    doubt_odometry(motion, *travel);
+    return false;
+  }
+  if (!doubt_) {
     motions_refused_ = 0;
     last_agreed_ = std::max(last_agreed_, motion.to);
   }
-  return agrees;
+  return true;
 }
 
-void PoseFilter::doubt_odometry(const VisualOdometryIncrement& motion, const Belief& expected) {
+void PoseFilter::doubt_odometry(const VisualOdometryIncrement& motion, const WheelTravel& travel) {
   ++motions_refused_;
   if (motions_refused_ < motions_refused_to_doubt) return;
-  if (!doubt_) doubt_ = {.keyframe = motion.from, .since = expected.travel};
+  const std::optional<Belief> expected = believed_->at(travel, options_);
+  if (!expected) return;
+  if (!doubt_) doubt_ = {.keyframe = motion.from, .since = travel};
   if (doubt_->keyframe != motion.from) return;
-  const Pose2 by_wheels = expected.map_from_base();
-  const Pose2 by_ceiling = expected.map_from_keyframe() * motion.then_from_now;
+  const Pose2 by_wheels = expected->map_from_base();
+  const Pose2 by_ceiling = expected->map_from_keyframe() * motion.then_from_now;
   doubt_->apart << by_ceiling.position_m - by_wheels.position_m,
       wrap_angle(by_ceiling.yaw_rad - by_wheels.yaw_rad);
 }

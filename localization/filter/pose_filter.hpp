@@ -126,7 +126,7 @@ class PoseFilter {
   void learn_registry(const PlacedFix& placed);
   void add_to_rival(const PlacedFix& placed);
   [[nodiscard]] bool rival_prevails() const;
-  void doubt_odometry(const VisualOdometryIncrement& motion, const Belief& expected);
+  void doubt_odometry(const VisualOdometryIncrement& motion, const WheelTravel& travel);
   [[nodiscard]] Eigen::Matrix3d covariance_of_doubt() const;
   void end_doubt();
   void begin_with(Rival rival, Stamp last_fix);

@@ -152,13 +152,22 @@ TEST(CeilingFilter, knows_only_the_picture_that_it_keeps) {
   EXPECT_FALSE(pictures.show(filter, false));
 }
 
+/// After two seconds under markers, with a keyframe.
+struct Watching {
+  World world{};
+  PoseFilter filter{without_floor()};
+  Pictures pictures{.world = world, .sigma_m = 0.001, .sigma_rad = 0.001};
+
+  Watching() {
+    drive(world, filter, 0.0, 2.0, true);
+    EXPECT_TRUE(pictures.keep(filter));
+  }
+};
+
 // Either the wheels slip or the camera sees an object that it carries along: the filter cannot tell which.
 TEST(CeilingFilter, refuses_what_contradicts_the_wheels_and_then_believes_neither_alone) {
-  World world;
-  PoseFilter filter(without_floor());
-  drive(world, filter, 0.0, 2.0, true);
-  Pictures pictures{.world = world, .sigma_m = 0.001, .sigma_rad = 0.001};
-  ASSERT_TRUE(pictures.keep(filter));
+  Watching watching;
+  auto& [world, filter, pictures] = watching;
   const Pose2 slip{{0.0, 0.0}, radians(5.0)};
   drive(world, filter, 2.0, 0.1, false);
   EXPECT_TRUE(pictures.show(filter, false));
@@ -180,11 +189,8 @@ TEST(CeilingFilter, refuses_what_contradicts_the_wheels_and_then_believes_neithe
 
 /// Half a metre after its wheels began to slip, a robot was off by centimetres and claimed millimetres.
 TEST(CeilingFilter, grows_uncertain_where_wheels_and_ceiling_disagree_until_a_fix_agrees) {
-  World world;
-  PoseFilter filter(without_floor());
-  drive(world, filter, 0.0, 2.0, true);
-  Pictures pictures{.world = world, .sigma_m = 0.001, .sigma_rad = 0.001};
-  ASSERT_TRUE(pictures.keep(filter));
+  Watching watching;
+  auto& [world, filter, pictures] = watching;
   world.scales = {1.0, 0.6};
   for (const double begin_s : {2.0, 2.2, 2.4, 2.6, 2.8}) {
     drive(world, filter, begin_s, 0.2, false);
