@@ -72,6 +72,11 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && !a.empty() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
+bool is_moving(const BodyVelocity& velocity) {
+  return velocity.forward_mps != 0.0 || velocity.turn_radps != 0.0;
+}
+
+/// Faster than a robot that stands.
 bool moves(const BodyVelocity& velocity) {
   return std::abs(velocity.forward_mps) >= standing_mps || std::abs(velocity.turn_radps) >= standing_radps;
 }
@@ -245,8 +250,10 @@ Surroundings::Allowed Surroundings::allowed(Stamp now, const std::optional<BodyV
           : FieldLimit{.share = 0.0, .reason = FieldReason::no_scan, .nearest = std::nullopt};
   const double outline_mps = release_.released_mps(now, allowed_mps(limit, wanted, field_.shape()));
   Allowed allowed{slowed_to(outline_mps, wanted, field_.shape()), std::nullopt, std::nullopt};
-  if (limit.reason && moves(wanted) && !moves(allowed.velocity)) allowed.reason = stop_for(*limit.reason);
-  if (limit.reason && limit.share < 1.0) allowed.slowed_by = stop_for(*limit.reason);
+  if (!limit.reason || limit.share >= 1.0) return allowed;
+  allowed.slowed_by = stop_for(*limit.reason);
+  // A robot that is held wants little: it begins anew in each step.
+  if (is_moving(wanted) && !moves(allowed.velocity)) allowed.reason = allowed.slowed_by;
   return allowed;
 }
 
@@ -281,22 +288,26 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) 
   if (!map_from_odom) return points_m;
   const MapExplanation explanation(mapped.map, mapped.estimate->covariance);
   const Vec2& robot_m = mapped.estimate->map_from_base.position_m;
-  const auto append_unexplained = [&](const Vec2& point_in_map) {
-    if (!explanation.explains(point_in_map, (point_in_map - robot_m).norm()))
-      points_m.push_back(point_in_map);
+  const auto is_mapped = [&](const Vec2& point_in_map) {
+    return explanation.explains(point_in_map, (point_in_map - robot_m).norm());
   };
   const double beside_m = options_.shape.outer_radius_m() + options_.begins_beside_m;
-  const auto append_around = [&](const Vec2& middle_in_odom, double radius_m) {
-    for (const Vec2& point_in_map : ring(*map_from_odom * middle_in_odom, radius_m))
-      if ((point_in_map - robot_m).norm() > beside_m) append_unexplained(point_in_map);
+  const auto append_around = [&](const Vec2& middle_in_map, double radius_m) {
+    for (const Vec2& point_in_map : ring(middle_in_map, radius_m))
+      if ((point_in_map - robot_m).norm() > beside_m && !is_mapped(point_in_map))
+        points_m.push_back(point_in_map);
   };
   for (const ObstacleMemory* memory : memories()) {
     for (const Vec2& thing_in_odom : memory->standing_m(now)) {
-      append_unexplained(*map_from_odom * thing_in_odom);
-      append_around(thing_in_odom, options_.around_things_m);
+      const Vec2 thing_in_map = *map_from_odom * thing_in_odom;
+      if (is_mapped(thing_in_map)) continue;
+      points_m.push_back(thing_in_map);
+      append_around(thing_in_map, options_.around_things_m);
     }
-    for (const Vec2& leg_in_odom : memory->standing_legs_m(now))
-      append_around(leg_in_odom, options_.around_legs_m);
+    for (const Vec2& leg_in_odom : memory->standing_legs_m(now)) {
+      const Vec2 leg_in_map = *map_from_odom * leg_in_odom;
+      if (!is_mapped(leg_in_map)) append_around(leg_in_map, options_.around_legs_m);  // door posts are none
+    }
   }
   return points_m;
 }

@@ -1,0 +1,82 @@
+#include "app/navigation/surroundings.hpp"
+
+#include <gtest/gtest.h>
+#include <memory>
+
+#include "drivers/simulation/simulated_scanner.hpp"
+
+// What a robot makes of what stands around it while it stands in the middle of a hall.
+namespace lodestar {
+namespace {
+
+/// Walls around, and two posts of 10 cm a metre before the robot, as of a doorway.
+OccupancyMap hall() {
+  OccupancyMap map{.columns = 120, .rows = 120, .resolution_m = 0.05};
+  map.cells.assign(120UL * 120UL, OccupancyMap::free);
+  const auto is_wall = [&](int column, int row) {
+    return column < 2 || row < 2 || column >= map.columns - 2 || row >= map.rows - 2;
+  };
+  const auto is_post = [](int column, int row) {
+    return (column == 80 || column == 81) && (row == 50 || row == 51 || row == 70 || row == 71);
+  };
+  for (int column = 0; column < map.columns; ++column)
+    for (int row = 0; row < map.rows; ++row)
+      if (is_wall(column, row) || is_post(column, row))
+        map.cells[map.index({column, row})] = OccupancyMap::occupied;
+  return map;
+}
+
+const Pose2 robot{{3.0, 3.0}, 0.0};
+
+class SurroundingsTest : public ::testing::Test {
+ protected:
+  void stand(double for_s, const std::vector<DiscState>& discs) {
+    const Stamp end = now_ + from_seconds(for_s);
+    for (; now_ < end; now_ += std::chrono::milliseconds(20)) {
+      scanner_.observe(now_, robot, discs);
+      std::vector<Scan> scans;
+      while (std::optional<Scan> scan = scanner_.poll()) scans.push_back(std::move(*scan));
+      const WheelTravel travel{.stamp = now_};
+      surroundings_.add({&travel, 1}, scans, {}, now_, mapped());
+    }
+  }
+
+  [[nodiscard]] MappedPose mapped() const {
+    PoseEstimate estimate{.stamp = now_, .map_from_base = robot};
+    estimate.covariance = Vec3(1e-6, 1e-6, 1e-6).asDiagonal();
+    return {field_, estimate};
+  }
+
+  [[nodiscard]] std::vector<Vec2> unmapped_m() const { return surroundings_.unmapped_m(now_, mapped()); }
+
+  ObstacleField field_{hall()};
+  SimulatedScanner scanner_{field_.map(), {}, 1};
+  Surroundings surroundings_{{}};
+  Stamp now_ = Stamp{} + std::chrono::milliseconds(20);
+};
+
+TEST_F(SurroundingsTest, plans_around_a_chair_for_the_body_on_its_legs) {
+  const DiscState chair{.radius_m = 0.25, .has_legs = true, .position_m = {3.0, 4.2}};
+  stand(15.0, {chair});
+  const std::vector<Vec2> around_m = unmapped_m();
+  ASSERT_FALSE(around_m.empty());
+  for (const Vec2& point_m : around_m) EXPECT_LT((point_m - chair.position_m).norm(), 0.6);
+}
+
+/// Mission 80042 stood for two minutes before a doorway whose posts it took for someone's legs.
+TEST_F(SurroundingsTest, takes_no_posts_of_the_map_for_legs) {
+  stand(15.0, {});
+  for (const Vec2& point_m : unmapped_m()) ADD_FAILURE() << point_m.transpose();
+}
+
+/// The controller begins with a centimetre a second, and again in each step that the field ends at zero.
+TEST_F(SurroundingsTest, says_why_it_holds_a_robot_that_only_begins_to_move) {
+  stand(2.0, {});
+  stand(0.5, {{.radius_m = 0.25, .position_m = {3.9, 3.0}}});
+  const Surroundings::Allowed allowed = surroundings_.allowed(now_, BodyVelocity{}, {0.01, 0.0});
+  EXPECT_EQ(allowed.velocity.forward_mps, 0.0);
+  EXPECT_EQ(allowed.reason, StopReason::person_near);
+}
+
+}  // namespace
+}  // namespace lodestar
