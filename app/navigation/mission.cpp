@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 #include "control/travel_time.hpp"
 
@@ -160,7 +161,7 @@ MissionEvent Mission::advance(Starting state, const SensorInput& input, const Na
   navigation_.look_for_markers(false);
   navigation_.go_over(trip());
   trip_start_ = current_;
-  state_ = Driving{.ends = input.now + options_.max_time_more, .stopped_since = std::nullopt};
+  state_ = Driving{.ends = input.now + options_.max_time_more, .stopped = std::nullopt};
   return MissionEvent::none;
 }
 
@@ -202,7 +203,7 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
     return MissionEvent::none;
   }
   if (paused_) {
-    state_ = Driving{.ends = state.ends + (input.now - last_step_), .stopped_since = std::nullopt};
+    state_ = Driving{.ends = state.ends + (input.now - last_step_), .stopped = std::nullopt};
     return MissionEvent::none;
   }
   if (step.is_slowed) state.ends += input.now - last_step_;  // by others, who are not its fault
@@ -210,13 +211,13 @@ MissionEvent Mission::advance(Driving state, const SensorInput& input, const Nav
   if (step.zone_mps)
     state.ends += time_lost(input.now - last_step_, *step.zone_mps / drive_options_.max_forward_mps);
   if (input.now > state.ends) return fail(input.now, "no progress: the robot is stuck");
-  if (!step.stop) {
-    state.stopped_since.reset();
-  } else if (!state.stopped_since) {
-    state.stopped_since = input.now;
+  const std::optional<Stopped> before = std::exchange(state.stopped, std::nullopt);
+  if (step.stop) {
+    const Duration patience = patience_with(*step.stop);
+    state.stopped = before && before->patience == patience ? *before : Stopped{input.now, patience};
   }
   state_ = state;
-  if (!step.stop || input.now - *state.stopped_since < patience_with(*step.stop)) return MissionEvent::none;
+  if (!state.stopped || input.now - state.stopped->since < state.stopped->patience) return MissionEvent::none;
   return fail(input.now, fmt::format("stopped for too long: {}", to_string(*step.stop)));
 }
 

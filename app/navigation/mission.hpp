@@ -120,9 +120,13 @@ class Mission {
   struct Starting {
     std::optional<Stamp> since;
   };
+  struct Stopped {
+    Stamp since;
+    Duration patience;  ///< with the reason not to move
+  };
   struct Driving {
-    Stamp ends;                          ///< deadline
-    std::optional<Stamp> stopped_since;  ///< while there is a reason not to move
+    Stamp ends;  ///< deadline
+    std::optional<Stopped> stopped;
   };
   /// At the goal; reports arrival after a time at rest with the pose confirmed.
   struct Settling {
