@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <span>
 
+#include "localization/filter/registry_variance.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
@@ -68,6 +69,15 @@ WheelScales read_scales(StrictYaml yaml) {
   return scales;
 }
 
+double read_registry_variance(StrictYaml& yaml) {
+  constexpr auto& known = RegistryVariance::candidates;
+  const double found = yaml.number("registry_variance");
+  if (std::ranges::find(known, found) == known.end())
+    yaml.refuse("registry_variance", fmt::format("{}", found),
+                fmt::format("one of {}", fmt::join(known, ", ")));
+  return found;
+}
+
 DistrustedMarker read_distrusted(StrictYaml yaml) {
   DistrustedMarker marker;
   marker.id = yaml.integer("id", 0, 4095);
@@ -95,6 +105,7 @@ Content read(const fs::path& file) {
   content.state.wheel_scales = read_scales(yaml.mapping("wheel_scales"));
   content.state.variance_factor =
       VarianceFactor(yaml.number("variance_factor", 1.0, VarianceFactor::greatest));
+  if (yaml.has("registry_variance")) content.state.registry_variance = read_registry_variance(yaml);
   for (const StrictYaml& marker : yaml.list_of_mappings("distrusted"))
     content.state.distrusted.push_back(read_distrusted(marker));
   yaml.finish();
@@ -112,7 +123,8 @@ std::string text_of(const LearnedState& state, const StateOwner& owner) {
   text +=
       fmt::format("wheel_scales: {{left: {}, right: {}, turn: {}, covariance: [{}]}}\n", scales.mean[0],
                   scales.mean[1], scales.mean[2], fmt::join(std::span(scales.covariance.data(), 9), ", "));
-  text += fmt::format("variance_factor: {}\n", state.variance_factor.value());
+  text += fmt::format("variance_factor: {}\nregistry_variance: {}\n", state.variance_factor.value(),
+                      state.registry_variance);
   text += state.distrusted.empty() ? "distrusted: []\n" : "distrusted:\n";
   for (const DistrustedMarker& marker : state.distrusted)
     text +=
@@ -148,6 +160,9 @@ std::uint64_t fingerprint_of(const MarkerRegistry& registry) {
     print.add(static_cast<std::uint64_t>(marker.id));
     for (const double value : marker.position_m) print.add(value);
     print.add(marker.yaw_rad);
+    if (!marker.sigma) continue;
+    for (const double sigma : {marker.sigma->position_m, marker.sigma->yaw_rad, marker.sigma->tilt_rad})
+      print.add(sigma);
   }
   return print.value();
 }

@@ -18,6 +18,7 @@ namespace lodestar {
 struct LearnedState {
   WheelScales wheel_scales;
   VarianceFactor variance_factor;
+  double registry_variance = 1.0;            ///< as PoseFilterOptions::registry_variance
   std::vector<DistrustedMarker> distrusted;  ///< by ascending ID
 };
 

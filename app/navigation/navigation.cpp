@@ -17,7 +17,9 @@ void report(const LocalizationState& known, Stamp now, NavigationStep& step) {
 
 PoseFilterOptions filter_options(const NavigationOptions& options) {
   PoseFilterOptions filter = options.filter;
-  if (options.learned) filter.learned_scales = options.learned->wheel_scales;
+  if (!options.learned) return filter;
+  filter.learned_scales = options.learned->wheel_scales;
+  filter.registry_variance = options.learned->registry_variance;
   return filter;
 }
 
@@ -55,6 +57,7 @@ std::optional<LearnedState> Navigation::learned() const {
   if (!estimate_) return std::nullopt;
   return LearnedState{.wheel_scales = known_.filter.scales(),
                       .variance_factor = localizer_.variance_factor(),
+                      .registry_variance = known_.filter.registry_variance(),
                       .distrusted = known_.trust.distrusted()};
 }
 

@@ -43,7 +43,7 @@ struct MotionExpectation {
 class PoseFilter {
  public:
   explicit PoseFilter(const PoseFilterOptions& options = {})
-      : options_(options), zero_velocity_(options.wheel_step_m) {}
+      : options_(options), zero_velocity_(options.wheel_step_m), registry_(options.registry_variance) {}
 
   /// Predicts the belief by the wheels' travel since the last call. Stamps ascend; a reading that is not
   /// newer than the last one is ignored.

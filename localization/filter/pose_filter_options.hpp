@@ -22,8 +22,8 @@ struct PoseFilterOptions {
   double wheel_step_m = 0.001;  ///< resolution of the wheels' travel readings
   /// Standard deviation of the readings' delay from one to the next. PoseFilter measures it.
   double reading_jitter_s = 0.0;
-  /// Of the markers' offsets from their registered places, in squared sigmas of the registry. PoseFilter
-  /// learns it.
+  /// Of the markers' offsets from their registered places, in squared sigmas of the registry; one of
+  /// RegistryVariance::candidates. PoseFilter begins with it and learns.
   double registry_variance = 1.0;
   double initial_wheel_scale_sigma = 0.02;    ///< prior of the wheels' scales
   double initial_turn_scale_sigma = 0.02;     ///< prior of the track width's scale

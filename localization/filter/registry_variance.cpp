@@ -16,14 +16,17 @@ constexpr double moved_by_rad = radians(10.0);
 constexpr double moved_density =
     moved_share / (std::numbers::pi * moved_by_m * moved_by_m * 2.0 * moved_by_rad);
 
-/// Of a candidate against the one before it, half as large: who states a sigma mostly means it.
+/// Of a candidate against the one beside it that is nearer to what is expected: who states a sigma mostly
+/// means it, and markers once found off their places stay there.
 constexpr double prior_of_doubling = 0.25;
 
 }  // namespace
 
-RegistryVariance::RegistryVariance() {
-  for (std::size_t i = 0; i < log_posterior_.size(); ++i)
-    log_posterior_[i] = static_cast<double>(i) * std::log(prior_of_doubling);
+RegistryVariance::RegistryVariance(double expected) {
+  for (std::size_t i = 0; i < log_posterior_.size(); ++i) {
+    const double doublings = std::abs(std::log2(candidates.at(i) / expected));
+    log_posterior_[i] = doublings * std::log(prior_of_doubling);
+  }
 }
 
 void RegistryVariance::add(const LogDensities& of_innovation) {

@@ -14,7 +14,8 @@ class RegistryVariance {
   static constexpr std::array<double, 6> candidates{1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
   using LogDensities = std::array<double, candidates.size()>;
 
-  RegistryVariance();
+  /// `expected`, one of the candidates, is what an earlier drive found, or the registry's word.
+  explicit RegistryVariance(double expected = candidates.front());
 
   /// The logarithms of the density (1/(m^2 rad)) that an innovation has under each candidate.
   void add(const LogDensities& of_innovation);

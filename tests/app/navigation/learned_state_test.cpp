@@ -23,6 +23,7 @@ LearnedState some_state() {
   state.wheel_scales.mean = {1.0123456789, 0.987654321, 1.004};
   state.wheel_scales.covariance << 1e-6, 1e-7, 0.0, 1e-7, 2e-6, -3e-7, 0.0, -3e-7, 5e-6;
   state.variance_factor = VarianceFactor(1.7);
+  state.registry_variance = 8.0;
   state.distrusted = {{.id = 447, .offset_m = {0.1, -0.05}, .turn_rad = radians(4.0), .fixes = 9},
                       {.id = 1782, .offset_m = {0.0, 0.2}, .turn_rad = 0.0, .fixes = 6}};
   return state;
@@ -38,6 +39,7 @@ TEST(LearnedState, is_read_back_as_it_was_written_but_less_certain_of_the_wheels
   const Eigen::Matrix3d more = file.state->wheel_scales.covariance - some_state().wheel_scales.covariance;
   EXPECT_LT((more - 1e-6 * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-15) << "0.1 % each";
   EXPECT_EQ(file.state->variance_factor.value(), 1.7);
+  EXPECT_EQ(file.state->registry_variance, 8.0);
   ASSERT_EQ(file.state->distrusted.size(), 2U);
   EXPECT_EQ(file.state->distrusted[0].id, 447);
   EXPECT_EQ(file.state->distrusted[0].offset_m, some_state().distrusted[0].offset_m);
@@ -69,6 +71,9 @@ TEST(LearnedState, of_another_robot_registry_or_camera_is_not_used) {
   other.robot.track_width_m += 0.001;
   EXPECT_THAT(warning(other, "wide"), HasSubstr("the robot's wheels are described differently"));
   other = site;
+  other.registry.markers.back().sigma = MarkerSigma{.position_m = 0.01};
+  EXPECT_THAT(warning(other, "wide"), HasSubstr("the registry of markers has changed"));
+  other = site;
   other.registry.markers.back().position_m.y() += 0.001;
   EXPECT_THAT(warning(other, "wide"), HasSubstr("the registry of markers has changed"));
 }
@@ -87,6 +92,8 @@ TEST(LearnedState, that_cannot_be_read_is_not_used_and_says_where_it_is_wrong) {
   EXPECT_THAT(warning(with(good, "left: 1.01", "left: 7.01")), HasSubstr("state.yaml:9"));
   EXPECT_THAT(warning(with(good, "covariance: [1e-06", "covariance: [-1e-06")), HasSubstr("state.yaml:9"));
   EXPECT_THAT(warning(good.substr(0, good.size() / 2)), HasSubstr("state.yaml"));
+  EXPECT_THAT(warning(with(good, "registry_variance: 8", "registry_variance: 9")),
+              HasSubstr("state.yaml:11: found 9, wanted one of 1, 2, 4"));
   EXPECT_THAT(warning(good + "more: 1\n"), HasSubstr("unknown key 'more'"));
   EXPECT_THAT(warning("\x01\x02[{"), HasSubstr("state.yaml"));
   EXPECT_THAT(warning(""), HasSubstr("state.yaml"));
@@ -130,6 +137,7 @@ TEST(LearnedState, is_what_the_next_drive_begins_with) {
   EXPECT_LT((learned->wheel_scales.mean - some_state().wheel_scales.mean).norm(), 1e-4);
   EXPECT_LT(learned->wheel_scales.covariance.trace(), 1.01 * some_state().wheel_scales.covariance.trace());
   EXPECT_NEAR(learned->variance_factor.value(), 1.7, 0.1);
+  EXPECT_EQ(learned->registry_variance, 8.0);
   ASSERT_EQ(step.distrusted.size(), 2U);
   EXPECT_EQ(step.distrusted[0].id, 988);
   EXPECT_EQ(step.distrusted[1].id, 1782);

@@ -143,11 +143,14 @@ struct Filtered {
   PoseFilter filter{without_floor()};
 };
 
-/// As driven(), by a filter, which may refuse a fix.
-Filtered filtered(double way_m, std::uint64_t seed, double times,
-                  const Vec3& moved_by_sigmas = Vec3::Zero()) {
+/// As driven(), by a filter, which may refuse a fix, and begins with what an earlier drive has learned.
+Filtered filtered(double way_m, std::uint64_t seed, double times, const Vec3& moved_by_sigmas = Vec3::Zero(),
+                  double learned = 1.0) {
   constexpr int moved_marker = 3;
-  Filtered drive{.world = {.truth = {{0.5, 0.1}, 0.0}, .noise_m_per_sqrt_m = 0.002, .random = Random(seed)}};
+  PoseFilterOptions options = without_floor();
+  options.registry_variance = learned;
+  Filtered drive{.world = {.truth = {{0.5, 0.1}, 0.0}, .noise_m_per_sqrt_m = 0.002, .random = Random(seed)},
+                 .filter = PoseFilter(options)};
   MarkerRow row(drive.world.random, times);
   row.move_marker(moved_marker, moved_by_sigmas);
   const int steps = static_cast<int>(way_m / 0.02);
@@ -191,6 +194,29 @@ TEST(RegistryVariance, keeps_the_estimate_as_uncertain_as_it_is) {
     mean += nees(drive.world, drive.filter) / drives;
   }
   EXPECT_LT(mean, 6.0);
+}
+
+/// Before three markers have been seen there is nothing to learn from.
+TEST(RegistryVariance, of_an_earlier_drive_keeps_the_beginning_of_the_next_as_uncertain_as_it_is) {
+  constexpr int drives = 200;
+  double learning = 0.0;
+  double knowing = 0.0;
+  for (int i = 0; i < drives; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i);
+    const Filtered first = filtered(1.5, seed, 3.0);
+    learning += nees(first.world, first.filter) / drives;
+    const Filtered second = filtered(1.5, seed, 3.0, Vec3::Zero(), 8.0);
+    knowing += nees(second.world, second.filter) / drives;
+  }
+  EXPECT_GT(learning, 8.0);
+  EXPECT_LT(knowing, 4.5);
+}
+
+TEST(RegistryVariance, of_an_earlier_drive_is_unlearned_where_the_markers_are_in_their_places) {
+  int doubting = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed)
+    doubting += filtered(8.0, seed, 0.0, Vec3::Zero(), 8.0).filter.registry_variance() > 1.0 ? 1 : 0;
+  EXPECT_LE(doubting, 5);
 }
 
 }  // namespace
