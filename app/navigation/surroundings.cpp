@@ -91,7 +91,8 @@ Surroundings::Surroundings(const SurroundingsOptions& options)
       watch_(options.watch),
       contradiction_(options.contradiction),
       memory_(options.memory),
-      release_(options.release) {
+      release_(options.release),
+      holding_(options.holding) {
   if (!options.depth) return;
   ObstacleMemoryOptions memory = options.memory;
   memory.seen_free_within_m =
@@ -250,11 +251,21 @@ Surroundings::Allowed Surroundings::allowed(Stamp now, const std::optional<BodyV
           : FieldLimit{.share = 0.0, .reason = FieldReason::no_scan, .nearest = std::nullopt};
   const double outline_mps = release_.released_mps(now, allowed_mps(limit, wanted, field_.shape()));
   Allowed allowed{slowed_to(outline_mps, wanted, field_.shape()), std::nullopt, std::nullopt};
+  hold(now, odom_from_base, limit, allowed.velocity);
   if (!limit.reason || limit.share >= 1.0) return allowed;
   allowed.slowed_by = stop_for(*limit.reason);
   // A robot that is held wants little: it begins anew in each step.
   if (is_moving(wanted) && !moves(allowed.velocity)) allowed.reason = allowed.slowed_by;
   return allowed;
+}
+
+void Surroundings::hold(Stamp now, const std::optional<Pose2>& odom_from_base, const FieldLimit& limit,
+                        const BodyVelocity& allowed) {
+  if (moves(allowed)) holding_.release();
+  const bool is_held =
+      odom_from_base && limit.nearest && is_still(limit.nearest->presence) && !moves(allowed);
+  holding_.update(
+      now, is_held ? std::optional<Vec2>(*odom_from_base * limit.nearest->point_in_base) : std::nullopt);
 }
 
 std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& mapped) const {
@@ -309,6 +320,7 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) 
       if (!is_mapped(leg_in_map)) append_around(leg_in_map, options_.around_legs_m);  // door posts are none
     }
   }
+  for (const Vec2& point_in_odom : holding_.points_m(now)) points_m.push_back(*map_from_odom * point_in_odom);
   return points_m;
 }
 
@@ -320,8 +332,11 @@ std::optional<std::vector<Vec2>> Surroundings::obstacles_in_the_way(Stamp now, c
   looked_at_ = field_scan_->newest;
   std::vector<Vec2> obstacles_m = unmapped_m(now, mapped);
   const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
-  const bool is_blocked = std::ranges::any_of(
-      obstacles_m, [&](const Vec2& point_m) { return distance_to_path_m(path, point_m) < within_m; });
+  const bool is_blocked = std::ranges::any_of(obstacles_m, [&](const Vec2& point_m) {
+    const double from_path_m = distance_to_path_m(path, point_m);
+    const double from_robot_m = (path.waypoints_m.front() - point_m).norm();
+    return from_path_m < within_m && from_path_m < from_robot_m;
+  });
   if (!is_blocked) return std::nullopt;
   last_look_ = now;
   return obstacles_m;

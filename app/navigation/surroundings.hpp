@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "app/navigation/holding_points.hpp"
 #include "app/navigation/seen_surroundings.hpp"
 #include "control/field_release.hpp"
 #include "control/hidden_corners.hpp"
@@ -41,6 +42,7 @@ struct SurroundingsOptions {
   std::optional<DepthSourceOptions> depth;
   ScannerWatchOptions watch;
   MapContradictionOptions contradiction;
+  HoldingPointsOptions holding;
   /// A path is looked at no more often than this for what stands in its way.
   Duration between_detours = std::chrono::seconds(1);
   /// Paths are planned around a body of this radius where legs stand, and with so much more room around what
@@ -50,7 +52,8 @@ struct SurroundingsOptions {
   double around_things_m = 0.04;
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
   double begins_beside_m = 0.06;
-  /// What stands so near to a path's disc is in its way: what a path keeps at the least.
+  /// What stands so near to a path's disc is in its way, unless the path leads away from it: what a path
+  /// keeps at the least.
   double least_margin_m = 0.01;
 };
 
@@ -88,7 +91,8 @@ class Surroundings {
   /// What may be sent of the wanted velocity; once a control step.
   Allowed allowed(Stamp now, const std::optional<BodyVelocity>& measured, const BodyVelocity& wanted);
 
-  /// What stands around the robot that the map lacks, as points of the map frame.
+  /// What stands around the robot that the map lacks, or has held it all the same, as points of the map
+  /// frame.
   [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped) const;
 
   /// The same where something of it stands in the way of a path that begins at the robot, at most once a
@@ -115,6 +119,8 @@ class Surroundings {
                                                    const std::optional<Pose2>& map_from_odom,
                                                    const MappedPose& mapped) const;
   [[nodiscard]] std::vector<const ObstacleMemory*> memories() const;
+  void hold(Stamp now, const std::optional<Pose2>& odom_from_base, const FieldLimit& limit,
+            const BodyVelocity& allowed);
 
   SurroundingsOptions options_;
   OwnOutline outline_;
@@ -135,6 +141,7 @@ class Surroundings {
   };
   std::optional<Above> above_;
   FieldRelease release_;
+  HoldingPoints holding_;
   std::deque<Scan> waiting_;             ///< for the wheel readings of their time
   std::optional<FieldScan> field_scan_;  ///< of all sources; its age is the newest scan's
   std::size_t scanned_points_ = 0;  ///< the first of its points; those of the depth camera come after them

@@ -53,7 +53,8 @@ void SlidingLeaf::step(Stamp now, Duration by, std::span<const Vec2> present_m) 
 void SlidingLeaf::place_discs() {
   const Vec2 along = (door_.to_m - door_.from_m) / width_m_;
   const double spacing_m = width_m_ / static_cast<double>(discs_.size() - 1);
-  double place_m = out_m_ - width_m_;  // of the last disc in the wall, from the post
+  // Of the last disc in the wall, from the post: an open door does not stick out of it.
+  double place_m = out_m_ - width_m_ - disc_radius_m;
   for (DiscState& disc : discs_) {
     disc.position_m = door_.from_m + place_m * along;
     disc.velocity_mps = speed_mps_ * along;

@@ -26,14 +26,12 @@ OccupancyMap hall() {
   return map;
 }
 
-const Pose2 robot{{3.0, 3.0}, 0.0};
-
 class SurroundingsTest : public ::testing::Test {
  protected:
   void stand(double for_s, const std::vector<DiscState>& discs) {
     const Stamp end = now_ + from_seconds(for_s);
     for (; now_ < end; now_ += std::chrono::milliseconds(20)) {
-      scanner_.observe(now_, robot, discs);
+      scanner_.observe(now_, robot_, discs);
       std::vector<Scan> scans;
       while (std::optional<Scan> scan = scanner_.poll()) scans.push_back(std::move(*scan));
       const WheelTravel travel{.stamp = now_};
@@ -42,13 +40,14 @@ class SurroundingsTest : public ::testing::Test {
   }
 
   [[nodiscard]] MappedPose mapped() const {
-    PoseEstimate estimate{.stamp = now_, .map_from_base = robot};
+    PoseEstimate estimate{.stamp = now_, .map_from_base = robot_};
     estimate.covariance = Vec3(1e-6, 1e-6, 1e-6).asDiagonal();
     return {field_, estimate};
   }
 
   [[nodiscard]] std::vector<Vec2> unmapped_m() const { return surroundings_.unmapped_m(now_, mapped()); }
 
+  Pose2 robot_{{3.0, 3.0}, 0.0};
   ObstacleField field_{hall()};
   SimulatedScanner scanner_{field_.map(), {}, 1};
   Surroundings surroundings_{{}};
@@ -76,6 +75,30 @@ TEST_F(SurroundingsTest, says_why_it_holds_a_robot_that_only_begins_to_move) {
   const Surroundings::Allowed allowed = surroundings_.allowed(now_, BodyVelocity{}, {0.01, 0.0});
   EXPECT_EQ(allowed.velocity.forward_mps, 0.0);
   EXPECT_EQ(allowed.reason, StopReason::person_near);
+}
+
+/// The map explains it, as it is 4 cm beside a post, and a path along the map leads past it for ever.
+TEST_F(SurroundingsTest, finds_in_the_way_what_has_held_it_though_the_map_explains_it) {
+  const DiscState frame{.radius_m = 0.04, .position_m = {4.05, 3.5}};
+  robot_.position_m = frame.position_m - 0.298 * Vec2(0.54, 0.84).normalized();
+  const Path past{{robot_.position_m, robot_.position_m + Vec2(1.0, 0.0)}};
+  const Path away{{robot_.position_m, robot_.position_m - Vec2(0.5, 1.0)}};
+  stand(2.0, {});  // what touches it from the beginning is its own
+  stand(3.0, {frame});
+  EXPECT_FALSE(surroundings_.obstacles_in_the_way(now_, mapped(), past));
+  int held = 0;
+  for (int i = 0; i < 50; ++i) {
+    stand(0.1, {frame});
+    const Surroundings::Allowed allowed = surroundings_.allowed(now_, BodyVelocity{}, {0.01, 0.0});
+    held += allowed.reason ? 1 : 0;
+  }
+  EXPECT_GT(held, 30) << "but for the noise of the range";
+  EXPECT_FALSE(surroundings_.obstacles_in_the_way(now_, mapped(), away));
+  stand(0.1, {frame});
+  const auto found_m = surroundings_.obstacles_in_the_way(now_, mapped(), past);
+  ASSERT_TRUE(found_m.has_value());
+  ASSERT_EQ(found_m->size(), 1U);
+  EXPECT_NEAR((found_m->front() - frame.position_m).norm(), frame.radius_m, 0.02);
 }
 
 }  // namespace

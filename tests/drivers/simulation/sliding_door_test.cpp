@@ -15,11 +15,11 @@ using namespace std::chrono_literals;
 constexpr Duration step = 10ms;
 const SlidingDoor door{.from_m = {4.0, 1.0}, .to_m = {4.0, 2.2}, .shuts = 1s, .opens = 10s};
 
-/// How far the leaf is out of the wall.
+/// How far the leaf is out of the wall, with its edge.
 double out_m(const SlidingLeaf& leaf) {
-  double farthest_m = 0.0;
+  double farthest_m = -1.0;
   for (const DiscState& disc : leaf.discs())
-    farthest_m = std::max(farthest_m, disc.position_m.y() - door.from_m.y());
+    farthest_m = std::max(farthest_m, disc.position_m.y() + disc.radius_m - door.from_m.y());
   return farthest_m;
 }
 
@@ -30,19 +30,20 @@ void step_until(SlidingLeaf& leaf, Stamp& now, Stamp end, const std::vector<Vec2
 TEST(SlidingDoor, shuts_from_post_to_post_and_opens_again) {
   SlidingLeaf leaf(door);
   Stamp now;
-  EXPECT_EQ(out_m(leaf), 0.0) << "in the wall at first";
+  EXPECT_NEAR(out_m(leaf), 0.0, 1e-9) << "in the wall at first";
   step_until(leaf, now, Stamp(9s));
   std::vector<double> places_m;
   for (const DiscState& disc : leaf.discs()) {
     EXPECT_EQ(disc.position_m.x(), 4.0);
     places_m.push_back(disc.position_m.y());
   }
-  EXPECT_NEAR(places_m.front(), 1.0, 1e-9);
-  EXPECT_NEAR(places_m.back(), 2.2, 1e-9);
+  const double radius_m = leaf.discs().front().radius_m;
+  EXPECT_NEAR(places_m.front() + radius_m, 1.0, 1e-9);
+  EXPECT_NEAR(places_m.back() + radius_m, 2.2, 1e-9);
   for (std::size_t i = 1; i < places_m.size(); ++i)
-    EXPECT_LT(places_m[i] - places_m[i - 1], 2.0 * leaf.discs().front().radius_m) << "no beam passes";
+    EXPECT_LT(places_m[i] - places_m[i - 1], 2.0 * radius_m) << "no beam passes";
   step_until(leaf, now, Stamp(15s));
-  EXPECT_EQ(out_m(leaf), 0.0);
+  EXPECT_NEAR(out_m(leaf), 0.0, 1e-9);
 }
 
 /// What stands is passed as if it could start with 1 m/s^2 (ProtectiveFieldOptions).
@@ -72,7 +73,7 @@ TEST(SlidingDoor, opens_while_someone_is_in_the_doorway_and_shuts_after_them) {
   const double half_shut_m = out_m(leaf);
   EXPECT_GT(half_shut_m, 0.3);
   step_until(leaf, now, Stamp(5s), {{4.5, 1.6}});
-  EXPECT_EQ(out_m(leaf), 0.0);
+  EXPECT_NEAR(out_m(leaf), 0.0, 1e-9);
   step_until(leaf, now, Stamp(9s), {{6.0, 1.6}});
   EXPECT_NEAR(out_m(leaf), 1.2, 1e-9) << "who has gone on keeps it no longer";
 }
@@ -96,7 +97,8 @@ TEST(SlidingDoor, of_the_simulated_world_shuts_for_the_robot_only_where_it_is_no
     options.doors = {door};
     Simulation simulation(empty_floor(160, 80, 0.05), {}, camera, options);
     simulation.advance(5s);
-    return simulation.discs().back().position_m.y() - door.from_m.y();
+    const DiscState edge = simulation.discs().back();
+    return edge.position_m.y() + edge.radius_m - door.from_m.y();
   };
   EXPECT_NEAR(out_beside_m({4.0, 1.6}), 0.0, 1e-9);
   EXPECT_NEAR(out_beside_m({6.0, 1.6}), 1.2, 1e-9);
