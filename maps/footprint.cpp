@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "maps/input_error.hpp"
+#include "maps/segment.hpp"
 #include "maps/touching.hpp"
 
 namespace lodestar {
@@ -139,19 +140,7 @@ double Footprint::inner_radius_m() const {
 
 /// Distance from the edges of a point inside; 0 outside.
 double Footprint::depth_m(const Vec2& point_m) const {
-  double least_m = std::numeric_limits<double>::infinity();
-  bool inside = false;
-  for (std::size_t i = 0; i < corners_m_.size(); ++i) {
-    const Vec2 a = corners_m_[i] - point_m;
-    const Vec2 b = corners_m_[(i + 1) % corners_m_.size()] - point_m;
-    const Vec2 edge = b - a;
-    const double along = std::clamp(-a.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    least_m = std::min(least_m, (a + along * edge).norm());
-    // A ray from the point along x crosses the outline an odd number of times when it begins inside.
-    const bool crosses = (a.y() > 0.0) != (b.y() > 0.0) && a.x() - a.y() * edge.x() / edge.y() > 0.0;
-    if (crosses) inside = !inside;
-  }
-  return inside ? least_m : 0.0;
+  return std::max(0.0, -distance_to_outline(corners_m_, point_m));
 }
 
 /// Of a lattice of points inside, each the centre of the largest disc there: the largest disc that is not

@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "maps/segment.hpp"
+
 namespace lodestar {
-namespace {
-
-double distance_to_leg_m(const Vec2& from, const Vec2& to, const Vec2& point) {
-  const Vec2 leg = to - from;
-  const double squared_length = leg.squaredNorm();
-  const double fraction =
-      squared_length > 0.0 ? std::clamp((point - from).dot(leg) / squared_length, 0.0, 1.0) : 0.0;
-  return (from + fraction * leg - point).norm();
-}
-
-}  // namespace
 
 double length_m(const Path& path) {
   double total = 0.0;
@@ -28,7 +19,7 @@ double distance_to_path_m(const Path& path, const Vec2& point_m) {
   if (path.waypoints_m.size() == 1) return (path.waypoints_m.front() - point_m).norm();
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < path.waypoints_m.size(); ++i) {
-    nearest = std::min(nearest, distance_to_leg_m(path.waypoints_m[i - 1], path.waypoints_m[i], point_m));
+    nearest = std::min(nearest, distance_to_segment(path.waypoints_m[i - 1], path.waypoints_m[i], point_m));
   }
   return nearest;
 }

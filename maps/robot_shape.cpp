@@ -1,8 +1,6 @@
 #include "maps/robot_shape.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "maps/segment.hpp"
 
 namespace lodestar {
 
@@ -13,19 +11,7 @@ RobotShape::RobotShape(const Footprint& footprint)
 
 double RobotShape::distance_m(const Vec2& point_in_base) const {
   if (is_disc()) return point_in_base.norm() - outer_radius_m_;
-  double squared_m2 = std::numeric_limits<double>::infinity();
-  bool is_inside = false;
-  Vec2 a = corners_m_.back() - point_in_base;
-  for (const Vec2& corner : corners_m_) {
-    const Vec2 b = corner - point_in_base;
-    const Vec2 edge = b - a;
-    const double along = std::clamp(-a.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    squared_m2 = std::min(squared_m2, (a + along * edge).squaredNorm());
-    // A ray from the point along x crosses the outline an odd number of times when it begins inside.
-    if ((a.y() > 0.0) != (b.y() > 0.0) && a.x() - a.y() * edge.x() / edge.y() > 0.0) is_inside = !is_inside;
-    a = b;
-  }
-  return is_inside ? -std::sqrt(squared_m2) : std::sqrt(squared_m2);
+  return distance_to_outline(corners_m_, point_in_base);
 }
 
 }  // namespace lodestar

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "maps/segment.hpp"
 
 namespace lodestar {
 namespace {
@@ -40,12 +41,6 @@ void occupy(OccupancyMap& map, const Polygon& convex_in_grid) {
   }
 }
 
-double distance_to_segment(const Vec2& from, const Vec2& to, const Vec2& point) {
-  const Vec2 way = to - from;
-  const double along = std::clamp(way.dot(point - from) / way.squaredNorm(), 0.0, 1.0);
-  return (from + along * way - point).norm();
-}
-
 }  // namespace
 
 OccupancyMap with_keep_out(OccupancyMap map, std::span<const KeepOut> keep_out) {
@@ -54,19 +49,8 @@ OccupancyMap with_keep_out(OccupancyMap map, std::span<const KeepOut> keep_out) 
   return map;
 }
 
-/// Inside when a ray along x crosses an odd number of edges.
 double distance_to(const Polygon& polygon, const Vec2& point) {
-  double distance = std::numeric_limits<double>::infinity();
-  bool is_inside = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2& a = polygon[i];
-    const Vec2& b = polygon[(i + 1) % polygon.size()];
-    distance = std::min(distance, distance_to_segment(a, b, point));
-    const bool spans = (a.y() > point.y()) != (b.y() > point.y());
-    if (spans && point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
-      is_inside = !is_inside;
-  }
-  return is_inside ? 0.0 : distance;
+  return std::max(0.0, distance_to_outline(polygon, point));
 }
 
 }  // namespace lodestar

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "maps/segment.hpp"
 #include "maps/touching.hpp"
 
 namespace lodestar {
@@ -19,13 +20,6 @@ double squared_distance(const Vec2& point, Cell cell) {
   const double dx = std::max({cell.column - point.x(), point.x() - (cell.column + 1), 0.0});
   const double dy = std::max({cell.row - point.y(), point.y() - (cell.row + 1), 0.0});
   return dx * dx + dy * dy;
-}
-
-Vec2 nearest_on_leg(const Vec2& from, const Vec2& to, const Vec2& point) {
-  const Vec2 leg = to - from;
-  const double squared_length = leg.squaredNorm();
-  if (squared_length == 0.0) return from;
-  return from + std::clamp((point - from).dot(leg) / squared_length, 0.0, 1.0) * leg;
 }
 
 /// Does the leg cross the square? (clipping by Liang and Barsky)
@@ -53,11 +47,11 @@ bool within(const Vec2& from, const Vec2& to, Cell cell, double radius) {
   const double limit = radius * radius;
   const Vec2 center = center_of(cell);
   const double far = radius + 0.5 * std::numbers::sqrt2 + rounding;  // beyond it, the square is out of reach
-  if ((nearest_on_leg(from, to, center) - center).squaredNorm() > far * far) return false;
+  if ((nearest_on_segment(from, to, center) - center).squaredNorm() > far * far) return false;
   if (squared_distance(from, cell) < limit || squared_distance(to, cell) < limit) return true;
   for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
     const Vec2 corner(cell.column + dx, cell.row + dy);
-    if ((nearest_on_leg(from, to, corner) - corner).squaredNorm() < limit) return true;
+    if ((nearest_on_segment(from, to, corner) - corner).squaredNorm() < limit) return true;
   }
   return crosses(from, to, cell);
 }

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "maps/segment.hpp"
+
 namespace lodestar {
 namespace {
-
-double distance_to_leg_m(const Vec2& from, const Vec2& to, const Vec2& point) {
-  return distance_to_path_m({{from, to}}, point);
-}
 
 bool is_clear(const Path& path, const MarginPlanner& planner) {
   for (std::size_t i = 1; i < path.waypoints_m.size(); ++i) {
@@ -58,7 +56,7 @@ Path rest_of(const Path& path, const Vec2& position_m) {
   std::size_t next = 1;
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const double distance_m = distance_to_leg_m(points[i - 1], points[i], position_m);
+    const double distance_m = distance_to_segment(points[i - 1], points[i], position_m);
     if (distance_m > least_m) continue;  // a tie, as at a waypoint, goes to the later leg
     least_m = distance_m;
     next = i;

@@ -10,6 +10,7 @@
 #include "maps/marker.hpp"
 #include "maps/median.hpp"
 #include "maps/random.hpp"
+#include "maps/segment.hpp"
 
 namespace lodestar {
 namespace {
@@ -100,17 +101,10 @@ Extent extent_of(const std::vector<CeilingMarker>& markers) {
   return {extent.low_m.array() - margin_m, extent.high_m.array() + margin_m};
 }
 
-/// Distance of a point from a line segment, in the plane.
-double distance_to_piece_m(const Vec2& point, const Vec2& from, const Vec2& to) {
-  const Vec2 piece = to - from;
-  const double fraction = std::clamp((point - from).dot(piece) / piece.squaredNorm(), 0.0, 1.0);
-  return (from + fraction * piece - point).norm();
-}
-
 bool is_clear(const CeilingTube& tube, const std::vector<CeilingMarker>& markers,
               double clearance_m = light_clearance_m) {
   return std::ranges::none_of(markers, [&](const CeilingMarker& marker) {
-    return distance_to_piece_m(marker.middle_m.head<2>(), tube.from_m.head<2>(), tube.to_m.head<2>()) <
+    return distance_to_segment(tube.from_m.head<2>(), tube.to_m.head<2>(), marker.middle_m.head<2>()) <
            clearance_m;
   });
 }
@@ -121,7 +115,7 @@ bool is_clear(const CeilingDisc& lamp, const Ceiling& ceiling) {
     return (marker.middle_m.head<2>() - center).norm() < light_clearance_m + lamp.radius_m;
   });
   return of_markers && std::ranges::none_of(ceiling.tubes, [&](const CeilingTube& tube) {
-           return distance_to_piece_m(center, tube.from_m.head<2>(), tube.to_m.head<2>()) <
+           return distance_to_segment(tube.from_m.head<2>(), tube.to_m.head<2>(), center) <
                   light_clearance_m + lamp.radius_m;
          });
 }

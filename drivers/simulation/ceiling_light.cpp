@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <iterator>
 
+#include "maps/segment.hpp"
+
 namespace lodestar {
 namespace {
 
 double squared_distance_m2(const CeilingTube& tube, const Vec2& point) {
-  const Vec2 from = tube.from_m.head<2>();
-  const Vec2 piece = tube.to_m.head<2>() - from;
-  const double fraction = std::clamp((point - from).dot(piece) / piece.squaredNorm(), 0.0, 1.0);
-  return (from + fraction * piece - point).squaredNorm();
+  return (nearest_on_segment(tube.from_m.head<2>(), tube.to_m.head<2>(), point) - point).squaredNorm();
 }
 
 double squared_distance_m2(const CeilingDisc& lamp, const Vec2& point) {

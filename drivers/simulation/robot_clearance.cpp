@@ -7,31 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "maps/segment.hpp"
+
 namespace lodestar {
 namespace {
 
 using Corners = std::vector<Vec2>;
-
-double point_to_side_m(const Vec2& point, const Vec2& from, const Vec2& to) {
-  const Vec2 side = to - from;
-  const double along = std::clamp((point - from).dot(side) / side.squaredNorm(), 0.0, 1.0);
-  return (point - (from + along * side)).norm();
-}
-
-/// From a point to the outline, negative inside. Counts the crossings of a ray along x.
-double point_to_outline_m(const Vec2& point, const Corners& corners) {
-  double nearest_m = std::numeric_limits<double>::infinity();
-  bool is_inside = false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec2& from = corners[i];
-    const Vec2& to = corners[(i + 1) % corners.size()];
-    nearest_m = std::min(nearest_m, point_to_side_m(point, from, to));
-    if ((from.y() > point.y()) == (to.y() > point.y())) continue;
-    const double crossing_x = from.x() + (point.y() - from.y()) / (to.y() - from.y()) * (to.x() - from.x());
-    if (crossing_x > point.x()) is_inside = !is_inside;
-  }
-  return is_inside ? -nearest_m : nearest_m;
-}
 
 bool sides_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return cross(b - a, c - a) * cross(b - a, d - a) < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
@@ -40,8 +21,8 @@ bool sides_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 /// Between two outlines; 0 when they overlap.
 double outlines_apart_m(const Corners& a, const Corners& b) {
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const Vec2& corner : a) nearest_m = std::min(nearest_m, point_to_outline_m(corner, b));
-  for (const Vec2& corner : b) nearest_m = std::min(nearest_m, point_to_outline_m(corner, a));
+  for (const Vec2& corner : a) nearest_m = std::min(nearest_m, distance_to_outline(b, corner));
+  for (const Vec2& corner : b) nearest_m = std::min(nearest_m, distance_to_outline(a, corner));
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < b.size(); ++k)
       if (sides_cross(a[i], a[(i + 1) % a.size()], b[k], b[(k + 1) % b.size()])) return 0.0;
@@ -60,7 +41,7 @@ double RobotClearance::outer_radius_m() const {
 
 double RobotClearance::to_disc_m(const Pose2& map_from_base, const Vec2& center_m, double radius_m) const {
   if (!footprint_) return (center_m - map_from_base.position_m).norm() - radius_m - robot_radius_m_;
-  return point_to_outline_m(inverse(map_from_base) * center_m, footprint_->corners_m()) - radius_m;
+  return distance_to_outline(footprint_->corners_m(), inverse(map_from_base) * center_m) - radius_m;
 }
 
 double RobotClearance::to_cell_m(const Pose2& map_from_base, Cell cell) const {
@@ -70,7 +51,7 @@ double RobotClearance::to_cell_m(const Pose2& map_from_base, Cell cell) const {
   Corners in_base;
   for (const Vec2& corner : in_grid) in_base.push_back(base_from_grid * Vec2(corner * map_.resolution_m));
   if (footprint_) return outlines_apart_m(in_base, footprint_->corners_m());
-  return std::max(0.0, point_to_outline_m(Vec2::Zero(), in_base) - robot_radius_m_);
+  return std::max(0.0, distance_to_outline(in_base, Vec2::Zero()) - robot_radius_m_);
 }
 
 std::optional<double> RobotClearance::to_map_m(const Pose2& map_from_base, double most_m) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/segment.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -15,9 +17,7 @@ constexpr double starts_mps2 = 1.0;       ///< ... of some 50 kg
 constexpr double presence_m = 1.0;
 
 double distance_m(const Vec2& point_m, const SlidingDoor& door) {
-  const Vec2 way_m = door.to_m - door.from_m;
-  const double share = std::clamp((point_m - door.from_m).dot(way_m) / way_m.squaredNorm(), 0.0, 1.0);
-  return (door.from_m + share * way_m - point_m).norm();
+  return distance_to_segment(door.from_m, door.to_m, point_m);
 }
 
 }  // namespace
