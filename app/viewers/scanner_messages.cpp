@@ -60,6 +60,23 @@ std::string cells_of(const SeenSurroundings& seen, const Box& box) {
   return cells;
 }
 
+/// Of the field `presence`: what is written does not change when the field tells more of them apart.
+char code_of(Presence presence) {
+  switch (presence) {
+    case Presence::mapped:
+      return 0;
+    case Presence::standing:
+      return 1;
+    case Presence::legs:
+    case Presence::waiting:
+    case Presence::person:
+      return 2;
+    case Presence::hidden:
+      break;
+  }
+  return 3;
+}
+
 }  // namespace
 
 Json scan_message(Stamp stamp, const SeenSurroundings& seen) {
@@ -70,7 +87,7 @@ Json scan_message(Stamp stamp, const SeenSurroundings& seen) {
     append(bytes, static_cast<float>(point.point_in_base.x()));
     append(bytes, static_cast<float>(point.point_in_base.y()));
     append(bytes, 0.0F);
-    bytes += static_cast<char>(point.presence);
+    bytes += code_of(point.presence);
   }
   return {{"timestamp", time_json(stamp)},
           {"frame_id", seen_frame},

@@ -125,7 +125,10 @@ describe('in run.mcap and the report', () => {
       }
       assert.equal(data.length % json.point_stride, 0);
       const presence = json.fields.find((f) => f.name === 'presence').offset;
-      for (let at = 0; at < data.length; at += json.point_stride) if (data[at + presence] === 2) ++people;
+      for (let at = 0; at < data.length; at += json.point_stride) {
+        assert.ok(data[at + presence] <= 3, 'as docs/viewers.md lists them');
+        if (data[at + presence] === 2) ++people;
+      }
     }
     assert.ok(count['/scan'] > 20 && count['/obstacles'] > 20, JSON.stringify(count));
     assert.ok(people > 0);
