@@ -184,12 +184,16 @@ LoadedMap load_map(const fs::path& yaml_file) {
   return loaded;
 }
 
-void save_map(const OccupancyMap& map, const fs::path& yaml_file, const std::string& other_keys) {
+void check_map_name(const fs::path& yaml_file) {
   const std::string extension = yaml_file.extension().string();
   if (extension != ".yaml" && extension != ".yml") {
     throw InputError(fmt::format("{}: found '{}', wanted the name of a YAML file: .yaml or .yml",
                                  yaml_file.string(), extension));
   }
+}
+
+void save_map(const OccupancyMap& map, const fs::path& yaml_file, const std::string& other_keys) {
+  check_map_name(yaml_file);
   const std::string before = present_image(yaml_file);
   const std::set<std::string> of_others = images_of_others(yaml_file);
   const std::string name = free_image_name(yaml_file, before, of_others);

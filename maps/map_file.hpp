@@ -32,11 +32,14 @@ struct LoadedMap {
 /// thresholds out of order, an image that is missing or broken.
 LoadedMap load_map(const std::filesystem::path& yaml_file);
 
+/// Throws InputError for a name without .yaml or .yml, which might be that of the image.
+void check_map_name(const std::filesystem::path& yaml_file);
+
 /// Writes `yaml_file` and the image beside it (STEM.pgm, or STEM_b.pgm when the YAML file names STEM.pgm
 /// already, or another YAML file beside it does): at every moment, also after a power cut, the YAML file
 /// names a complete image, the old or the new one. The mode is lossless: trinary when all values are 0, 100
 /// or -1, raw otherwise. Numbers are written such that reading returns the same doubles. Throws InputError
-/// for a name without .yaml or .yml, which might be that of the image, and when a file cannot be written.
+/// as check_map_name() does, and when a file cannot be written.
 /// `other_keys` are lines of YAML to be kept, as MapFileInfo has them.
 void save_map(const OccupancyMap& map, const std::filesystem::path& yaml_file,
               const std::string& other_keys = {});

@@ -26,10 +26,10 @@ nlohmann::ordered_json as_json(const MapFromRuns& built) {
   for (const RunScans& run : built.runs) {
     runs.push_back({{"run", run.run.string()},
                     {"started", run.started},
-                    {"scans", run.scans},
-                    {"used", run.used},
-                    {"without_pose", run.without_pose},
-                    {"standing", run.standing},
+                    {"scans", run.counts.scans},
+                    {"used", run.counts.used},
+                    {"without_pose", run.counts.without_pose},
+                    {"standing", run.counts.standing},
                     {"bytes_cut_off", run.bytes_cut_off}});
   }
   return {{"columns", built.map.columns},
@@ -41,7 +41,8 @@ nlohmann::ordered_json as_json(const MapFromRuns& built) {
 void say(const MapFromRuns& built) {
   for (const RunScans& run : built.runs) {
     fmt::print(stderr, "{}: {} of {} scans used; {} without a sure pose, {} while the robot stood\n",
-               run.run.string(), run.used, run.scans, run.without_pose, run.standing);
+               run.run.string(), run.counts.used, run.counts.scans, run.counts.without_pose,
+               run.counts.standing);
     if (run.bytes_cut_off > 0)
       fmt::print(stderr, "lodestar: warning: {}: the last scan is cut off after {} bytes and left out\n",
                  (run.run / "scans.bin").string(), run.bytes_cut_off);

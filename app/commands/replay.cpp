@@ -14,6 +14,7 @@
 #include "app/commands/goal_lines.hpp"
 #include "app/commands/goal_options.hpp"
 #include "app/commands/kept_runs.hpp"
+#include "app/commands/map_option.hpp"
 #include "app/commands/people_options.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/commands/recorded_run.hpp"
@@ -61,6 +62,7 @@ struct ReplayArguments {
   std::string output;
   bool serve = false;
   bool survey = false;
+  std::string map;
   bool explore = false;
   ConsoleServiceOptions console;
   FleetArguments fleet;
@@ -114,6 +116,7 @@ std::string repeat_command(const ReplayArguments& arguments, const SimulatedDriv
   if (arguments.charges) command += " --charge";
   if (arguments.battery_v) command += fmt::format(" --battery {}", *arguments.battery_v);
   if (!arguments.faults.empty()) command += " --faults " + arguments.faults;
+  if (!arguments.map.empty()) command += " --build-map " + arguments.map;
   return command + words_of(arguments.people) + words_of(arguments.disturbances);
 }
 
@@ -216,9 +219,9 @@ ExitCode replay_served(const Site& site, SimulatedDriveOptions options, const Re
   return all_arrived && is_recorded ? done : job_failed;
 }
 
-/// To see people and things, and to be at fault itself.
+/// To see people, things and walls, and to be at fault itself.
 bool needs_scanner(const ReplayArguments& arguments) {
-  if (arguments.people.any()) return true;
+  if (arguments.people.any() || !arguments.map.empty()) return true;
   return !arguments.faults.empty() &&
          std::ranges::any_of(faults_named(arguments.faults), concerns_scanner, &Fault::kind);
 }
@@ -253,8 +256,12 @@ ExitCode replay_command(const ReplayArguments& arguments) {
       stops.attend(mission);
     };
   }
+  const std::unique_ptr<LiveMap> map = live_map(
+      arguments.map, site, fmt::format("lodestar replay, seed {},", options.seed), !options.realtime);
+  if (map) attend_map(options, *map);
   const ExitCode code = replay_as_asked(site, options, arguments);
-  return ros2.finish() ? code : job_failed;
+  const bool is_mapped = print_map(map.get());
+  return ros2.finish() && is_mapped ? code : job_failed;
 }
 
 }  // namespace
@@ -321,6 +328,7 @@ std::vector<Command> replay_commands(CLI::App& lodestar) {
       ->excludes(command->get_option("--goal"))
       ->excludes(command->get_option("--charge"))
       ->excludes(command->get_option("--mission"));
+  add_map_option(*command, arguments->map)->excludes(command->get_option("--runs"));
   CLI::Option* fleet = add_fleet_option(*command, arguments->fleet);
   for (const char* other :
        {"--runs", "--goal", "--mission", "--routes", "--charge", "--serve", "--survey", "--state"})

@@ -16,11 +16,13 @@
 #include "app/commands/goal_options.hpp"
 #include "app/commands/kept_runs.hpp"
 #include "app/commands/localizing_run.hpp"
+#include "app/commands/map_option.hpp"
 #include "app/commands/ros2_service.hpp"
 #include "app/commands/served_run.hpp"
 #include "app/common/interruption.hpp"
 #include "app/common/log.hpp"
 #include "app/common/program_data.hpp"
+#include "app/common/wall_clock.hpp"
 #include "app/drive/camera_setup.hpp"
 #include "app/drive/operator_input.hpp"
 #include "app/fleet/stop_actions.hpp"
@@ -47,6 +49,7 @@ struct RunArguments {
   double pictures_hz = 2.0;
   bool serve = false;
   bool survey = false;
+  std::string map;
   bool explore = false;
   std::string runs;
   std::string state;
@@ -249,10 +252,14 @@ ExitCode run_command(RunArguments arguments) {
     stops.attend(mission);
   };
   options.until_stopped = arguments.ros2.takes_commands;
+  const std::unique_ptr<LiveMap> map =
+      live_map(arguments.map, site, fmt::format("lodestar run {}, begun {},", site.name, utc_text()), false);
+  if (map) attend_map(options, *map);
   const Interruption interruption;
   const DriveParts parts{.site = site, .bus = bus, .interface = connection.interface, .camera = *camera};
   const ExitCode code = drive_as_asked(parts, std::move(protocol), options, arguments);
-  return ros2.finish() ? code : job_failed;
+  const bool is_mapped = print_map(map.get());
+  return ros2.finish() && is_mapped ? code : job_failed;
 }
 
 }  // namespace
@@ -309,6 +316,7 @@ std::vector<Command> run_commands(CLI::App& lodestar) {
   command->add_option(
       "--state", arguments->state,
       "File of what drives learn of wheels, dots and displaced markers; default: state.yaml of the site");
+  add_map_option(*command, arguments->map)->excludes(only);
   command->add_option("--can", arguments->interface, "CAN interface; default: the site's");
   command->add_option("--seed", arguments->seed, "Seed of a simulated camera")->capture_default_str();
   command

@@ -72,7 +72,7 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && !a.empty() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
-bool is_moving(const BodyVelocity& velocity) {
+bool asks_for_motion(const BodyVelocity& velocity) {
   return velocity.forward_mps != 0.0 || velocity.turn_radps != 0.0;
 }
 
@@ -255,7 +255,7 @@ Surroundings::Allowed Surroundings::allowed(Stamp now, const std::optional<BodyV
   if (!limit.reason || limit.share >= 1.0) return allowed;
   allowed.slowed_by = stop_for(*limit.reason);
   // A robot that is held wants little: it begins anew in each step.
-  if (is_moving(wanted) && !moves(allowed.velocity)) allowed.reason = allowed.slowed_by;
+  if (asks_for_motion(wanted) && !moves(allowed.velocity)) allowed.reason = allowed.slowed_by;
   return allowed;
 }
 

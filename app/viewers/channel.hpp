@@ -14,6 +14,7 @@ struct Channel {
   std::string schema_name;
   std::string schema;
   bool every_message = false;  ///< events: every one is delivered, not only the newest
+  bool is_live = true;         ///< else only in files
   std::string schema_encoding = "jsonschema";
   std::string encoding = "json";  ///< of the messages
 };

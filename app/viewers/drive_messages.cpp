@@ -93,6 +93,12 @@ Channel channel(const char* topic, const char* schema) {
   return {.topic = topic, .schema_name = schema, .schema = viewer_schema(schema)};
 }
 
+Channel recorded(const char* topic, const char* schema) {
+  Channel made = channel(topic, schema);
+  made.is_live = false;
+  return made;
+}
+
 Channel events(const char* topic, const char* schema) {
   Channel made = channel(topic, schema);
   made.every_message = true;
@@ -111,11 +117,11 @@ const std::vector<Channel>& drive_channels() {
                                              channel("/robot", "foxglove.SceneUpdate"),
                                              channel("/pose", "foxglove.PoseInFrame"),
                                              channel("/drive", "lodestar.Drive"),
-                                             channel("/fix", "lodestar.Fix"),
+                                             recorded("/fix", "lodestar.Fix"),
                                              events("/log", "foxglove.Log"),
                                              channel("/camera", "foxglove.CompressedImage"),
                                              channel("/camera/calibration", "foxglove.CameraCalibration"),
-                                             channel("/truth", "foxglove.PoseInFrame"),
+                                             recorded("/truth", "foxglove.PoseInFrame"),
                                              channel("/error", "lodestar.EstimateError"),
                                              channel("/tf_static", "foxglove.FrameTransform"),
                                              channel("/scan", "foxglove.PointCloud"),

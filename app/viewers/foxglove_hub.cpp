@@ -74,7 +74,8 @@ class FoxgloveHub::Viewer : public SocketSession {
 
  private:
   void subscribe(std::uint32_t id, std::size_t channel) {
-    if (channel >= hub_.channels_.size()) return complain(fmt::format("no channel {}", channel));
+    if (channel >= hub_.channels_.size() || !hub_.channels_[channel].is_live)
+      return complain(fmt::format("no channel {}", channel));
     const bool is_used = std::ranges::any_of(subscriptions_, [id](const auto& s) { return s.second == id; });
     if (is_used || !subscriptions_.try_emplace(channel, id).second) {
       return complain(fmt::format("channel {} or subscription {} twice", channel, id));
@@ -137,6 +138,7 @@ std::string FoxgloveHub::server_info() const {
 std::string FoxgloveHub::advertisement() const {
   Json channels = Json::array();
   for (std::size_t id = 0; id < channels_.size(); ++id) {
+    if (!channels_[id].is_live) continue;
     channels.push_back({{"id", id},
                         {"topic", channels_[id].topic},
                         {"encoding", "json"},

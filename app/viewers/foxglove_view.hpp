@@ -9,8 +9,7 @@
 
 namespace lodestar {
 
-/// The console's live robot state for Foxglove and other viewers: the channels of drive_channels() except
-/// /fix, which only run.mcap has.
+/// The console's live robot state for Foxglove and other viewers: the live ones of drive_channels().
 class FoxgloveView : public LiveChannel {
  public:
   explicit FoxgloveView(const Site& site);

@@ -120,7 +120,7 @@ TEST(MapFromRuns, has_the_walls_of_the_lab_where_they_are) {
   }
   const std::string figures = fmt::format(
       "{} scans; {} cells occupied, {} within a cell of a wall, {} in one; {} wall cells seen, {} found",
-      built.runs.front().used, occupied, true_ones, exact, seen, found);
+      built.runs.front().counts.used, occupied, true_ones, exact, seen, found);
   RecordProperty("figures", figures);
   ASSERT_GT(occupied, 500) << figures;
   ASSERT_GT(seen, 500) << figures;
@@ -193,9 +193,9 @@ TEST(MapFromRuns, leaves_out_what_was_seen_while_the_pose_was_not_sure) {
                          time_s < 3.0 ? 0.005 : 0.1);
   folder.write("steps.csv", steps);
   const RunScans run = map_from_runs(std::vector{folder.path()}, {}).runs.front();
-  EXPECT_EQ(run.scans, 12U);
-  EXPECT_EQ(run.used, 6U);
-  EXPECT_EQ(run.without_pose, 6U);
+  EXPECT_EQ(run.counts.scans, 12U);
+  EXPECT_EQ(run.counts.used, 6U);
+  EXPECT_EQ(run.counts.without_pose, 6U);
 }
 
 TEST(MapFromRuns, reads_steps_of_every_version_and_refuses_one_that_is_cut_short) {
@@ -211,7 +211,7 @@ TEST(MapFromRuns, reads_steps_of_every_version_and_refuses_one_that_is_cut_short
   for (const auto& [header, cells] : std::vector<std::pair<std::string, std::string>>{
            {first, "0,0"}, {first + ",driven_mps,driven_degps,xx_m2,xy_m2,yy_m2", "0,0,0,0,1e-5,0,1e-5"}}) {
     steps(header, cells);
-    EXPECT_GT(map_from_runs(std::vector{folder.path()}, {}).runs.front().used, 0U) << header;
+    EXPECT_GT(map_from_runs(std::vector{folder.path()}, {}).runs.front().counts.used, 0U) << header;
   }
   steps(first, "0");
   EXPECT_THROW(map_from_runs(std::vector{folder.path()}, {}), InputError);

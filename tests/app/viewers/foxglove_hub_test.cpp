@@ -9,9 +9,10 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<Channel> two_channels() {
+std::vector<Channel> three_channels() {
   return {{.topic = "/pose", .schema_name = "a", .schema = "{}"},
-          {.topic = "/log", .schema_name = "b", .schema = "{}", .every_message = true}};
+          {.topic = "/log", .schema_name = "b", .schema = "{}", .every_message = true},
+          {.topic = "/truth", .schema_name = "c", .schema = "{}", .is_live = false}};
 }
 
 Message said(std::size_t channel, const std::string& words, std::int64_t ns = 0) {
@@ -36,7 +37,7 @@ class FoxgloveHubTest : public testing::Test {
     return frame->binary ? frame->bytes->substr(13) : *frame->bytes;
   }
 
-  FoxgloveHub hub{"test", two_channels()};
+  FoxgloveHub hub{"test", three_channels()};
   Outbox outbox;
   std::unique_ptr<SocketSession> viewer;
   json info;
@@ -52,6 +53,13 @@ TEST_F(FoxgloveHubTest, a_viewer_is_told_what_there_is) {
   EXPECT_EQ(advertised["channels"][1]["id"], 1);
   EXPECT_EQ(advertised["channels"][1]["topic"], "/log");
   EXPECT_EQ(advertised["channels"][1]["schemaEncoding"], "jsonschema");
+}
+
+TEST_F(FoxgloveHubTest, a_channel_that_only_files_have_is_neither_told_nor_given) {
+  join();
+  for (const json& channel : advertised["channels"]) EXPECT_NE(channel["topic"], "/truth");
+  subscribe(1, 2);
+  EXPECT_EQ(json::parse(next().value())["message"], "no channel 2");
 }
 
 TEST_F(FoxgloveHubTest, frames_carry_subscription_time_and_message) {
