@@ -40,9 +40,7 @@ nlohmann::ordered_json as_json(const MapFromRuns& built) {
 
 void say(const MapFromRuns& built) {
   for (const RunScans& run : built.runs) {
-    fmt::print(stderr, "{}: {} of {} scans used; {} without a sure pose, {} while the robot stood\n",
-               run.run.string(), run.counts.used, run.counts.scans, run.counts.without_pose,
-               run.counts.standing);
+    fmt::print(stderr, "{}: {}\n", run.run.string(), in_words(run.counts));
     if (run.bytes_cut_off > 0)
       fmt::print(stderr, "lodestar: warning: {}: the last scan is cut off after {} bytes and left out\n",
                  (run.run / "scans.bin").string(), run.bytes_cut_off);

@@ -30,10 +30,7 @@ bool print_map(LiveMap* map) {
     fmt::print(stderr, "lodestar: warning: the map is not whole: {}\n", loss);
     return false;
   }
-  const ScanCounts& counts = map->counts();
-  fmt::print(stderr,
-             "lodestar: built a map of {} of {} scans; {} without a sure pose, {} while the robot stood\n",
-             counts.used, counts.scans, counts.without_pose, counts.standing);
+  fmt::print(stderr, "lodestar: map: {}\n", in_words(map->counts()));
   return true;
 }
 

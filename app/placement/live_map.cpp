@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <utility>
 
 #include "maps/input_error.hpp"
@@ -15,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// So long a scan waits for a pose; the estimate is of the newest wheel reading.
+/// So long a scan waits for the pose of its time, which is that of a wheel reading, and so long poses are
+/// kept.
 constexpr Duration longest_wait = std::chrono::seconds(1);
 
 fs::path checked(fs::path file) {
@@ -46,27 +46,33 @@ void LiveMap::take(const std::vector<Scan>& scans, const std::optional<PoseEstim
 }
 
 void LiveMap::add(Heard& heard) {
-  std::ranges::move(heard.scans, std::back_inserter(waiting_));
+  for (Scan& scan : heard.scans)
+    if (!scan.beams.empty()) waiting_.push_back(std::move(scan));
+  if (heard.pose) {
+    placed_.add(*heard.pose);
+    newest_pose_ = heard.pose->stamp;
+  }
+  place();
   if (!heard.pose) return;
   const Stamp now = heard.pose->stamp;
-  placed_.add(*heard.pose);
-  place(now);
+  placed_.forget_before(now - longest_wait);
   if (!written_) written_ = now;
   if (now - *written_ < options_.period) return;
   written_ = now;
   write();
 }
 
-void LiveMap::place(Stamp newest_pose) {
+/// Those whose pose is known, and those for which it comes no more, as of a robot that is lost.
+void LiveMap::place() {
+  const auto end_of = [](const Scan& scan) { return scan.beams.back().stamp; };
   while (!waiting_.empty()) {
-    Scan& scan = waiting_.front();
-    if (!scan.beams.empty() && newest_pose < scan.beams.back().stamp) break;
-    const bool has_room = placed_.add(std::move(scan));
+    const Stamp end = end_of(waiting_.front());
+    if (end > newest_pose_ && end > end_of(waiting_.back()) - longest_wait) return;
+    const bool has_room = placed_.add(std::move(waiting_.front()));
     waiting_.pop_front();
     if (!has_room)
       throw InputError(file_, 0, "a scan that is far off", "scans in one room: the map grows too large");
   }
-  placed_.forget_before(newest_pose - longest_wait);
 }
 
 void LiveMap::write() const {
@@ -82,8 +88,7 @@ std::string LiveMap::finish() {
   std::string loss = writer_.finish().loss(file_.string());
   if (!loss.empty()) return loss;
   try {
-    if (placed_.counts().used == 0)
-      return file_.string() + ": no scan that has a pose known to 2 cm and 0.5 degrees";
+    if (placed_.counts().used == 0) return fmt::format("{}: {}", file_.string(), nothing_placed);
     write();
   } catch (const InputError& error) {
     return error.what();

@@ -47,7 +47,7 @@ class LiveMap {
   };
 
   void add(Heard& heard);
-  void place(Stamp newest_pose);
+  void place();
   void write() const;
 
   std::filesystem::path file_;
@@ -55,6 +55,7 @@ class LiveMap {
   OccupancyBuilder builder_;
   PlacedScans placed_;
   std::deque<Scan> waiting_;  ///< for the poses of their time
+  Stamp newest_pose_;
   std::optional<Stamp> written_;
   BackgroundWriter<Heard> writer_;  ///< last: its thread uses the others
 };

@@ -34,12 +34,12 @@ RunScans read(const fs::path& run, const PlacedScansOptions& options, OccupancyB
   if (!is_folder(run)) throw InputError(run, 0, "no such folder", "that of a run");
   if (!is_file(file))
     throw InputError(file, 0, "no such file", "the scans of a run of a robot with a scanner");
-  std::vector<RunPose> poses = load_run_poses(run);
+  const std::vector<RunPose> poses = load_run_poses(run);
   if (poses.empty())
     throw InputError(run, 0, "a run without a pose", "one in which the robot knew where it was");
   ScanFileReader reader(file);
   PlacedScans placed(options, reader.mount().base_from_scanner, builder);
-  placed.use(std::move(poses));
+  for (const RunPose& pose : poses) placed.add(pose);
   while (std::optional<LoggedScan> logged = reader.next()) {
     if (placed.add(std::move(logged->scan))) continue;
     const Vec2& at_m = placed.map_from_scanner().position_m;
@@ -65,8 +65,7 @@ MapFromRuns map_from_runs(std::span<const fs::path> runs, const MapFromRunsOptio
   }
   built.map = builder.map();
   if (built.map.cells.empty())
-    throw InputError(runs.empty() ? fs::path("map build") : runs.front(), 0,
-                     "no scan that has a pose known to 2 cm and 0.5 degrees, or no echo in any",
+    throw InputError(runs.empty() ? fs::path("map build") : runs.front(), 0, nothing_placed,
                      "a run in which the robot saw markers");
   return built;
 }

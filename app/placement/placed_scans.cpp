@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace lodestar {
+
+std::string in_words(const ScanCounts& counts) {
+  return fmt::format("{} of {} scans used; {} without a sure pose, {} while the robot stood", counts.used,
+                     counts.scans, counts.without_pose, counts.standing);
+}
 
 void PlacedScans::forget_before(Stamp stamp) {
   const auto first = std::ranges::lower_bound(poses_, stamp, {}, &RunPose::stamp);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/frames/run_poses.hpp"
@@ -30,14 +31,19 @@ struct ScanCounts {
   std::size_t standing = 0;      ///< like the ones before
 };
 
+/// As both maps say it: "7 of 9 scans used; 1 without a sure pose, 1 while the robot stood".
+std::string in_words(const ScanCounts& counts);
+
+inline constexpr const char* nothing_placed =
+    "no scan that has a pose known to 2 cm and 0.5 degrees, or no echo in any";
+
 /// The scans of one drive, placed by the poses of the robot on a map that is being built.
 class PlacedScans {
  public:
   PlacedScans(const PlacedScansOptions& options, const Pose2& base_from_scanner, OccupancyBuilder& builder)
       : options_(options), base_from_scanner_(base_from_scanner), builder_(builder) {}
 
-  /// Poses in order of time, on both sides of those of the beams.
-  void use(std::vector<RunPose> poses) { poses_ = std::move(poses); }
+  /// In order of time, and before the scans of that time.
   void add(const RunPose& pose) { poses_.push_back(pose); }
   /// Poses before this are of no more use.
   void forget_before(Stamp stamp);

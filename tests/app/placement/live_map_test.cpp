@@ -87,6 +87,19 @@ TEST_F(LiveMapTest, leaves_out_what_was_seen_while_the_pose_was_not_sure) {
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
+/// An hour of scans would fill a gigabyte.
+TEST_F(LiveMapTest, keeps_no_scans_of_a_robot_that_is_lost) {
+  LiveMap map(file_, mount, {.can_wait = true});
+  for (int i = 0; i < 60; ++i) {
+    const Stamp begin = Stamp{} + i * std::chrono::milliseconds(500);
+    map.take({testing::cast_scan(
+                 truth_, {}, begin, [](Stamp at) { return pose_at(at) * mount.base_from_scanner; }, random_)},
+             std::nullopt);
+  }
+  EXPECT_THAT(map.finish(), HasSubstr("no scan that has a pose"));
+  EXPECT_GE(map.counts().without_pose, 57U);
+}
+
 TEST_F(LiveMapTest, needs_a_folder_to_write_to_and_a_name_of_a_yaml_file) {
   EXPECT_THROW(LiveMap(folder_ / "built.png", mount), InputError);
   EXPECT_THROW(LiveMap(folder_ / "none" / "built.yaml", mount), InputError);
