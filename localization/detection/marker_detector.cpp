@@ -133,6 +133,24 @@ std::size_t extra_dots_in(const Square& square, std::span<const Dot> dots) {
   return near - std::min(near, square.dots.size());
 }
 
+/// Does the lattice go on right beside the square? Then it is the ceiling's, as the light between the holes
+/// of a perforated plate: markers are glued on their own.
+bool goes_on_beside(const Square& square, std::span<const Dot> dots, double tolerance) {
+  constexpr int last = marker_grid_size - 1;
+  const Vec2 origin_px = square.grid.center_px({0, 0});
+  Eigen::Matrix2d px_from_places;
+  px_from_places << (square.grid.center_px({0, last}) - origin_px) / last,
+      (square.grid.center_px({last, 0}) - origin_px) / last;
+  const Eigen::Matrix2d places_from_px = px_from_places.inverse();
+  return std::ranges::any_of(dots, [&](const Dot& dot) {
+    const Vec2 place = places_from_px * (dot.center_px - origin_px);
+    const Vec2 whole(std::round(place.x()), std::round(place.y()));
+    const bool is_inside = whole.minCoeff() >= 0.0 && whole.maxCoeff() <= last;
+    const bool is_near = whole.minCoeff() >= -1.0 && whole.maxCoeff() <= last + 1;
+    return is_near && !is_inside && (place - whole).norm() <= tolerance;
+  });
+}
+
 /// A marker's ID, square and rotation.
 struct PlacedMarker {
   Square square;
@@ -287,7 +305,8 @@ void MarkerDetector::append_marker_of_lattice(const cv::Mat& gray, std::span<con
   if (!best || !is_decided) return;  // a square with too many undecided cells may be the true one
   const double probability = best->id.weight / all_weight;
   if (probability < options_.lattice.least_probability ||
-      !is_trusted(*best, extra_dots_in(best->square, dots), id_decoder_, options_.lattice)) {
+      !is_trusted(*best, extra_dots_in(best->square, dots), id_decoder_, options_.lattice) ||
+      goes_on_beside(best->square, usual, options_.lattice.first_tolerance)) {
     return;
   }
   markers_.push_back(detected(best->id.id, probability, confidence_of(gray, best->square.measured),

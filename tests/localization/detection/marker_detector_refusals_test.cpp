@@ -172,6 +172,30 @@ TEST(MarkerDetector, never_reads_a_marker_into_dots_strewn_at_random) {
   }
 }
 
+/// The light between the holes of a perforated plate: a patch of a lattice with a marker's pitch, larger than
+/// a marker, of which some dots are too faint.
+TEST(MarkerDetector, never_reads_a_marker_into_a_larger_lattice) {
+  Random random(15);
+  DetectorOptions expecting_many;
+  for (int id = 0; id < marker_id_count; id += 16) expecting_many.registered_ids.push_back(id + 15);
+  MarkerDetector detector(expecting_many);
+  constexpr double radius_px = 2.5;
+  constexpr double pitch_px = radii_per_pitch * radius_px;
+  for (int i = 0; i < 500; ++i) {
+    PaintedFrame frame(cv::Size(120, 120));
+    const Eigen::Rotation2Dd turn(random.uniform(0.0, 1.5));
+    const int columns = 5 + static_cast<int>(random.below(2));
+    const int rows = 4 + static_cast<int>(random.below(3));
+    for (int column = 0; column < columns; ++column) {
+      for (int row = 0; row < rows; ++row) {
+        const Vec2 place(column - 0.5 * (columns - 1), row - 0.5 * (rows - 1));
+        if (random.uniform() < 0.8) frame.disc(Vec2(60.0, 60.0) + pitch_px * (turn * place), radius_px);
+      }
+    }
+    EXPECT_TRUE(detector.detect(frame.finished(random)).empty()) << i;
+  }
+}
+
 TEST(MarkerDetector, refuses_frames_that_are_not_8_bit_gray) {
   EXPECT_THROW(detect_markers(cv::Mat(10, 10, CV_8UC3)), std::invalid_argument);
   EXPECT_THROW(detect_markers(cv::Mat(10, 10, CV_16UC1)), std::invalid_argument);
