@@ -33,13 +33,22 @@ void add(const FrameCounts& part, FrameCounts& whole) {
   whole.stated.insert(whole.stated.end(), part.stated.begin(), part.stated.end());
 }
 
+/// The scene's ceiling, with the method's markers where they hang.
+ImageFormer former_of(const HardScene& scene, const CameraModel& camera, std::uint64_t seed,
+                      BenchMethod& method) {
+  ImageFormer former(scene.registry, camera, scene.light, seed);
+  ImageFormer bare(MarkerRegistry{}, camera, scene.light, seed);
+  for (ImageFormer* const each : {&former, &bare})
+    for (const PrintedSquare& patch : scene.sun) each->add(patch);
+  method.install(scene.registry, camera, former);
+  return scene.markers_hang ? std::move(former) : std::move(bare);
+}
+
 /// The frames of one scene.
 FrameCounts count_scene(const SceneSource& source, BenchMethod& method, int frames, Random random) {
   const HardScene scene = source.scene(random);
   const CameraModel camera = bench_camera();
-  ImageFormer former(scene.registry, camera, scene.light, random.bits());
-  for (const PrintedSquare& patch : scene.sun) former.add(patch);
-  method.install(scene.registry, camera, former);
+  ImageFormer former = former_of(scene, camera, random.bits(), method);
   const double pitch_px = camera.fx_px * marker_pitch_m / scene.ceiling_m;
 
   FrameCounts counts;
@@ -50,7 +59,8 @@ FrameCounts count_scene(const SceneSource& source, BenchMethod& method, int fram
         former.expose(view.map_from_camera, view.map_from_camera, static_cast<std::uint64_t>(i));
     const std::vector<ReadMarker> readings = method.read(gray);
     const std::vector<TrueMarker> truth =
-        markers_in_view(method, scene.registry, view.map_from_camera, camera);
+        scene.markers_hang ? markers_in_view(method, scene.registry, view.map_from_camera, camera)
+                           : std::vector<TrueMarker>{};
     const ReadingCount count = judged(readings, truth);
     ++counts.frames;
     counts.right += count.right;

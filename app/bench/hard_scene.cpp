@@ -95,6 +95,13 @@ BenchView view_without_a_direction_dot(const HardScene& scene, const Eigen::Matr
   return view;
 }
 
+/// Any ceiling, up to as bright as in the table of ceilings: structure is what is taken for a marker.
+void make_empty(HardScene& scene, Random& random) {
+  scene.markers_hang = false;
+  scene.light.ceiling = all_ceiling_kinds.at(random.below(all_ceiling_kinds.size()));
+  scene.light.background_gray = random.uniform(10.0, 140.0);
+}
+
 }  // namespace
 
 MarkerRegistry some_markers(int aside, double spacing_m, double ceiling_m, Random& random) {
@@ -126,7 +133,8 @@ HardScene some_hard_scene(HardFrames kind, Random& random) {
     scene.light.tubes = scene.light.lamps = scene.light.glints = false;
     return scene;
   }
-  if (kind == HardFrames::adverse) scene.registry = some_markers(5, 0.9, scene.ceiling_m, random);
+  scene.registry = some_markers(5, 0.9, scene.ceiling_m, random);
+  if (kind == HardFrames::empty) make_empty(scene, random);
   constexpr int patches = 6;
   for (int i = 0; i < patches; ++i) scene.sun.push_back(some_patch_of_sun(scene, random));
   return scene;

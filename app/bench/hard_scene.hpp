@@ -9,7 +9,7 @@ enum class HardFrames {
   /// and patches of sun, from 1.5 to 4 m, tilted by up to 10 degrees; half of them with a sheet that may
   /// occlude a marker.
   adverse,
-  /// The same without any marker.
+  /// The same without any marker, though the detector expects some, under any kind of ceiling.
   empty,
   /// One marker whose O, X or Y is occluded wholly or in part, or cut by the image border.
   direction_dot_lost,
@@ -17,7 +17,8 @@ enum class HardFrames {
 
 /// A ceiling and its light, for a batch of hard frames.
 struct HardScene {
-  MarkerRegistry registry;
+  MarkerRegistry registry;  ///< what the detector expects
+  bool markers_hang = true;
   SimulatedCameraOptions light;
   std::vector<PrintedSquare> sun;
   double ceiling_m = 2.6;  ///< above the camera

@@ -176,10 +176,11 @@ void light_unevenly(cv::Mat1f& texels, Random random) {
 /// Every other panel is a louvre or a perforated plate with a frame.
 void put_vents(cv::Mat1f& texels, double panel_m, Random random) {
   const double slat_m = panel_m / static_cast<double>(15 + random.below(16));  // 20 to 40 mm
-  const double hole_m = panel_m / 36.0;
-  const double hole_radius_m = random.uniform(0.25, 0.4) * hole_m;
+  const double hole_share = random.uniform(0.25, 0.4);
   const double slot = random.uniform(0.15, 0.45);
   const double open_share = random.uniform(0.3, 0.5);
+  const double hole_m = panel_m / static_cast<double>(18 + random.below(43));  // 10 to 33 mm
+  const double hole_radius_m = hole_share * hole_m;
   constexpr double frame_m = 0.03;
   const int count = static_cast<int>(std::lround(period_m / panel_m));
   for_each_texel(texels, [&](double x, double y, double value) {
