@@ -72,7 +72,7 @@ std::optional<ScannerFault> ScannerWatch::update(const Scan& scan, Stamp now) {
   if (scan.beams.empty()) return scan_fault_;
   scan_fault_ = clock_fault(scan, now);
   last_beam_ = scan.beams.back().stamp;
-  judge_repeats(scan);
+  judge_repeats(scan, now);
   judge_motor(scan);
   judge_window(scan);
   judge_lost(scan, now);
@@ -90,7 +90,8 @@ std::optional<ScannerFault> ScannerWatch::clock_fault(const Scan& scan, Stamp no
 }
 
 /// A scanner with noise never measures the same twice; one without does so only where nothing moves.
-void ScannerWatch::judge_repeats(const Scan& scan) {
+void ScannerWatch::judge_repeats(const Scan& scan, Stamp now) {
+  if (!first_scan_) first_scan_ = now;
   const std::vector<double> before = std::exchange(last_ranges_m_, ranges_of(scan));
   const Motion then = std::exchange(previous_motion_, motion_);
   const auto hits = std::ranges::count(scan.beams, Echo::hit, &Beam::echo);
@@ -106,6 +107,7 @@ void ScannerWatch::judge_repeats(const Scan& scan) {
     if (stood && last_travel_ &&
         static_cast<double>(differ) > options_.noisy_share * static_cast<double>(hits))
       has_noise_ = true;
+    has_changed_ = true;
     repeats_ = 0;
     last_motion_ = motion_;
     return;
@@ -113,7 +115,9 @@ void ScannerWatch::judge_repeats(const Scan& scan) {
   ++repeats_;
   const bool moved = motion_.driven_m - last_motion_.driven_m >= options_.moved_m ||
                      motion_.turned_rad - last_motion_.turned_rad >= options_.turned_rad;
-  if (repeats_ >= 2 && (moved || has_noise_) && !scan_fault_) scan_fault_ = ScannerFault::frozen;
+  const bool is_unproven = !has_changed_ && now - *first_scan_ < options_.unproven_for;
+  if (repeats_ >= 2 && (moved || has_noise_ || is_unproven) && !scan_fault_)
+    scan_fault_ = ScannerFault::frozen;
 }
 
 void ScannerWatch::judge_motor(const Scan& scan) {

@@ -37,7 +37,8 @@ std::string_view to_string(ScannerFault fault);
 ///     other_clock  with the first scan that is stamped so
 ///     late         with the first scan that comes so
 ///     frozen       with the second repeated scan, once the robot has moved 2 cm or turned 1 degree since the
-///                  first; at rest too, where the scanner has shown noise while the robot stood
+///                  first; at rest too, where the scanner has shown noise while the robot stood, or has never
+///                  changed and is less than 10 s old
 ///     checksums    within 2 s
 ///     motor        with the fifth scan, where it is off by more than 20 %
 ///     dirty        once the robot has turned 90 degrees and driven 1 m since the window became dirty
@@ -56,6 +57,9 @@ struct ScannerWatchOptions {
   double moved_m = 0.02;  ///< ranges to things at hand change by more than the step of any scanner
   double turned_rad = radians(1.0);
   std::size_t least_hits = 20;  ///< to tell one scan from another
+  /// A scanner whose scans have all been the same is not known to be alive, and counts as frozen for so long.
+  /// One without noise then shows it as the robot moves.
+  Duration unproven_for = std::chrono::seconds(10);
   /// Share of beams that differ between two scans at rest, from which a scanner has noise.
   double noisy_share = 0.5;
   double max_refused_share = 0.05;   ///< of packets; a sound cable has none
@@ -114,7 +118,7 @@ class ScannerWatch {
   };
 
   [[nodiscard]] std::optional<ScannerFault> clock_fault(const Scan& scan, Stamp now) const;
-  void judge_repeats(const Scan& scan);
+  void judge_repeats(const Scan& scan, Stamp now);
   void judge_motor(const Scan& scan);
   void judge_window(const Scan& scan);
   void judge_lost(const Scan& scan, Stamp now);
@@ -133,6 +137,8 @@ class ScannerWatch {
   Motion previous_motion_;  ///< when the newest scan came
   int repeats_ = 0;         ///< scans in a row like the one before
   bool has_noise_ = false;
+  bool has_changed_ = false;  ///< from one scan to the next, at least once
+  std::optional<Stamp> first_scan_;
   std::vector<double> first_speeds_;  ///< while the motor's is learned
   std::optional<double> turns_per_second_;
   int motor_wrong_ = 0;

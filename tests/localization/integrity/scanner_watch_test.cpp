@@ -173,15 +173,33 @@ TEST(ScannerWatch, notices_a_repeated_scan_driving_or_at_rest) {
   }
 }
 
-TEST(ScannerWatch, believes_a_scanner_without_noise_that_stands) {
+/// It may have been frozen from its first scan on, which the robot would notice only by driving off.
+TEST(ScannerWatch, waits_ten_seconds_for_a_first_change_and_then_believes_a_scanner_without_noise) {
+  ScannerWatch watch;
+  Drive drive(3);
+  drive.stands = true;
+  Scan scan = drive.turn(watch);
+  watch.update(scan, drive.arrival());
+  const auto repeat = [&] {
+    drive.turn(watch);
+    for (Beam& beam : scan.beams) beam.stamp += period;
+    return watch.update(scan, drive.arrival());
+  };
+  EXPECT_FALSE(repeat());
+  for (int i = 2; i < 100; ++i) EXPECT_EQ(repeat(), ScannerFault::frozen) << i;
+  for (int i = 100; i < 130; ++i) EXPECT_FALSE(repeat()) << i;
+}
+
+TEST(ScannerWatch, believes_a_scanner_without_noise_whose_scan_has_changed) {
   ScannerWatch watch;
   Drive drive(3);
   drive.stands = true;
   Scan scan = drive.turn(watch);
   for (int i = 0; i < 30; ++i) {
+    if (i == 1) scan.beams.front().range_m += 0.5;  // something has come or gone
+    EXPECT_FALSE(watch.update(scan, drive.arrival())) << i;
     drive.turn(watch);
     for (Beam& beam : scan.beams) beam.stamp += period;
-    EXPECT_FALSE(watch.update(scan, drive.arrival()));
   }
 }
 
