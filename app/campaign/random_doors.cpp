@@ -1,5 +1,6 @@
 #include "app/campaign/random_doors.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -42,6 +43,18 @@ std::vector<Vec2> across(const Doorway& door, double resolution_m) {
   return points_m;
 }
 
+/// The open leaf stands clear of the robot, and leaves room around the goal.
+bool is_clear_of_ends(const SlidingDoor& door, const Site& site) {
+  constexpr double beside_m = 0.1;
+  const SlidingLeaf open(door);
+  const auto is_clear = [&](const Vec2& place_m) {
+    return std::ranges::all_of(open.discs(), [&](const DiscState& disc) {
+      return (disc.position_m - place_m).norm() > site.robot.radius_m + disc.radius_m + beside_m;
+    });
+  };
+  return is_clear(site.start.position_m) && is_clear(site.goals.front().position_m);
+}
+
 }  // namespace
 
 std::vector<Doorway> doorways_of(const Site& site) {
@@ -81,6 +94,7 @@ std::optional<SlidingDoor> random_door(const Site& site, std::span<const MovingD
   if (doorways.empty() || random.uniform() < 0.5) return std::nullopt;
   const Doorway& doorway = doorways[random.below(doorways.size())];
   SlidingDoor door{.from_m = doorway.from_m, .to_m = doorway.to_m};
+  if (!is_clear_of_ends(door, site)) return std::nullopt;
   door.shuts = from_seconds(random.uniform(1.0, 15.0));
   const Duration shut_for = from_seconds(random.uniform(5.0, 25.0));
   const std::vector<Vec2> leaf_m = across(doorway, site.map.map.resolution_m);

@@ -89,6 +89,23 @@ TEST(Campaign, shuts_a_door_in_half_of_the_worlds_and_opens_it_where_there_is_no
   EXPECT_LT(doors, 30);
 }
 
+TEST(Campaign, puts_no_robot_where_an_open_door_waits) {
+  const Site robot = lab();
+  int doors = 0;
+  for (std::uint64_t number = 520; number < 560; ++number) {
+    const CampaignMission mission = mission_of(robot, campaign_ids(), number, {.has_people = true});
+    for (const SlidingDoor& door : mission.replay.doors) {
+      ++doors;
+      const SlidingLeaf open(door);
+      for (const DiscState& disc : open.discs())
+        EXPECT_GT((disc.position_m - mission.site.start.position_m).norm(),
+                  robot.robot.radius_m + disc.radius_m)
+            << number;
+    }
+  }
+  EXPECT_GT(doors, 10);
+}
+
 TEST(Campaign, leaves_a_door_shut_only_where_things_leave_another_way) {
   Site site = two_rooms(1.2);
   OccupancyMap& map = site.map.map;
