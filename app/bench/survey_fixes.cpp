@@ -10,19 +10,6 @@
 namespace lodestar {
 namespace {
 
-std::optional<DetectedMarker> detected(const SightedMarker& sighted) {
-  DetectedMarker marker{.id = sighted.id, .confidence = 1.0, .dots = sighted.dots};
-  const auto take = [&](GridCell cell, Vec2& center_px) {
-    const auto dot = std::ranges::find(sighted.dots, cell, &MarkerDot::cell);
-    if (dot == sighted.dots.end()) return false;
-    center_px = dot->center_px;
-    return true;
-  };
-  const bool is_whole =
-      take(cell_of_o, marker.o_px) && take(cell_of_x, marker.x_px) && take(cell_of_y, marker.y_px);
-  return is_whole ? std::optional(marker) : std::nullopt;
-}
-
 PoseFixOptions fix_options(const SurveyWorld& world) {
   PoseFixOptions options;
   options.prior.tilt = world.options.base_from_camera.linear();
@@ -57,9 +44,7 @@ FixErrors fix_errors(const SurveyWorld& world, const MarkerSurvey& survey, const
   const PoseFixOptions options = fix_options(world);
   FixErrors errors;
   for (std::size_t i = 0; i < drive.log.frames.size(); i += every) {
-    std::vector<DetectedMarker> markers;
-    for (const SightedMarker& sighted : drive.log.frames[i].markers)
-      if (const auto marker = detected(sighted)) markers.push_back(*marker);
+    const std::vector<DetectedMarker> markers = whole_markers(drive.log.frames[i]);
     const auto squared_error = [&](PoseFixer& fixer) -> std::optional<double> {
       const PoseFix* const fix = fixer.fix(drive.log.frames[i].stamp, markers, options);
       if (fix == nullptr) return std::nullopt;

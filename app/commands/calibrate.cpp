@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/drive/site_frames.hpp"
+#include "app/frames/frame_inputs.hpp"
+#include "app/frames/survey_log_file.hpp"
 #include "app/placement/camera_set.hpp"
 #include "app/placement/mount_set.hpp"
 #include "app/site/robot_mount.hpp"
@@ -37,8 +40,20 @@ std::string other_keys_in(const std::filesystem::path& file) {
   }
 }
 
+/// A site's camera, or what the command line names.
+std::unique_ptr<FrameSource> frames_of(const std::vector<std::string>& inputs) {
+  if (inputs.size() == 1 && is_file(site_folder(inputs.front()) / "site.yaml"))
+    return std::make_unique<SiteFrames>(open_site(inputs.front()));
+  return std::make_unique<FrameInputs>(inputs, FrameInputOptions{});
+}
+
 ExitCode calibrate_camera_from_images(const CameraArguments& arguments) {
-  const CameraSet set = read_camera_set(arguments.images, arguments.board);
+  const std::unique_ptr<FrameSource> frames = frames_of(arguments.images);
+  const CameraSet set = read_camera_set(*frames, arguments.board, [](const CameraSet& so_far) {
+    fmt::print(stderr, "lodestar: {}: board {}, corners in {:.0f} % of the image\n", so_far.files.back(),
+               so_far.views.size(),
+               100.0 * coverage_of(so_far.views, so_far.width_px, so_far.height_px).share());
+  });
   const CameraCalibration calibration =
       calibrate_camera(set.views, set.width_px, set.height_px, arguments.options);
   fmt::print("{}",
@@ -88,7 +103,12 @@ Command camera_command(CLI::App* calibrate) {
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "Report as JSON");
   command->add_option("-o,--output", arguments->output, "Camera file to write, camera_info YAML")->required();
-  command->add_option("images", arguments->images, "Images, or folders of images")->required();
+  command
+      ->add_option(
+          "images", arguments->images,
+          "Images, folders of images, a video, or a site: its camera, until the board was held still at "
+          "30 places, or Ctrl-C")
+      ->required();
   command->callback([command] {
     const bool is_charuco = command->get_option("--board")->as<BoardKind>() == BoardKind::charuco;
     for (const char* name : {"--marker-m", "--dictionary"}) {
@@ -135,8 +155,8 @@ MountInput input_of(const MountArguments& arguments) {
 ExitCode calibrate_mount_from_log(const MountArguments& arguments) {
   const MountInput input = input_of(arguments);
   const Robot robot = load_robot(input.robot_file);
-  const MountSet set =
-      read_mount_set(load_drive_log(arguments.inputs.back()), input.registry, input.camera, robot);
+  const SurveyLog log = load_survey_log(arguments.inputs.back(), input.camera, expecting(input.registry));
+  const MountSet set = mount_set_of(log, input.registry, input.camera, robot);
   const MountCalibrationOptions options;
   const MountCalibration calibration = calibrate_mount(set.frames, input.camera, belief_of(robot), options);
   fmt::print("{}",
@@ -166,8 +186,8 @@ Command mount_command(CLI::App* calibrate) {
   command
       ->add_option(
           "log", arguments->inputs,
-          "[SITE] LOG. A log is a folder of images named by their stamp in seconds, and wheels.csv with "
-          "the columns stamp_s,left_m,right_m")
+          "[SITE] LOG. A log is a run's folder, or one of images named by their stamp in seconds, and "
+          "wheels.csv with the columns stamp_s,left_m,right_m")
       ->required()
       ->expected(1, 2);
   return {command, [arguments] { return calibrate_mount_from_log(*arguments); }};

@@ -76,17 +76,6 @@ std::vector<WheelTravel> load_wheels(const fs::path& file) {
   return wheels;
 }
 
-std::optional<WheelTravel> DriveLog::travel_at(Stamp stamp) const {
-  const auto after = std::ranges::lower_bound(wheels, stamp, {}, &WheelTravel::stamp);
-  if (after == wheels.end()) return std::nullopt;
-  if (after->stamp == stamp) return *after;
-  if (after == wheels.begin()) return std::nullopt;
-  const WheelTravel& before = *std::prev(after);
-  const double share = seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp);
-  return WheelTravel{stamp, std::lerp(before.left_m, after->left_m, share),
-                     std::lerp(before.right_m, after->right_m, share)};
-}
-
 DriveLog load_drive_log(const fs::path& folder) {
   return {.images = logged_images(folder), .wheels = load_wheels(folder / "wheels.csv")};
 }

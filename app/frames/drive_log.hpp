@@ -22,10 +22,6 @@ struct LoggedImage {
 struct DriveLog {
   std::vector<LoggedImage> images;
   std::vector<WheelTravel> wheels;
-
-  /// The wheels' travel at a time, linearly interpolated between readings; nothing before the first or after
-  /// the last.
-  [[nodiscard]] std::optional<WheelTravel> travel_at(Stamp stamp) const;
 };
 
 /// Throws InputError with file and line: no images, an image whose name is not a number of seconds, an

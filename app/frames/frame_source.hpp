@@ -12,6 +12,7 @@ namespace lodestar {
 struct SourceFrame {
   std::string name;     ///< in results: `shots/0.5.png`; the 13th frame of a video or device is `clip.avi#12`
   std::string picture;  ///< a file name for a drawing of it, without ending: `0.5`, `clip-000012`
+  bool of_sequence = false;  ///< of a video or camera: much like the frame before
   Stamp stamp;
   cv::Mat gray;  ///< CV_8UC1, never written to again: it may be kept without a copy
 };

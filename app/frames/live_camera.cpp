@@ -30,6 +30,7 @@ std::optional<SourceFrame> LiveCamera::next() {
       const int number = frame_++;
       return SourceFrame{.name = fmt::format("{}#{}", file_.string(), number),
                          .picture = fmt::format("{}-{:06}", file_.filename().string(), number),
+                         .of_sequence = true,
                          .stamp = frame->stamp,
                          .gray = std::move(frame->gray)};
     }

@@ -8,7 +8,6 @@
 
 #include "app/frames/csv_numbers.hpp"
 #include "app/frames/drive_log.hpp"
-#include "localization/detection/marker_detector.hpp"
 #include "maps/input_error.hpp"
 #include "maps/path_kind.hpp"
 
@@ -126,8 +125,9 @@ std::vector<VisualOdometryIncrement> read_ceiling(const fs::path& file) {
   return motions;
 }
 
-std::vector<SurveyFrame> read_images(const std::vector<LoggedImage>& images, const CameraModel& camera) {
-  MarkerDetector detector;
+std::vector<SurveyFrame> read_images(const std::vector<LoggedImage>& images, const CameraModel& camera,
+                                     const DetectorOptions& options) {
+  MarkerDetector detector(options);
   std::vector<SurveyFrame> frames;
   for (const LoggedImage& image : images) {
     SurveyFrame frame{.stamp = image.stamp};
@@ -140,7 +140,8 @@ std::vector<SurveyFrame> read_images(const std::vector<LoggedImage>& images, con
 
 }  // namespace
 
-SurveyLog load_survey_log(const fs::path& folder, const CameraModel& camera) {
+SurveyLog load_survey_log(const fs::path& folder, const CameraModel& camera,
+                          const DetectorOptions& of_images) {
   if (!is_folder(folder)) throw InputError(folder, 0, "no such folder", "a run, or images and wheels.csv");
   SurveyLog log{.name = fs::absolute(folder).lexically_normal().filename().string()};
   if (log.name.empty()) log.name = fs::absolute(folder).lexically_normal().parent_path().filename().string();
@@ -151,7 +152,7 @@ SurveyLog load_survey_log(const fs::path& folder, const CameraModel& camera) {
   } else {
     DriveLog drive = load_drive_log(folder);
     log.wheels = std::move(drive.wheels);
-    log.frames = read_images(drive.images, camera);
+    log.frames = read_images(drive.images, camera, of_images);
   }
   return log;
 }

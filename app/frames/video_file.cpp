@@ -53,6 +53,7 @@ std::optional<SourceFrame> VideoFile::next() {
   const int number = frame_++;
   return SourceFrame{.name = fmt::format("{}#{}", file_.string(), number),
                      .picture = fmt::format("{}-{:06}", file_.stem().string(), number),
+                     .of_sequence = true,
                      .stamp = Stamp(from_seconds(std::max(picture->time_s, 0.0))),
                      .gray = std::move(picture->gray)};
 }

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/frames/frame_inputs.hpp"
+#include "app/placement/board_choice.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -89,26 +89,34 @@ nlohmann::ordered_json number_or_null(double value) {
 
 }  // namespace
 
-CameraSet read_camera_set(const std::vector<std::string>& images, const CalibrationBoard& board) {
+CameraSet read_camera_set(FrameSource& frames, const CalibrationBoard& board,
+                          const std::function<void(const CameraSet& so_far)>& taken) {
+  constexpr std::size_t enough_of_sequence = 30;
   CameraSet set;
-  FrameInputs frames(images, {});
+  std::optional<BoardChoice> choice;
   std::string first;
   while (const std::optional<SourceFrame> image = frames.next()) {
     if (first.empty()) {
       first = image->name;
       set.width_px = image->gray.cols;
       set.height_px = image->gray.rows;
+      choice.emplace(set.width_px);
     }
     if (image->gray.cols != set.width_px || image->gray.rows != set.height_px) {
       throw InputError(image->name, 0, fmt::format("{} x {} pixels", image->gray.cols, image->gray.rows),
                        fmt::format("{} x {} as in {}", set.width_px, set.height_px, first));
     }
-    if (std::optional<BoardView> view = find_board(image->gray, board)) {
-      set.files.push_back(image->name);
-      set.views.push_back(std::move(*view));
-    } else {
+    std::optional<BoardView> view = find_board(image->gray, board);
+    if (image->of_sequence && !choice->takes(view)) continue;
+    if (!view) {
       set.files_without_board.push_back(image->name);
+      continue;
     }
+    set.files.push_back(image->name);
+    set.views.push_back(std::move(*view));
+    if (!image->of_sequence) continue;
+    taken(set);
+    if (set.views.size() >= enough_of_sequence) break;
   }
   return set;
 }

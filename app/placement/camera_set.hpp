@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "app/frames/frame_source.hpp"
 #include "localization/calibration/calibration_board.hpp"
 #include "localization/calibration/camera_calibration.hpp"
 
@@ -18,9 +20,11 @@ struct CameraSet {
   std::vector<std::string> files_without_board;
 };
 
-/// Looks for the board in each image (or each of a folder), one at a time. Throws InputError for a file that
-/// is not an image, and for images of different sizes.
-CameraSet read_camera_set(const std::vector<std::string>& images, const CalibrationBoard& board);
+/// Looks for the board in each frame, one at a time. Of a video or a live camera only views with the board
+/// held still at a new place are taken, and enough of them end it; `taken` is told of each. Throws InputError
+/// for a frame that cannot be read, and for frames of different sizes.
+CameraSet read_camera_set(FrameSource& frames, const CalibrationBoard& board,
+                          const std::function<void(const CameraSet& so_far)>& taken);
 
 /// The result as text: reprojection errors of all images, coverage as a character map, intrinsics with
 /// standard deviations.

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "localization/detection/marker_detector.hpp"
 #include "localization/pose/pose_fix.hpp"
 
 namespace lodestar {
@@ -35,12 +34,24 @@ PoseFixOptions loose_options(const Robot& robot) {
   return options;
 }
 
+/// Linearly interpolated between readings; nothing before the first or after the last.
+std::optional<WheelTravel> travel_at(std::span<const WheelTravel> wheels, Stamp stamp) {
+  const auto after = std::ranges::lower_bound(wheels, stamp, {}, &WheelTravel::stamp);
+  if (after == wheels.end()) return std::nullopt;
+  if (after->stamp == stamp) return *after;
+  if (after == wheels.begin()) return std::nullopt;
+  const WheelTravel& before = *std::prev(after);
+  const double share = seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp);
+  return WheelTravel{stamp, std::lerp(before.left_m, after->left_m, share),
+                     std::lerp(before.right_m, after->right_m, share)};
+}
+
 /// Frames whose travel is not logged at their exposure are left out.
-void shift_travel(MountSet& set, std::vector<HeadingSample>& headings, const DriveLog& log) {
+void shift_travel(MountSet& set, std::vector<HeadingSample>& headings, std::span<const WheelTravel> wheels) {
   const Duration late = from_seconds(set.time_offset->late_s);
   std::vector<MountFrame> shifted;
   for (std::size_t i = 0; i < set.frames.size(); ++i) {
-    const std::optional<WheelTravel> travel = log.travel_at(headings[i].stamp - late);
+    const std::optional<WheelTravel> travel = travel_at(wheels, headings[i].stamp - late);
     if (!travel) continue;
     shifted.push_back(std::move(set.frames[i]));
     shifted.back().left_m = travel->left_m;
@@ -102,26 +113,25 @@ std::string complaint(MountFlaw flaw, const MountSet& set, const MountCalibratio
 
 }  // namespace
 
-MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, const CameraModel& camera,
-                        const Robot& robot) {
+MountSet mount_set_of(const SurveyLog& log, const MarkerRegistry& registry, const CameraModel& camera,
+                      const Robot& robot) {
   const PoseFixOptions options = loose_options(robot);
-  MarkerDetector detector(expecting(registry));
-  MountSet set{.images = log.images.size()};
+  MountSet set{.images = log.frames.size()};
   std::vector<HeadingSample> headings;  // of the frames
-  for (const LoggedImage& image : log.images) {
-    const std::optional<WheelTravel> travel = log.travel_at(image.stamp);
+  for (const SurveyFrame& frame : log.frames) {
+    const std::optional<WheelTravel> travel = travel_at(log.wheels, frame.stamp);
     if (!travel) continue;
-    const std::span<const DetectedMarker> markers = detector.detect(read_logged_image(image.file, camera));
-    const std::optional<PoseFix> fix = fix_pose(image.stamp, markers, registry, camera, options);
+    const std::vector<DetectedMarker> markers = whole_markers(frame);
+    const std::optional<PoseFix> fix = fix_pose(frame.stamp, markers, registry, camera, options);
     if (!fix) continue;
     set.frames.push_back({.dots = dots_of_fix(*fix, markers, registry),
                           .map_from_camera = fix->map_from_camera,
                           .left_m = travel->left_m,
                           .right_m = travel->right_m});
-    headings.push_back({image.stamp, flattened(fix->map_from_camera).yaw_rad});
+    headings.push_back({frame.stamp, flattened(fix->map_from_camera).yaw_rad});
   }
   set.time_offset = estimate_time_offset(headings, log.wheels, robot.track_width_m);
-  if (set.time_offset && set.time_offset->is_significant()) shift_travel(set, headings, log);
+  if (set.time_offset && set.time_offset->is_significant()) shift_travel(set, headings, log.wheels);
   return set;
 }
 

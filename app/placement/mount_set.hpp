@@ -6,25 +6,25 @@
 #include <string>
 #include <vector>
 
-#include "app/frames/drive_log.hpp"
 #include "app/site/site.hpp"
 #include "localization/calibration/mount_calibration.hpp"
 #include "localization/calibration/time_offset.hpp"
+#include "localization/survey/survey_log.hpp"
 
 namespace lodestar {
 
 /// The frames of a log in which registered markers were seen.
 struct MountSet {
-  std::size_t images = 0;
+  std::size_t images = 0;  ///< in all
   std::vector<MountFrame> frames;
   std::optional<TimeOffset>
       time_offset;  ///< of the images' stamps against the wheels'; nothing: not observable
 };
 
-/// Reads a log's images one at a time. Images that are clearly stamped too late or too early are paired with
-/// the wheels' travel at their exposure. Throws InputError for an image that cannot be read.
-MountSet read_mount_set(const DriveLog& log, const MarkerRegistry& registry, const CameraModel& camera,
-                        const Robot& robot);
+/// The poses of a log's frames. Frames that are clearly stamped too late or too early are paired with the
+/// wheels' travel at their exposure.
+MountSet mount_set_of(const SurveyLog& log, const MarkerRegistry& registry, const CameraModel& camera,
+                      const Robot& robot);
 
 /// The mount as the robot file has it.
 MountBelief belief_of(const Robot& robot);

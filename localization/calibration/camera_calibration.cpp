@@ -6,23 +6,6 @@
 namespace lodestar {
 namespace {
 
-Coverage coverage_of(std::span<const BoardView> views, int width_px, int height_px) {
-  Coverage coverage;
-  for (const BoardView& view : views) {
-    for (const cv::Point2f& pixel : view.pixels) {
-      const auto cell = [](float at, int side_px, int cells) {
-        return std::clamp(
-            static_cast<int>((at + 0.5F) * static_cast<float>(cells) / static_cast<float>(side_px)), 0,
-            cells - 1);
-      };
-      const int column = cell(pixel.x, width_px, Coverage::columns);
-      const int row = cell(pixel.y, height_px, Coverage::rows);
-      coverage.cells[static_cast<std::size_t>(row * Coverage::columns + column)] = true;
-    }
-  }
-  return coverage;
-}
-
 double spread_rad(std::span<const Vec3> normals) {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& normal : normals) sum += normal;
@@ -57,6 +40,23 @@ bool is_determined(const LensFit& fit, const CameraCalibrationOptions& options) 
 }
 
 }  // namespace
+
+Coverage coverage_of(std::span<const BoardView> views, int width_px, int height_px) {
+  Coverage coverage;
+  for (const BoardView& view : views) {
+    for (const cv::Point2f& pixel : view.pixels) {
+      const auto cell = [](float at, int side_px, int cells) {
+        return std::clamp(
+            static_cast<int>((at + 0.5F) * static_cast<float>(cells) / static_cast<float>(side_px)), 0,
+            cells - 1);
+      };
+      const int column = cell(pixel.x, width_px, Coverage::columns);
+      const int row = cell(pixel.y, height_px, Coverage::rows);
+      coverage.cells[static_cast<std::size_t>(row * Coverage::columns + column)] = true;
+    }
+  }
+  return coverage;
+}
 
 std::string_view to_string(CameraFlaw flaw) {
   switch (flaw) {

@@ -43,6 +43,8 @@ struct Coverage {
   [[nodiscard]] double share() const;
 };
 
+Coverage coverage_of(std::span<const BoardView> views, int width_px, int height_px);
+
 /// Result of a set of views. The camera may be used when there are no flaws.
 struct CameraCalibration {
   std::optional<LensFit> fit;  ///< nothing when there are too few boards or no solution

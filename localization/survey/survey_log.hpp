@@ -21,6 +21,9 @@ struct SurveyFrame {
   std::vector<SightedMarker> markers;
 };
 
+/// The markers of which O, X and Y were seen, as a detector gives them.
+std::vector<DetectedMarker> whole_markers(const SurveyFrame& frame);
+
 /// What a survey takes of one drive: frames and wheel readings in order of time, on one clock.
 struct SurveyLog {
   std::string name;

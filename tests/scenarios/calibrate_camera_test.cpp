@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
 
 #include "maps/camera_model.hpp"
 
@@ -80,6 +81,42 @@ TEST_F(CalibrateCameraCommand, writes_a_fisheye_camera) {
   const CameraModel camera = load_camera(scratch_.path() / "camera.yaml");
   EXPECT_EQ(camera.distortion, Distortion::equidistant);
   EXPECT_LT(difference_px(fisheye, camera), 0.4);
+}
+
+/// Somebody moves a board before the camera on the robot: it rests for half a second at each place, and is on
+/// its way in between.
+TEST_F(CalibrateCameraCommand, takes_the_pictures_itself_by_a_sites_camera) {
+  fs::copy(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", scratch_.path() / "site",
+           fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+  std::string site = read_text(scratch_.path() / "site/site.yaml");
+  const std::string simulated = "camera: simulated";
+  ASSERT_THAT(site, HasSubstr(simulated));
+  write_text(scratch_.path() / "site/site.yaml",
+             site.replace(site.find(simulated), simulated.size(), "camera: video:board.avi"));
+  constexpr std::size_t places = 14;
+  constexpr int frames_at_rest = 10;
+  cv::VideoWriter film((scratch_.path() / "site/board.avi").string(),
+                       cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20.0, {640, 480}, false);
+  if (!film.isOpened()) GTEST_SKIP() << "OpenCV cannot write MJPG here";
+  const BoardCamera taker(wide);
+  const auto all = board_places(wide, first_m, last_m, places, {}, random_);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const cv::Mat at_rest = taker.picture(chessboard(8, 6, square_m), all[i], random_);
+    for (int frame = 0; frame < frames_at_rest; ++frame) film.write(at_rest);
+    Eigen::Isometry3d on_its_way = all[i];
+    on_its_way.translation().x() += 0.02;
+    film.write(taker.picture(chessboard(8, 6, square_m), on_its_way, random_));
+  }
+  film.release();
+  const Ran ran = run_lodestar(
+      "calibrate camera --board chessboard --cols 8 --rows 6 --square-m 0.03 -o camera.yaml --json site",
+      scratch_.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  const auto report = nlohmann::json::parse(ran.out);
+  EXPECT_GE(report["images"].size(), places - 4) << "two may be near each other, or a busy machine miss one";
+  EXPECT_LE(report["images"].size(), places) << "a place twice, or one on the way";
+  EXPECT_THAT(ran.err, HasSubstr("board 8, corners in "));
+  EXPECT_LT(difference_px(wide, load_camera(scratch_.path() / "camera.yaml")), 0.6);
 }
 
 TEST_F(CalibrateCameraCommand, writes_nothing_for_a_poor_set) {

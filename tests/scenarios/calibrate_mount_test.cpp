@@ -108,6 +108,27 @@ TEST(CalibrateMountCommand, corrects_the_robot_file_from_turns_and_a_straight_dr
               1.006 / 0.994, 0.006);
 }
 
+TEST(CalibrateMountCommand, takes_the_folder_of_a_run) {
+  const ScratchFolder scratch;
+  std::string turns;
+  for (int turn = 0; turn < 3; ++turn) turns += " --goal 4.2,5.3,0 --goal 4.2,5.3,120 --goal 4.2,5.3,-120";
+  ASSERT_EQ(run_lodestar("replay " + lab.string() + turns + " --goal 5.4,4.3 --quiet -o run", scratch.path())
+                .exit_code,
+            0);
+  const std::string text = read_text(lab / "robot.yaml");
+  const std::string mount = "camera_mount: {x_m: -0.10, y_m: 0.02, z_m: 1.1,";
+  ASSERT_THAT(text, HasSubstr(mount));
+  write_text(scratch.path() / "by-hand.yaml",
+             std::string(text).replace(text.find(mount), mount.size(),
+                                       "camera_mount: {x_m: -0.12, y_m: 0.0, z_m: 1.08,"));
+  const Ran ran = run_lodestar("calibrate mount --robot by-hand.yaml " + lab.string() + " run -o new.yaml",
+                               scratch.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  const Vec3 found_m = load_robot(scratch.path() / "new.yaml").base_from_camera.translation();
+  const Vec3 true_m = load_robot(lab / "robot.yaml").base_from_camera.translation();
+  EXPECT_LT((found_m - true_m).norm(), 0.002) << ran.out;
+}
+
 /// A log without markers in view, to which tests add further errors.
 class BadLog : public ::testing::Test {
  protected:
