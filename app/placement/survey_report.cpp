@@ -66,9 +66,9 @@ nlohmann::ordered_json finite(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
 }
 
-/// Seven digits, as sigmas of micrometres need no more.
-double tidy(double value, double step) {
-  return std::round(value / step) * step;
+/// To whole steps, of which there are so many to one, so that a file has no digits that say nothing.
+double tidy(double value, double steps) {
+  return std::round(value * steps) / steps;
 }
 
 nlohmann::ordered_json as_json(const RegisteredMarker& marker, int sightings) {
@@ -181,15 +181,15 @@ std::vector<std::string> complaints(const MarkerSurvey& survey) {
 }
 
 MarkerRegistry registry_of(const MarkerSurvey& survey) {
-  constexpr double step_m = 1e-6;
-  constexpr double step_rad = radians(1e-5);
+  constexpr double steps_per_m = 1e6;
+  constexpr double steps_per_rad = 1.0 / radians(1e-5);
   MarkerRegistry registry{.markers = survey.markers};
   for (RegisteredMarker& marker : registry.markers) {
-    for (double& coordinate : marker.position_m) coordinate = tidy(coordinate, step_m);
-    marker.yaw_rad = tidy(marker.yaw_rad, step_rad);
+    for (double& coordinate : marker.position_m) coordinate = tidy(coordinate, steps_per_m);
+    marker.yaw_rad = tidy(marker.yaw_rad, steps_per_rad);
     if (marker.sigma)
-      marker.sigma =
-          MarkerSigma{tidy(marker.sigma->position_m, step_m), tidy(marker.sigma->yaw_rad, step_rad)};
+      marker.sigma = MarkerSigma{tidy(marker.sigma->position_m, steps_per_m),
+                                 tidy(marker.sigma->yaw_rad, steps_per_rad)};
   }
   return registry;
 }

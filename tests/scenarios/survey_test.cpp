@@ -16,6 +16,7 @@ namespace lodestar {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -53,6 +54,7 @@ TEST_F(SurveyCommand, writes_a_registry_and_where_it_comes_from) {
   EXPECT_THAT(ran.out, HasSubstr("in a frame of its own"));
   for (const char* file : {"markers.yaml", "survey.yaml", "survey.html", "survey-covariance.npy"})
     EXPECT_GT(fs::file_size(folder() / "out" / file), 100U) << file;
+  EXPECT_THAT(read_text(folder() / "out/markers.yaml"), Not(ContainsRegex("[.][0-9]{8}"))) << "micrometres";
   const MarkerRegistry surveyed = load_registry(folder() / "out/markers.yaml");
   EXPECT_GT(surveyed.markers.size(), 5U);
   for (const RegisteredMarker& marker : surveyed.markers) EXPECT_TRUE(marker.sigma) << marker.id;
