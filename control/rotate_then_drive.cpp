@@ -289,10 +289,9 @@ BodyVelocity RotateThenDrive::command(const BodyVelocity& wanted, Duration elaps
 }
 
 bool RotateThenDrive::at_rest() const {
-  const bool commanded = last_.forward_mps != 0.0 || last_.turn_radps != 0.0;
   const double trace_m = 0.2 * options_.arrival_distance_m;
   const double trace_rad = 0.4 * turn_done_rad;
-  return !commanded && std::abs(pending_m_) <= trace_m && std::abs(pending_rad_) <= trace_rad;
+  return !asks_for_motion(last_) && std::abs(pending_m_) <= trace_m && std::abs(pending_rad_) <= trace_rad;
 }
 
 Path RotateThenDrive::path_ahead() const {

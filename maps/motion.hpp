@@ -15,6 +15,11 @@ struct BodyVelocity {
   double turn_radps = 0.0;
 };
 
+/// Of a command, not of a measured velocity, which is never exactly zero.
+inline bool asks_for_motion(const BodyVelocity& command) {
+  return command.forward_mps != 0.0 || command.turn_radps != 0.0;
+}
+
 /// How far each wheel has rolled since start-up (cumulative, unwrapped), as of `stamp`.
 struct WheelTravel {
   Stamp stamp;

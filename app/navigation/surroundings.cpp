@@ -72,10 +72,6 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && !a.empty() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
-bool asks_for_motion(const BodyVelocity& velocity) {
-  return velocity.forward_mps != 0.0 || velocity.turn_radps != 0.0;
-}
-
 /// Faster than a robot that stands.
 bool moves(const BodyVelocity& velocity) {
   return std::abs(velocity.forward_mps) >= standing_mps || std::abs(velocity.turn_radps) >= standing_radps;

@@ -2,22 +2,17 @@
 
 #include <array>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
 #include "maps/strict_yaml.hpp"
+#include "maps/yaml_quoting.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr std::array states{HangingState::planned, HangingState::hung, HangingState::verified};
-
-/// Quoted as JSON is, which YAML reads.
-std::string in_quotes(const std::string& words) {
-  return nlohmann::json(words).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 }  // namespace
 
@@ -66,8 +61,9 @@ void save_hanging(const std::map<int, HungMarker>& markers, const std::filesyste
   std::string text =
       "format: lodestar-hanging\nversion: 1\nmarkers:" + std::string(markers.empty() ? " []\n" : "\n");
   for (const auto& [id, marker] : markers) {
-    text += fmt::format("  - {{id: {}, state: {}, at: {}", id, to_string(marker.state), in_quotes(marker.at));
-    text += marker.by.empty() ? "}\n" : ", by: " + in_quotes(marker.by) + "}\n";
+    text +=
+        fmt::format("  - {{id: {}, state: {}, at: {}", id, to_string(marker.state), yaml_quoted(marker.at));
+    text += marker.by.empty() ? "}\n" : ", by: " + yaml_quoted(marker.by) + "}\n";
   }
   write_file_atomically(folder / hanging_file_name, text);
 }

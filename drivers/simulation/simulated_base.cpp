@@ -53,7 +53,7 @@ void SimulatedBase::set_battery_v(double battery_v) {
 }
 
 bool SimulatedBase::is_told_to_move() const {
-  return command_ && (command_->velocity.forward_mps != 0.0 || command_->velocity.turn_radps != 0.0);
+  return command_ && asks_for_motion(command_->velocity);
 }
 
 void SimulatedBase::handle(const CanFrame& frame, Stamp now) {
