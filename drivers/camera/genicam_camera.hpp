@@ -8,9 +8,10 @@
 #include "drivers/camera/device_camera.hpp"
 #include "drivers/system/device_clock.hpp"
 
-struct _ArvBuffer;
-struct _ArvCamera;
-struct _ArvStream;
+// Aravis's own names, so that its headers stay out of here.
+struct _ArvBuffer;  // NOLINT(bugprone-reserved-identifier)
+struct _ArvCamera;  // NOLINT(bugprone-reserved-identifier)
+struct _ArvStream;  // NOLINT(bugprone-reserved-identifier)
 
 namespace lodestar {
 
