@@ -36,12 +36,14 @@ void add(const FrameCounts& part, FrameCounts& whole) {
 /// The scene's ceiling, with the method's markers where they hang.
 ImageFormer former_of(const HardScene& scene, const CameraModel& camera, std::uint64_t seed,
                       BenchMethod& method) {
-  ImageFormer former(scene.registry, camera, scene.light, seed);
-  ImageFormer bare(MarkerRegistry{}, camera, scene.light, seed);
-  for (ImageFormer* const each : {&former, &bare})
-    for (const PrintedSquare& patch : scene.sun) each->add(patch);
+  const auto lit_by_sun = [&](const MarkerRegistry& registry) {
+    ImageFormer former(registry, camera, scene.light, seed);
+    for (const PrintedSquare& patch : scene.sun) former.add(patch);
+    return former;
+  };
+  ImageFormer former = lit_by_sun(scene.registry);
   method.install(scene.registry, camera, former);
-  return scene.markers_hang ? std::move(former) : std::move(bare);
+  return scene.markers_hang ? std::move(former) : lit_by_sun({});
 }
 
 /// The frames of one scene.

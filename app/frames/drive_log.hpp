@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
-#include <optional>
 #include <vector>
 
 #include "maps/camera_model.hpp"

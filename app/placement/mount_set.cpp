@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "localization/pose/pose_fix.hpp"
+#include "localization/survey/wheel_segment.hpp"
 
 namespace lodestar {
 namespace {
@@ -34,28 +35,16 @@ PoseFixOptions loose_options(const Robot& robot) {
   return options;
 }
 
-/// Linearly interpolated between readings; nothing before the first or after the last.
-std::optional<WheelTravel> travel_at(std::span<const WheelTravel> wheels, Stamp stamp) {
-  const auto after = std::ranges::lower_bound(wheels, stamp, {}, &WheelTravel::stamp);
-  if (after == wheels.end()) return std::nullopt;
-  if (after->stamp == stamp) return *after;
-  if (after == wheels.begin()) return std::nullopt;
-  const WheelTravel& before = *std::prev(after);
-  const double share = seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp);
-  return WheelTravel{stamp, std::lerp(before.left_m, after->left_m, share),
-                     std::lerp(before.right_m, after->right_m, share)};
-}
-
 /// Frames whose travel is not logged at their exposure are left out.
 void shift_travel(MountSet& set, std::vector<HeadingSample>& headings, std::span<const WheelTravel> wheels) {
   const Duration late = from_seconds(set.time_offset->late_s);
   std::vector<MountFrame> shifted;
   for (std::size_t i = 0; i < set.frames.size(); ++i) {
-    const std::optional<WheelTravel> travel = travel_at(wheels, headings[i].stamp - late);
-    if (!travel) continue;
+    const std::optional<Vec2> travel_m = travel_at(wheels, headings[i].stamp - late);
+    if (!travel_m) continue;
     shifted.push_back(std::move(set.frames[i]));
-    shifted.back().left_m = travel->left_m;
-    shifted.back().right_m = travel->right_m;
+    shifted.back().left_m = travel_m->x();
+    shifted.back().right_m = travel_m->y();
   }
   set.frames = std::move(shifted);
 }
@@ -119,15 +108,15 @@ MountSet mount_set_of(const SurveyLog& log, const MarkerRegistry& registry, cons
   MountSet set{.images = log.frames.size()};
   std::vector<HeadingSample> headings;  // of the frames
   for (const SurveyFrame& frame : log.frames) {
-    const std::optional<WheelTravel> travel = travel_at(log.wheels, frame.stamp);
-    if (!travel) continue;
+    const std::optional<Vec2> travel_m = travel_at(log.wheels, frame.stamp);
+    if (!travel_m) continue;
     const std::vector<DetectedMarker> markers = whole_markers(frame);
     const std::optional<PoseFix> fix = fix_pose(frame.stamp, markers, registry, camera, options);
     if (!fix) continue;
     set.frames.push_back({.dots = dots_of_fix(*fix, markers, registry),
                           .map_from_camera = fix->map_from_camera,
-                          .left_m = travel->left_m,
-                          .right_m = travel->right_m});
+                          .left_m = travel_m->x(),
+                          .right_m = travel_m->y()});
     headings.push_back({frame.stamp, flattened(fix->map_from_camera).yaw_rad});
   }
   set.time_offset = estimate_time_offset(headings, log.wheels, robot.track_width_m);

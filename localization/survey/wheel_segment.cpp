@@ -6,20 +6,6 @@
 namespace lodestar {
 namespace {
 
-/// Travel at a time, linear between the readings on either side of it.
-std::optional<Vec2> travel_at(std::span<const WheelTravel> readings, Stamp stamp, Duration most_gap) {
-  const auto after = std::ranges::lower_bound(readings, stamp, {}, &WheelTravel::stamp);
-  if (after == readings.end()) return std::nullopt;
-  const Vec2 at_after(after->left_m, after->right_m);
-  if (after->stamp == stamp) return at_after;
-  if (after == readings.begin()) return std::nullopt;
-  const WheelTravel& before = *std::prev(after);
-  if (after->stamp - before.stamp > most_gap) return std::nullopt;
-  const double share = seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp);
-  const Vec2 at_before(before.left_m, before.right_m);
-  return Vec2(at_before + share * (at_after - at_before));
-}
-
 /// One step of dead reckoning along its chord, and the derivatives of (way, turn) after it.
 struct Step {
   double turn_rad = 0.0;
@@ -41,6 +27,19 @@ Vec2 turned_left(const Vec2& v) {
 }
 
 }  // namespace
+
+std::optional<Vec2> travel_at(std::span<const WheelTravel> readings, Stamp stamp, Duration most_gap) {
+  const auto after = std::ranges::lower_bound(readings, stamp, {}, &WheelTravel::stamp);
+  if (after == readings.end()) return std::nullopt;
+  const Vec2 at_after(after->left_m, after->right_m);
+  if (after->stamp == stamp) return at_after;
+  if (after == readings.begin()) return std::nullopt;
+  const WheelTravel& before = *std::prev(after);
+  if (after->stamp - before.stamp > most_gap) return std::nullopt;
+  const double share = seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp);
+  const Vec2 at_before(before.left_m, before.right_m);
+  return Vec2(at_before + share * (at_after - at_before));
+}
 
 std::optional<WheelSegment> WheelSegment::between(std::span<const WheelTravel> readings, Stamp from, Stamp to,
                                                   Duration most_gap) {

@@ -25,6 +25,11 @@ struct WheelNoise {
   double sideways_sigma_per_sqrt_m = 0.001;  ///< lateral slip of the base
 };
 
+/// Travel of the left and the right wheel at a time, linear between the readings on either side of it;
+/// nothing before the first, after the last, or in a longer gap.
+std::optional<Vec2> travel_at(std::span<const WheelTravel> readings, Stamp stamp,
+                              Duration most_gap = Duration::max());
+
 /// Motion of the base between two times, in its frame at the first, in reported metres.
 struct WheelMotion {
   Vec2 way_m = Vec2::Zero();
