@@ -1,6 +1,7 @@
 #include "maps/obstacle_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace lodestar {
@@ -62,14 +63,32 @@ class Envelope {
   std::vector<Site> sites_;
 };
 
+/// Of a matrix of 64 x 64 bits: swaps the quarters that lie off the diagonal, then those of each quarter,
+/// down to single bits (Warren, Hacker's Delight, 7-3).
+void transpose(std::array<std::uint64_t, 64>& rows) {
+  std::uint64_t low_half = 0xffffffff;
+  for (std::size_t width = 32; width > 0; width /= 2, low_half ^= low_half << width) {
+    for (std::size_t row = 0; row < rows.size(); row = (row + width + 1) & ~width) {
+      std::uint64_t& upper = rows[row];
+      std::uint64_t& lower = rows[row + width];
+      const std::uint64_t differ = (upper >> width ^ lower) & low_half;
+      upper ^= differ << width;
+      lower ^= differ;
+    }
+  }
+}
+
 }  // namespace
 
 ObstacleField::ObstacleField(OccupancyMap map)
     : map_(std::move(map)),
       words_a_row_((static_cast<std::size_t>(map_.columns) + 63U) / 64U),
       obstacles_(words_a_row_ * static_cast<std::size_t>(map_.rows), 0),
+      words_a_column_((static_cast<std::size_t>(map_.rows) + 63U) / 64U),
+      by_column_(words_a_column_ * static_cast<std::size_t>(map_.columns), 0),
       squared_(map_.cells.size()) {
   mark_obstacles();
+  mark_by_column();
   measure_columns();
   measure_rows();
 }
@@ -81,6 +100,21 @@ void ObstacleField::mark_obstacles() {
     for (std::size_t column = 0; column < columns; ++column)
       obstacles_[row * words_a_row_ + column / 64U] |= static_cast<std::uint64_t>(!is_drivable(cells[column]))
                                                        << (column % 64U);
+  }
+}
+
+void ObstacleField::mark_by_column() {
+  const auto columns = static_cast<std::size_t>(map_.columns);
+  const auto rows = static_cast<std::size_t>(map_.rows);
+  for (std::size_t i = 0; i < words_a_row_; ++i) {
+    for (std::size_t k = 0; k < words_a_column_; ++k) {
+      std::array<std::uint64_t, 64> block{};
+      for (std::size_t row = 64 * k; row < std::min(64 * k + 64, rows); ++row)
+        block[row % 64] = obstacles_[row * words_a_row_ + i];
+      transpose(block);
+      for (std::size_t column = 64 * i; column < std::min(64 * i + 64, columns); ++column)
+        by_column_[column * words_a_column_ + k] = block[column % 64];
+    }
   }
 }
 

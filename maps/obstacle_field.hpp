@@ -12,7 +12,7 @@ namespace lodestar {
 
 /// An occupancy map with what all collision checks on it share, whatever the radius: its obstacles as bits,
 /// and the exact distance from each cell to the nearest obstacle (Felzenszwalb and Huttenlocher 2012). 3
-/// bytes a cell and an eighth. Everything outside the map is obstacle.
+/// bytes a cell and a quarter. Everything outside the map is obstacle.
 class ObstacleField {
  public:
   explicit ObstacleField(OccupancyMap map);
@@ -32,15 +32,22 @@ class ObstacleField {
   [[nodiscard]] std::span<const std::uint64_t> obstacles(int row) const {
     return {&obstacles_[static_cast<std::size_t>(row) * words_a_row_], words_a_row_};
   }
+  /// A column's, likewise.
+  [[nodiscard]] std::span<const std::uint64_t> obstacles_of_column(int column) const {
+    return {&by_column_[static_cast<std::size_t>(column) * words_a_column_], words_a_column_};
+  }
 
  private:
   void mark_obstacles();
+  void mark_by_column();
   void measure_columns();
   void measure_rows();
 
   OccupancyMap map_;
   std::size_t words_a_row_ = 0;
   std::vector<std::uint64_t> obstacles_;
+  std::size_t words_a_column_ = 0;
+  std::vector<std::uint64_t> by_column_;
   std::vector<std::uint16_t> squared_;
 };
 

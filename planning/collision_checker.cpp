@@ -1,59 +1,48 @@
 #include "planning/collision_checker.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
-#include "maps/segment.hpp"
 #include "maps/touching.hpp"
+#include "planning/swept_disc.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr double rounding = 1e-3;  ///< cells; generous to single precision
 
-/// Distance from a point to the square of a cell, squared.
-double squared_distance(const Vec2& point, Cell cell) {
-  const double dx = std::max({cell.column - point.x(), point.x() - (cell.column + 1), 0.0});
-  const double dy = std::max({cell.row - point.y(), point.y() - (cell.row + 1), 0.0});
-  return dx * dx + dy * dy;
+/// The first bit set whose cell overlaps an extent in x, both ends on the row; -1 for none.
+int first_set(std::span<const std::uint64_t> row, double least_x, double greatest_x) {
+  const int first = std::max(static_cast<int>(least_x), 0);
+  int last = static_cast<int>(greatest_x);
+  if (last == greatest_x) --last;  // touches the next cell only
+  last = std::min(last, 64 * static_cast<int>(row.size()) - 1);
+  for (int i = first / 64; i <= last / 64; ++i) {
+    std::uint64_t bits = row[static_cast<std::size_t>(i)];
+    if (i == first / 64) bits &= ~std::uint64_t{0} << static_cast<unsigned>(first % 64);
+    if (i == last / 64) bits &= ~std::uint64_t{0} >> static_cast<unsigned>(63 - last % 64);
+    if (bits != 0) return 64 * i + std::countr_zero(bits);
+  }
+  return -1;
 }
 
-/// Does the leg cross the square? (clipping by Liang and Barsky)
-bool crosses(const Vec2& from, const Vec2& to, Cell cell) {
-  const Vec2 leg = to - from;
-  double enter = 0.0;
-  double leave = 1.0;
-  const Vec2 low(cell.column, cell.row);
-  for (int axis = 0; axis < 2; ++axis) {
-    if (leg[axis] == 0.0) {
-      if (from[axis] <= low[axis] || from[axis] >= low[axis] + 1.0) return false;
-      continue;
-    }
-    const double a = (low[axis] - from[axis]) / leg[axis];
-    const double b = (low[axis] + 1.0 - from[axis]) / leg[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
+/// The first obstacle that the disc overlaps on a stretch, by lines of cells along x.
+template <typename LineOfCells>
+std::optional<Cell> first_on_lines(const Vec2& from, const Vec2& to, double radius, int lines,
+                                   const LineOfCells& line) {
+  const SweptDisc swept(from, to, radius);
+  const int first = std::max(static_cast<int>(swept.lowest_y()), 0);
+  const int last = std::min(static_cast<int>(swept.highest_y()), lines - 1);
+  for (int at = first; at <= last; ++at) {
+    const double least_x = swept.least_x(at, at + 1);
+    const double greatest_x = swept.greatest_x(at, at + 1);
+    if (greatest_x <= least_x) continue;
+    if (const int place = first_set(line(at), least_x, greatest_x); place >= 0) return Cell{place, at};
   }
-  return enter < leave;
-}
-
-/// Is the square closer to the leg than the radius? When they do not intersect, the closest points are an end
-/// of the leg and the square, or a corner of the square and the leg.
-bool within(const Vec2& from, const Vec2& to, Cell cell, double radius) {
-  const double limit = radius * radius;
-  const Vec2 center = center_of(cell);
-  const double far = radius + 0.5 * std::numbers::sqrt2 + rounding;  // beyond it, the square is out of reach
-  if ((nearest_on_segment(from, to, center) - center).squaredNorm() > far * far) return false;
-  if (squared_distance(from, cell) < limit || squared_distance(to, cell) < limit) return true;
-  for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
-    const Vec2 corner(cell.column + dx, cell.row + dy);
-    if ((nearest_on_segment(from, to, corner) - corner).squaredNorm() < limit) return true;
-  }
-  return crosses(from, to, cell);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -63,7 +52,8 @@ CollisionChecker::CollisionChecker(std::shared_ptr<const ObstacleField> field, d
       map_(field_->map()),
       radius_cells_(std::max(radius_m / map_.resolution_m - touching, touching)),
       words_a_row_((static_cast<std::size_t>(map_.columns) + 63U) / 64U),
-      clear_(words_a_row_ * static_cast<std::size_t>(map_.rows), 0) {
+      clear_(words_a_row_ * static_cast<std::size_t>(map_.rows), 0),
+      in_part_clear_(clear_.size(), ~std::uint64_t{0}) {
   clear_drivable();
   block_around_obstacles();
   block_border();
@@ -83,13 +73,21 @@ void CollisionChecker::clear_drivable() {
   }
 }
 
+/// For each row up from an obstacle's: how many columns to each side a cell is blocked whose centre is nearer
+/// to the obstacle than this.
+std::vector<int> CollisionChecker::spans_within(double distance_cells) {
+  std::vector<int> spans;
+  for (double up = 0.0; up < distance_cells; up = static_cast<double>(spans.size()) - 0.5) {
+    const double across = std::sqrt(distance_cells * distance_cells - up * up) + 0.5;
+    spans.push_back(static_cast<int>(std::ceil(across)) - 1);
+  }
+  return spans;
+}
+
 /// Obstacle cells enclosed by obstacles are skipped, as their neighbours block the same cells.
 void CollisionChecker::block_around_obstacles() {
-  for (double up = 0.0; up < radius_cells_; up = static_cast<double>(spans_.size()) - 0.5) {
-    // In this row, centres within this column distance are blocked.
-    const double across = std::sqrt(radius_cells_ * radius_cells_ - up * up) + 0.5;
-    spans_.push_back(static_cast<int>(std::ceil(across)) - 1);
-  }
+  const std::vector<int> spans = spans_within(radius_cells_);
+  const std::vector<int> whole_spans = spans_within(radius_cells_ - 0.5 * std::numbers::sqrt2 - rounding);
   const std::vector<std::uint64_t> outside(words_a_row_, ~std::uint64_t{0});
   for (int row = 0; row < map_.rows; ++row) {
     const std::span<const std::uint64_t> here = field_->obstacles(row);
@@ -100,53 +98,48 @@ void CollisionChecker::block_around_obstacles() {
       std::uint64_t right = here[i] >> 1U | (i + 1 < words_a_row_ ? here[i + 1] << 63U : 0U);
       if (i + 1 == words_a_row_) right |= std::uint64_t{1} << static_cast<unsigned>((map_.columns - 1) % 64);
       std::uint64_t at_edge = here[i] & ~(left & right & below[i] & above[i]);
-      for (; at_edge != 0; at_edge &= at_edge - 1)
-        block_around({static_cast<int>(i) * 64 + std::countr_zero(at_edge), row});
+      for (; at_edge != 0; at_edge &= at_edge - 1) {
+        const Cell obstacle{static_cast<int>(i) * 64 + std::countr_zero(at_edge), row};
+        block_around(obstacle, spans, clear_);
+        block_around(obstacle, whole_spans, in_part_clear_);
+      }
     }
   }
 }
 
-void CollisionChecker::block_around(Cell obstacle) {
-  const int reach = static_cast<int>(spans_.size()) - 1;
+void CollisionChecker::block_around(Cell obstacle, std::span<const int> spans,
+                                    std::vector<std::uint64_t>& bits) {
+  const int reach = static_cast<int>(spans.size()) - 1;
   const int low = std::max(obstacle.row - reach, 0);
   const int high = std::min(obstacle.row + reach, map_.rows - 1);
   for (int row = low; row <= high; ++row) {
-    const int span = spans_[static_cast<std::size_t>(std::abs(row - obstacle.row))];
-    block(row, std::max(obstacle.column - span, 0), std::min(obstacle.column + span, map_.columns - 1));
+    const int span = spans[static_cast<std::size_t>(std::abs(row - obstacle.row))];
+    block(row, std::max(obstacle.column - span, 0), std::min(obstacle.column + span, map_.columns - 1), bits);
   }
 }
 
 void CollisionChecker::block_border() {
   for (int i = 0; 0.5 + i < radius_cells_ && i < std::max(map_.rows, map_.columns); ++i) {
     if (i < map_.rows) {
-      block(i, 0, map_.columns - 1);
-      block(map_.rows - 1 - i, 0, map_.columns - 1);
+      block(i, 0, map_.columns - 1, clear_);
+      block(map_.rows - 1 - i, 0, map_.columns - 1, clear_);
     }
     if (i >= map_.columns) continue;
     for (int row = 0; row < map_.rows; ++row) {
-      block(row, i, i);
-      block(row, map_.columns - 1 - i, map_.columns - 1 - i);
+      block(row, i, i, clear_);
+      block(row, map_.columns - 1 - i, map_.columns - 1 - i, clear_);
     }
   }
 }
 
-void CollisionChecker::block(int row, int first, int last) {
+void CollisionChecker::block(int row, int first, int last, std::vector<std::uint64_t>& cells) {
   const std::size_t begin = word(row);
   for (int i = first / 64; i <= last / 64; ++i) {
     std::uint64_t bits = ~std::uint64_t{0};
     if (i == first / 64) bits &= ~std::uint64_t{0} << static_cast<unsigned>(first % 64);
     if (i == last / 64) bits &= ~std::uint64_t{0} >> static_cast<unsigned>(63 - last % 64);
-    clear_[begin + static_cast<std::size_t>(i)] &= ~bits;
+    cells[begin + static_cast<std::size_t>(i)] &= ~bits;
   }
-}
-
-/// A square's edge is between half a side and half a diagonal from its centre.
-bool CollisionChecker::is_surely_blocked_at(const Vec2& point) const {
-  const Cell cell{static_cast<int>(point.x()), static_cast<int>(point.y())};
-  const std::size_t index = map_.index(cell);
-  const double to_obstacle = field_->distance_cells(index);
-  return field_->squared_cells(index) != ObstacleField::far &&
-         to_obstacle + (point - center_of(cell)).norm() + rounding < radius_cells_ + 0.5;
 }
 
 bool CollisionChecker::is_surely_blocked(const Vec2& from, const Vec2& to) const {
@@ -155,21 +148,85 @@ bool CollisionChecker::is_surely_blocked(const Vec2& from, const Vec2& to) const
   };
   if (!is_on_map(from) || !is_on_map(to)) return true;
   const Vec2 leg = to - from;
-  for (const double at : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875})
-    if (is_surely_blocked_at(from + at * leg)) return true;
+  const auto is_blocked = [&](double share) {
+    const Vec2 point = from + share * leg;
+    return !is_in_part_clear({static_cast<int>(point.x()), static_cast<int>(point.y())});
+  };
+  for (const double share : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875, 0.0625, 0.1875, 0.3125, 0.4375,
+                             0.5625, 0.6875, 0.8125, 0.9375})
+    if (is_blocked(share)) return true;
   return false;
+}
+
+/// By sure strides where there is room; near obstacles by exact looks at longer and longer stretches.
+double CollisionChecker::clear_length(const Vec2& from, const Vec2& direction) const {
+  const double least_look = std::max(0.25, 0.5 * radius_cells_);
+  constexpr double least_stride = 1.0;
+  const double to_border = length_to_border(from, direction);
+  double length = 0.0;
+  double look = radius_cells_;
+  while (length < to_border) {
+    const Vec2 point = from + length * direction;
+    const Cell cell = cell_at(point);
+    const double to_obstacle = field_->distance_cells(map_.index(cell)) - (point - center_of(cell)).norm();
+    const double stride = to_obstacle - 0.5 * std::numbers::sqrt2 - radius_cells_ - rounding;
+    if (stride >= least_stride) {
+      length += stride;
+      continue;
+    }
+    look = std::min(std::max(look, least_look), to_border - length);
+    bool is_blocked = false;
+    while (obstacle_on_stretch(point, point + look * direction)) {
+      is_blocked = true;
+      look *= 0.5;
+      if (look < least_look) return length;
+    }
+    length += look;
+    if (!is_blocked) look *= 2.0;
+  }
+  return to_border;
+}
+
+/// How far a disc can go before it leaves the map; 0 where it is not within.
+double CollisionChecker::length_to_border(const Vec2& from, const Vec2& direction) const {
+  const Vec2 low = Vec2::Constant(radius_cells_);
+  const Vec2 high = Vec2(map_.columns, map_.rows) - low;
+  if ((from - low).minCoeff() < 0.0 || (high - from).minCoeff() < 0.0) return 0.0;
+  double length = std::hypot(map_.columns, map_.rows);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (direction[axis] == 0.0) continue;
+    const double border = direction[axis] > 0.0 ? high[axis] : low[axis];
+    length = std::min(length, (border - from[axis]) / direction[axis]);
+  }
+  return std::max(length - rounding, 0.0);
+}
+
+bool CollisionChecker::is_blocked_by(Cell obstacle, const Vec2& from, const Vec2& to) const {
+  const SweptDisc swept(from, to, radius_cells_);
+  const int row = obstacle.row;
+  return swept.lowest_y() < row + 1 && swept.highest_y() > row &&
+         swept.least_x(row, row + 1) < obstacle.column + 1 &&
+         swept.greatest_x(row, row + 1) > obstacle.column;
+}
+
+bool CollisionChecker::along(const Vec2& from, const Vec2& to) const {
+  std::optional<Cell> ignored;
+  return along(from, to, ignored);
 }
 
 /// Walks the leg by the distance field: in long strides far from obstacles. Only stretches near an obstacle
 /// are checked square by square.
-bool CollisionChecker::along(const Vec2& from, const Vec2& to) const {
+bool CollisionChecker::along(const Vec2& from, const Vec2& to, std::optional<Cell>& blocking) const {
   if (!from.allFinite() || !to.allFinite()) return false;
   const Vec2 low = from.cwiseMin(to).array() - radius_cells_;
   const Vec2 high = from.cwiseMax(to).array() + radius_cells_;
   if (low.minCoeff() < 0.0 || high.x() > map_.columns || high.y() > map_.rows) return false;
   const double length = (to - from).norm();
+  constexpr double worth_a_look = 4.0;  // cells
+  if (length > worth_a_look && is_surely_blocked(from, to)) return false;
   const Vec2 step = length > 0.0 ? Vec2((to - from) / length) : Vec2::Zero();
   const double near_stride = std::max(1.0, 0.5 * radius_cells_);
+  constexpr double least_stride = 0.5;  // cells; shorter ones cost more than an exact look
   std::optional<double> near_since;
   for (double at = 0.0; at <= length;) {
     const Vec2 point = from + at * step;
@@ -178,7 +235,7 @@ bool CollisionChecker::along(const Vec2& from, const Vec2& to) const {
     const std::size_t index = map_.index(cell);
     const double to_obstacle = field_->distance_cells(index);  // centre to centre, or less
     const double sure_stride = to_obstacle - std::numbers::sqrt2 - radius_cells_ - rounding;
-    if (sure_stride >= 1.0 && !near_since) {
+    if (sure_stride >= least_stride && !near_since) {
       at += sure_stride;
       continue;
     }
@@ -186,8 +243,14 @@ bool CollisionChecker::along(const Vec2& from, const Vec2& to) const {
     const bool is_exact = field_->squared_cells(index) != ObstacleField::far;
     if (is_exact && to_obstacle + off_center + rounding < radius_cells_ + 0.5) return false;
     const double stride = to_obstacle - off_center - 0.5 * std::numbers::sqrt2 - radius_cells_ - rounding;
-    if (stride >= 1.0) {
-      if (near_since && !stretch_is_clear(from + *near_since * step, point)) return false;
+    if (stride >= least_stride) {
+      if (near_since) {
+        const std::optional<Cell> obstacle = obstacle_on_stretch(from + *near_since * step, point);
+        if (obstacle) {
+          blocking = obstacle;
+          return false;
+        }
+      }
       near_since.reset();
       at += stride;
       continue;
@@ -195,43 +258,36 @@ bool CollisionChecker::along(const Vec2& from, const Vec2& to) const {
     if (!near_since) near_since = at;
     at += near_stride;
   }
-  return !near_since || stretch_is_clear(from + *near_since * step, to);
+  if (!near_since) return true;
+  const std::optional<Cell> obstacle =
+      length > 0.0 ? obstacle_on_stretch(from + *near_since * step, to) : obstacle_around(to);
+  if (obstacle) blocking = obstacle;
+  return !obstacle;
 }
 
-bool CollisionChecker::stretch_is_clear(const Vec2& from, const Vec2& to) const {
-  const int first = std::max(static_cast<int>(std::min(from.y(), to.y()) - radius_cells_), 0);
-  const int last = std::min(static_cast<int>(std::max(from.y(), to.y()) + radius_cells_), map_.rows - 1);
+std::optional<Cell> CollisionChecker::obstacle_around(const Vec2& point) const {
+  const int first = std::max(static_cast<int>(point.y() - radius_cells_), 0);
+  const int last = std::min(static_cast<int>(point.y() + radius_cells_), map_.rows - 1);
   for (int row = first; row <= last; ++row) {
-    if (!row_is_clear(row, from, to)) return false;
+    const double up = point.y() - std::clamp(point.y(), static_cast<double>(row), row + 1.0);
+    const double squared = radius_cells_ * radius_cells_ - up * up;
+    if (squared <= 0.0) continue;
+    const double across = std::sqrt(squared);
+    const int column = first_set(field_->obstacles(row), point.x() - across, point.x() + across);
+    if (column >= 0) return Cell{column, row};
   }
-  return true;
+  return std::nullopt;
 }
 
-/// Only the part of the leg that passes within the radius of the row can touch it there.
-bool CollisionChecker::row_is_clear(int row, const Vec2& from, const Vec2& to) const {
-  double enter = 0.0;
-  double leave = 1.0;
-  if (to.y() != from.y()) {
-    const double share_per_row = 1.0 / (to.y() - from.y());
-    const double a = (row - radius_cells_ - from.y()) * share_per_row;
-    const double b = (row + 1 + radius_cells_ - from.y()) * share_per_row;
-    enter = std::clamp(std::min(a, b), 0.0, 1.0);
-    leave = std::clamp(std::max(a, b), 0.0, 1.0);
+/// By the columns where the stretch is steep, so that its lines are few and long.
+std::optional<Cell> CollisionChecker::obstacle_on_stretch(const Vec2& from, const Vec2& to) const {
+  if (std::abs(to.y() - from.y()) > std::abs(to.x() - from.x())) {
+    const auto column = [&](int at) { return field_->obstacles_of_column(at); };
+    const std::optional<Cell> found =
+        first_on_lines({from.y(), from.x()}, {to.y(), to.x()}, radius_cells_, map_.columns, column);
+    return found ? std::optional(Cell{found->row, found->column}) : std::nullopt;
   }
-  const double x_enter = from.x() + enter * (to.x() - from.x());
-  const double x_leave = from.x() + leave * (to.x() - from.x());
-  const int first = std::max(static_cast<int>(std::min(x_enter, x_leave) - radius_cells_), 0);
-  const int last = std::min(static_cast<int>(std::max(x_enter, x_leave) + radius_cells_), map_.columns - 1);
-  const std::span<const std::uint64_t> words = field_->obstacles(row);
-  for (int i = first / 64; i <= last / 64; ++i) {
-    std::uint64_t bits = words[static_cast<std::size_t>(i)];
-    if (i == first / 64) bits &= ~std::uint64_t{0} << static_cast<unsigned>(first % 64);
-    if (i == last / 64) bits &= ~std::uint64_t{0} >> static_cast<unsigned>(63 - last % 64);
-    for (; bits != 0; bits &= bits - 1) {
-      if (within(from, to, {64 * i + std::countr_zero(bits), row}, radius_cells_)) return false;
-    }
-  }
-  return true;
+  return first_on_lines(from, to, radius_cells_, map_.rows, [&](int at) { return field_->obstacles(at); });
 }
 
 }  // namespace lodestar

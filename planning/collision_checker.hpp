@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "maps/obstacle_field.hpp"
@@ -34,6 +36,15 @@ class CollisionChecker {
   /// Is the disc clear all along a straight leg? Exact, for any two points.
   [[nodiscard]] bool along(const Vec2& from, const Vec2& to) const;
 
+  /// The same; where a cell is found that blocks the leg, it is remembered. Of legs that differ little, most
+  /// are blocked by the same cell: asking is_blocked_by() first saves most of the work.
+  [[nodiscard]] bool along(const Vec2& from, const Vec2& to, std::optional<Cell>& blocking) const;
+  [[nodiscard]] bool is_blocked_by(Cell obstacle, const Vec2& from, const Vec2& to) const;
+
+  /// How far the disc can go from a point in a direction of length 1 and surely stay clear: up to two cells
+  /// less than it could.
+  [[nodiscard]] double clear_length(const Vec2& from, const Vec2& direction) const;
+
   /// A look at a few points of a leg: true only if it is blocked. Much cheaper than along() for legs through
   /// walls.
   [[nodiscard]] bool is_surely_blocked(const Vec2& from, const Vec2& to) const;
@@ -51,19 +62,24 @@ class CollisionChecker {
   [[nodiscard]] std::size_t word(int row) const { return static_cast<std::size_t>(row) * words_a_row_; }
   void clear_drivable();
   void block_around_obstacles();
-  void block_around(Cell obstacle);
+  [[nodiscard]] static std::vector<int> spans_within(double distance_cells);
+  void block_around(Cell obstacle, std::span<const int> spans, std::vector<std::uint64_t>& bits);
   void block_border();
-  void block(int row, int first, int last);
-  [[nodiscard]] bool is_surely_blocked_at(const Vec2& point) const;
-  [[nodiscard]] bool stretch_is_clear(const Vec2& from, const Vec2& to) const;
-  [[nodiscard]] bool row_is_clear(int row, const Vec2& from, const Vec2& to) const;
+  void block(int row, int first, int last, std::vector<std::uint64_t>& bits);
+  [[nodiscard]] double length_to_border(const Vec2& from, const Vec2& direction) const;
+  [[nodiscard]] bool is_in_part_clear(Cell cell) const {
+    const auto column = static_cast<std::size_t>(cell.column);
+    return ((in_part_clear_[word(cell.row) + column / 64U] >> (column % 64U)) & 1U) != 0;
+  }
+  [[nodiscard]] std::optional<Cell> obstacle_around(const Vec2& point) const;
+  [[nodiscard]] std::optional<Cell> obstacle_on_stretch(const Vec2& from, const Vec2& to) const;
 
   std::shared_ptr<const ObstacleField> field_;
   const OccupancyMap& map_;
   double radius_cells_ = 0.0;
-  std::vector<int> spans_;  ///< blocked columns to each side, by rows from an obstacle
   std::size_t words_a_row_ = 0;
-  std::vector<std::uint64_t> clear_;  ///< bits, as the field's obstacles
+  std::vector<std::uint64_t> clear_;  ///< bits, as the field's obstacles: is the disc clear at the centre?
+  std::vector<std::uint64_t> in_part_clear_;  ///< bits: unless 1, the disc is clear nowhere in the cell
   Regions regions_;
 };
 

@@ -1,6 +1,7 @@
 #include "planning/corners.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -42,7 +43,10 @@ struct Arc {
   double radius_cells = 0.0;
 
   [[nodiscard]] Vec2 at(double angle_rad, double reach_cells) const {
-    return corner + reach_cells * Vec2(away.x() * std::cos(angle_rad), away.y() * std::sin(angle_rad));
+    return towards({std::cos(angle_rad), std::sin(angle_rad)}, reach_cells);
+  }
+  [[nodiscard]] Vec2 towards(const Vec2& direction, double reach_cells) const {
+    return corner + reach_cells * away.cwiseProduct(direction);
   }
 };
 
@@ -64,14 +68,25 @@ void add_open_part(const CollisionChecker& space, const Arc& arc, double from_ra
   if (count > 1) add_vertices(space, arc, from_rad, to_rad, 1, false, points);
 }
 
+constexpr int steps = 18;
+constexpr double step_rad = radians(90.0) / steps;
+
+/// From the x axis to the y axis.
+std::array<Vec2, steps + 1> directions_of_steps() {
+  std::array<Vec2, steps + 1> directions;
+  for (int i = 0; i <= steps; ++i)
+    directions[static_cast<std::size_t>(i)] = Vec2(std::cos(i * step_rad), std::sin(i * step_rad));
+  return directions;
+}
+
 /// Finds the clear parts of the quarter circle in steps of 5 degrees.
 void add_arc(const CollisionChecker& space, const Arc& arc, std::vector<TurnPoint>& points) {
-  constexpr int steps = 18;
-  constexpr double step_rad = radians(90.0) / steps;
+  static const std::array<Vec2, steps + 1> directions = directions_of_steps();
   std::optional<int> open_since;
   for (int i = 0; i <= steps + 1; ++i) {
-    const Vec2 place = arc.at(i * step_rad, arc.radius_cells);
-    const bool open = i <= steps && space.along(place, place);
+    const auto is_clear = [&](const Vec2& place) { return space.along(place, place); };
+    const bool open =
+        i <= steps && is_clear(arc.towards(directions[static_cast<std::size_t>(i)], arc.radius_cells));
     if (open && !open_since) open_since = i;
     if (open || !open_since) continue;
     add_open_part(space, arc, *open_since * step_rad, (i - 1) * step_rad, points);

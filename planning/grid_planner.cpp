@@ -7,10 +7,10 @@
 
 #include "planning/collision_checker.hpp"
 #include "planning/corners.hpp"
+#include "planning/fastest_path.hpp"
 #include "planning/footprint_planner.hpp"
 #include "planning/grid_search.hpp"
 #include "planning/jump_search.hpp"
-#include "planning/path_refining.hpp"
 #include "planning/path_shortening.hpp"
 #include "planning/visibility_graph_search.hpp"
 
@@ -264,24 +264,12 @@ std::vector<Vec2> GridPlanner::cheapest_legs(const Ends& ends, const PlanHeading
   std::vector<Vec2> known =
       costs_.empty() ? pulled_tight(jump_path(ends, expanded), space) : few_legs(ends, expanded);
   // Moving turns saves much time, but hardly any length: for that, turn points are nearly optimal.
-  if (timed) known = refined(std::move(known), in_grid_frame, space, cost, Refinement::coarse);
-  TurnPath found = searches_->turns->find(known, in_grid_frame, cost);
+  VisibilityGraphSearch& turns = *searches_->turns;
+  TurnPath found =
+      timed ? fastest_path(std::move(known), in_grid_frame, space, cost, turns, options_.turn_search)
+            : turns.find(known, in_grid_frame, cost);
   expanded += found.expanded;
-  return timed ? refined_best(std::move(found), in_grid_frame, cost) : found.points;
-}
-
-/// The fastest of the paths found, once they are refined.
-std::vector<Vec2> GridPlanner::refined_best(TurnPath found, const EndHeadings& headings,
-                                            const PathCost& cost) const {
-  constexpr double most_saved_s = 3.0;  // two turns less; measured: refining seldom saves more
-  const CollisionChecker& space = searches_->space;
-  std::vector<Vec2> best = refined(std::move(found.points), headings, space, cost, Refinement::coarse);
-  for (std::vector<Vec2>& other : found.others) {
-    if (cost.path(other, headings) > cost.path(best, headings) + most_saved_s) continue;
-    other = refined(std::move(other), headings, space, cost, Refinement::coarse);
-    if (cost.path(other, headings) < cost.path(best, headings)) best.swap(other);
-  }
-  return refined(std::move(best), headings, space, cost, Refinement::fine);
+  return std::move(found.points);
 }
 
 std::optional<std::vector<Vec2>> GridPlanner::sampled_legs(const Ends& ends, std::size_t& expanded) const {

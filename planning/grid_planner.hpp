@@ -126,8 +126,6 @@ class GridPlanner {
   [[nodiscard]] std::vector<Vec2> cheapest_path(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] std::vector<Vec2> cheapest_legs(const Ends& ends, const PlanHeadings& headings,
                                                 std::size_t& expanded) const;
-  [[nodiscard]] std::vector<Vec2> refined_best(TurnPath found, const EndHeadings& headings,
-                                               const PathCost& cost) const;
   [[nodiscard]] std::optional<std::vector<Vec2>> sampled_legs(const Ends& ends, std::size_t& expanded) const;
   [[nodiscard]] static std::vector<Vec2> points_over(std::span<const Cell> cells, const Ends& ends);
   [[nodiscard]] std::vector<Vec2> jump_path(const Ends& ends, std::size_t& expanded) const;

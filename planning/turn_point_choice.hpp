@@ -27,7 +27,7 @@ class TurnPointChoice {
   /// For paths from the first to the last of the known points of at most this length. Without turns counted,
   /// only tight points. At most `most`; valid until the next call.
   const std::vector<TurnPlace>& choose(std::span<const Vec2> known, double longest_cells, bool counts_turns,
-                                       std::size_t most);
+                                       std::size_t most, int round);
 
   /// After choose(): the length over tiles to the start and to the goal; a large one where there is none.
   [[nodiscard]] double to_start_cells(const Vec2& point) const { return measured(from_start_, point); }
@@ -40,27 +40,38 @@ class TurnPointChoice {
  private:
   struct Ranked {
     std::int32_t through = 0;  ///< length of the shortest path through it, in eighths of a tile's side
-    bool tight = false;
-    std::uint32_t index = 0;  ///< of the turn point, or of the tile
+    std::uint32_t tile = 0;
   };
   struct Earlier;
+  enum class Bend : std::uint8_t { unknown, possible, impossible };
+  static constexpr std::uint32_t none = 0xffffffff;
 
   [[nodiscard]] double measured(const TileDistances& distances, const Vec2& point) const;
+  void sort_into_tiles();
   void measure(const Vec2& start, const Vec2& goal, double longest_cells);
-  void rank(bool counts_turns, double longest_cells);
-  void choose_corners(std::size_t most);
-  void choose_open(std::size_t most, double longest_cells);
+  void rank_tiles(double longest_cells);
+  void choose_corners(std::size_t most, bool counts_turns);
+  void choose_corners_of(std::uint32_t tile, std::size_t most, bool counts_turns);
+  void choose_open(std::size_t most, double longest_cells, int round);
+  void rank_open(int spacing, int round, double longest_cells);
+  void forget_chosen();
   [[nodiscard]] std::optional<std::int32_t> through(Cell tile, double longest_cells) const;
-  [[nodiscard]] bool is_apart(const TurnPoint& point) const;
-  [[nodiscard]] bool lets_bend(const TurnPoint& point) const;
+  [[nodiscard]] bool is_apart(const TurnPoint& point, std::uint32_t tile) const;
+  [[nodiscard]] bool lets_bend(std::uint32_t index);
+  [[nodiscard]] bool looks_bendable(const TurnPoint& point) const;
 
   const CollisionChecker& space_;
   std::span<const TurnPoint> turn_points_;
   TileMap tiles_;
+  std::vector<std::uint32_t> by_tile_;        ///< turn points; those that need fewer turns first
+  std::vector<std::uint32_t> first_of_tile_;  ///< in by_tile_; one more than tiles
+  std::vector<Bend> bends_;                   ///< by turn point
   TileDistances from_start_;
   TileDistances from_goal_;
   std::vector<Ranked> ranked_;
   std::vector<TurnPlace> chosen_;
+  std::vector<std::uint32_t> newest_of_tile_;  ///< among the chosen corners
+  std::vector<std::uint32_t> older_of_tile_;   ///< by chosen place
 };
 
 }  // namespace lodestar

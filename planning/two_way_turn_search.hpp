@@ -16,6 +16,7 @@ struct TurnPath {
   std::vector<Vec2> points;  ///< start, turns, goal in grid coordinates
   double cost = 0.0;
   std::size_t expanded = 0;  ///< labels expanded
+  std::size_t work = 0;      ///< as TurnSearchLimits count it
   /// Other paths, hardly dearer, by other ways or turns: refined, one of them may be the cheapest.
   std::vector<std::vector<Vec2>> others;
 };
@@ -32,8 +33,8 @@ class TwoWayTurnSearch {
                    const TurnSearchLimits& limits);
 
   /// `known` is a clear path from start to goal. Its points are turn points too, and it is the answer when no
-  /// cheaper one is found.
-  TurnPath find(std::span<const Vec2> known, const EndHeadings& headings, const PathCost& cost);
+  /// cheaper one is found. Each round chooses others.
+  TurnPath find(std::span<const Vec2> known, const EndHeadings& headings, const PathCost& cost, int round);
 
  private:
   static constexpr std::uint32_t none = 0xffffffff;
@@ -77,7 +78,7 @@ class TwoWayTurnSearch {
   };
   struct Later;
 
-  void gather_places(std::span<const Vec2> known);
+  void gather_places(std::span<const Vec2> known, int round);
   void add_place(const TurnPlace& at);
   [[nodiscard]] const std::vector<Leg>& legs_from(std::uint32_t place);
   [[nodiscard]] bool may_see(const Place& from, const Place& to, double length_cells) const;

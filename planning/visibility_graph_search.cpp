@@ -30,7 +30,7 @@ VisibilityGraphSearch::VisibilityGraphSearch(const CollisionChecker& space,
       two_way_(space_, turn_points_, limits_) {}
 
 TurnPath VisibilityGraphSearch::find(std::span<const Vec2> known, const EndHeadings& headings,
-                                     const PathCost& cost) {
+                                     const PathCost& cost, int round) {
   cost_ = &cost;
   headings_ = headings;
   start_ = known.front();
@@ -39,12 +39,14 @@ TurnPath VisibilityGraphSearch::find(std::span<const Vec2> known, const EndHeadi
   labels_.clear();
   open_.clear();
   work_ = 0;
-  if (!gather_candidates(known)) return two_way_.find(known, headings, cost);
+  if (round > 0 || !gather_candidates(known)) return two_way_.find(known, headings, cost, round);
   TurnPath found = search(known);
+  found.work = work_;
   if (!cost.counts_turns() || cost.counts_cells()) return found;
   // A path with turns on open ground may be faster once it is refined.
-  TurnPath other = two_way_.find(known, headings, cost);
+  TurnPath other = two_way_.find(known, headings, cost, round);
   found.expanded += other.expanded;
+  found.work += other.work;
   found.others = std::move(other.others);
   found.others.push_back(std::move(other.points));
   return found;

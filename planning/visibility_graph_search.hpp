@@ -26,8 +26,9 @@ class VisibilityGraphSearch {
                         const TurnSearchLimits& limits = {});
 
   /// `known` is a clear path from start to goal. Its cost is the upper bound, its points are turn points too,
-  /// and it is the answer when no cheaper one is found.
-  TurnPath find(std::span<const Vec2> known, const EndHeadings& headings, const PathCost& cost);
+  /// and it is the answer when no cheaper one is found. Rounds but the first search both ways.
+  TurnPath find(std::span<const Vec2> known, const EndHeadings& headings, const PathCost& cost,
+                int round = 0);
 
  private:
   static constexpr std::uint32_t none = 0xffffffff;

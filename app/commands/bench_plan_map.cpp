@@ -101,7 +101,10 @@ std::vector<GridPlannerOptions> references(const GridPlannerOptions& planner) {
     all.push_back(planner);
     all.back().kind = kind;
   }
-  all.front().turn_search = {.complete = 960, .candidates = 1000, .work = 40 * planner.turn_search.work};
+  all.front().turn_search = {.complete = 960,
+                             .candidates = 1000,
+                             .work = 40 * planner.turn_search.work,
+                             .work_of_rounds = 40 * planner.turn_search.work};
   return all;
 }
 

@@ -76,6 +76,22 @@ INSTANTIATE_TEST_SUITE_P(Generated, OnMap, ::testing::Values("offices-5cm", "pos
                            return name;
                          });
 
+TEST(Fastest, is_within_one_per_cent_of_the_best_known_in_ragged_offices) {
+  // What was lost was mostly one turn too many along a wall with bumps.
+  const OccupancyMap map = ragged_offices(60.0, 0.02, 5);
+  GridPlannerOptions options = fastest();
+  const GridPlanner usual(map, options);
+  options.turn_search = {.candidates = 800, .work = 100000000, .work_of_rounds = 100000000};
+  const GridPlanner thorough(map, options);
+  int slower = 0;
+  constexpr int queries = 150;
+  for (const PlanQuery& query : queries_on(map, queries)) {
+    const double best_s = seconds_of(thorough.plan(query.start_m, query.goal_m));
+    if (seconds_of(usual.plan(query.start_m, query.goal_m)) > 1.01 * best_s) ++slower;
+  }
+  EXPECT_LE(slower, 3) << "of " << queries;
+}
+
 TEST(BenchMap, reports_every_query_and_the_best_time_known) {
   const OccupancyMap map = scattered_posts(8.0, 0.05, 60, 1);
   MapBenchOptions options{.queries = 12, .planner = fastest()};
