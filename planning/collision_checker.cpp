@@ -132,13 +132,13 @@ void CollisionChecker::block_border() {
   }
 }
 
-void CollisionChecker::block(int row, int first, int last, std::vector<std::uint64_t>& cells) {
+void CollisionChecker::block(int row, int first, int last, std::vector<std::uint64_t>& bits) {
   const std::size_t begin = word(row);
   for (int i = first / 64; i <= last / 64; ++i) {
-    std::uint64_t bits = ~std::uint64_t{0};
-    if (i == first / 64) bits &= ~std::uint64_t{0} << static_cast<unsigned>(first % 64);
-    if (i == last / 64) bits &= ~std::uint64_t{0} >> static_cast<unsigned>(63 - last % 64);
-    cells[begin + static_cast<std::size_t>(i)] &= ~bits;
+    std::uint64_t blocked = ~std::uint64_t{0};
+    if (i == first / 64) blocked &= ~std::uint64_t{0} << static_cast<unsigned>(first % 64);
+    if (i == last / 64) blocked &= ~std::uint64_t{0} >> static_cast<unsigned>(63 - last % 64);
+    bits[begin + static_cast<std::size_t>(i)] &= ~blocked;
   }
 }
 

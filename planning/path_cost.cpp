@@ -6,6 +6,14 @@
 
 namespace lodestar {
 
+EndHeadings headings_of_part(std::span<const Vec2> points, std::size_t from, std::size_t to,
+                             const EndHeadings& of_path) {
+  EndHeadings headings = of_path;
+  if (from > 0) headings.start_rad = heading_between(points[from - 1], points[from]);
+  if (to + 1 < points.size()) headings.goal_rad = heading_between(points[to], points[to + 1]);
+  return headings;
+}
+
 double PathCost::leg(const Vec2& from, const Vec2& to) const {
   const double least = at_least((to - from).norm());
   return counts_cells() ? least * mean_cell_cost(from, to) : least;

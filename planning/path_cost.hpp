@@ -18,6 +18,13 @@ struct EndHeadings {
   std::optional<double> goal_rad;
 };
 
+/// Least relative saving for which a path is changed.
+inline constexpr double worthwhile_saving = 1e-6;
+
+/// Headings before and after the part of a path between two of its points.
+EndHeadings headings_of_part(std::span<const Vec2> points, std::size_t from, std::size_t to,
+                             const EndHeadings& of_path);
+
 /// Cost of a path of straight legs: length in metres, or travel time in seconds for a robot that turns on the
 /// spot and drives from rest to rest. A leg's cost is multiplied by the mean cost of its cells, above 1 near
 /// obstacles.

@@ -8,8 +8,6 @@
 namespace lodestar {
 namespace {
 
-constexpr double worthwhile = 1e-6;  ///< least relative gain for a change
-
 /// A place for one point, or for two in a row.
 struct Change {
   double cost = 0.0;
@@ -74,7 +72,7 @@ bool move_turn(PathDraft& path, std::size_t turn, double step_cells) {
       {{1, 0}, {slant, slant}, {0, 1}, {-slant, slant}, {-1, 0}, {-slant, -slant}, {0, -1}, {slant, -slant}}};
   Vec2& point = path.points[turn];
   const Vec2 before = point;
-  const double limit = path.cost_around(turn, turn) * (1.0 - worthwhile);
+  const double limit = path.cost_around(turn, turn) * (1.0 - worthwhile_saving);
   std::vector<Change> changes;
   for (const auto& [x, y] : directions) {
     point = before + step_cells * Vec2(x, y);
@@ -108,7 +106,7 @@ bool slide_leg(PathDraft& path, std::size_t turn, double step_cells) {
   const Vec2 to = path.points[turn + 1];
   const Vec2 on_from = way(path, turn - 1, turn);
   const Vec2 on_to = way(path, turn + 2, turn + 1);
-  const double limit = path.cost_around(turn, turn + 1) * (1.0 - worthwhile);
+  const double limit = path.cost_around(turn, turn + 1) * (1.0 - worthwhile_saving);
   std::vector<Change> changes;
   for (const Shift& shift : shifts) {
     path.points[turn] = from + shift.first * step_cells * on_from;
@@ -129,7 +127,7 @@ bool straighten(PathDraft& path, std::size_t turn) {
   const std::vector<Vec2> whole = path.points;
   const Vec2 on_from = is_first ? Vec2::Zero() : way(path, turn - 2, turn - 1);
   const Vec2 on_to = is_last ? Vec2::Zero() : way(path, turn + 2, turn + 1);
-  const double limit = path.cost_around(turn - 1, turn + 1) * (1.0 - worthwhile);
+  const double limit = path.cost_around(turn - 1, turn + 1) * (1.0 - worthwhile_saving);
   path.points.erase(path.points.begin() + static_cast<std::ptrdiff_t>(turn));
   std::vector<Change> changes;
   for (const double shift_from : std::span(radii).first(is_first ? 1 : radii.size())) {

@@ -81,8 +81,7 @@ class TurnMerging {
   /// Replaces the turns between two points of the path by one.
   bool merge(std::size_t from, std::size_t to) {
     if (to >= points_.size()) return false;
-    constexpr double worthwhile = 1e-6;
-    const double limit = cost_around({&points_[from], to - from + 1}, from, to) * (1.0 - worthwhile);
+    const double limit = cost_around({&points_[from], to - from + 1}, from, to) * (1.0 - worthwhile_saving);
     Fan fan_from(space_, points_[from], points_[from + 1]);
     Fan fan_to(space_, points_[to], points_[to - 1]);
     for (const Meeting& at : meetings(fan_from, fan_to, from, to, limit)) {
@@ -101,22 +100,13 @@ class TurnMerging {
 
   /// Cost of a part from one point of the path to another, with the turns at both.
   [[nodiscard]] double cost_around(std::span<const Vec2> part, std::size_t from, std::size_t to) const {
-    return cost_.path(part, {.start_rad = arrival_rad(from), .goal_rad = way_on_rad(to)});
-  }
-
-  [[nodiscard]] std::optional<double> arrival_rad(std::size_t at) const {
-    return at > 0 ? std::optional(heading_between(points_[at - 1], points_[at])) : headings_.start_rad;
-  }
-  [[nodiscard]] std::optional<double> way_on_rad(std::size_t at) const {
-    return at + 1 < points_.size() ? std::optional(heading_between(points_[at], points_[at + 1]))
-                                   : headings_.goal_rad;
+    return cost_.path(part, headings_of_part(points_, from, to, headings_));
   }
 
   /// Those that may cost less than the limit, cheapest first.
   const std::vector<Meeting>& meetings(const Fan& fan_from, const Fan& fan_to, std::size_t from,
                                        std::size_t to, double limit) {
-    const std::optional<double> arrival = arrival_rad(from);
-    const std::optional<double> way_on = way_on_rad(to);
+    const EndHeadings ends = headings_of_part(points_, from, to, headings_);
     meetings_.clear();
     for (std::size_t i = 0; i < Fan::offsets_deg.size(); ++i) {
       for (std::size_t k = 0; k < Fan::offsets_deg.size(); ++k) {
@@ -124,8 +114,8 @@ class TurnMerging {
         if (!at || at->cost >= limit) continue;
         const double in_rad = wrap_angle(fan_to.heading_rad(k) + std::numbers::pi);
         at->cost += cost_.turn(fan_from.heading_rad(i), in_rad);
-        if (arrival) at->cost += cost_.turn(*arrival, fan_from.heading_rad(i));
-        if (way_on) at->cost += cost_.turn(in_rad, *way_on);
+        if (ends.start_rad) at->cost += cost_.turn(*ends.start_rad, fan_from.heading_rad(i));
+        if (ends.goal_rad) at->cost += cost_.turn(in_rad, *ends.goal_rad);
         if (at->cost < limit) meetings_.push_back(*at);
       }
     }

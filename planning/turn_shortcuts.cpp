@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t ray_count = 180;
 constexpr std::size_t most_fans = 6;  // of a path, as each costs 0.1 to 0.3 ms
-constexpr double worthwhile = 1e-6;   ///< least relative gain
 
 /// A direction and its heading; all are the same for every fan.
 struct Ray {
@@ -113,9 +112,10 @@ class Shortcuts {
   }
 
   [[nodiscard]] Part part(std::size_t from, std::size_t to) const {
-    Part part{.from = from, .to = to, .between = points_[to] - points_[from], .headings = headings_};
-    if (from > 0) part.headings.start_rad = heading_between(points_[from - 1], points_[from]);
-    if (to + 1 < points_.size()) part.headings.goal_rad = heading_between(points_[to], points_[to + 1]);
+    Part part{.from = from,
+              .to = to,
+              .between = points_[to] - points_[from],
+              .headings = headings_of_part(points_, from, to, headings_)};
     part.cost = cost_.path(std::span(points_).subspan(from, to - from + 1), part.headings);
     return part;
   }
@@ -123,7 +123,7 @@ class Shortcuts {
   void look_at(const Part& part, Shortcut& best) {
     const RayFan& near = fans_[part.from];
     const double straight_cells = part.between.norm();
-    const double limit = part.cost * (1.0 - worthwhile) - best.saved;
+    const double limit = part.cost * (1.0 - worthwhile_saving) - best.saved;
     if (cost_.at_least(straight_cells) >= limit) return;
     for (const bool to_the_left : {true, false}) {
       face(part, to_the_left, straight_cells - near.longest_cells);
@@ -156,7 +156,7 @@ class Shortcuts {
       const double from_cells = facing.aside / parallel;
       if (from_cells > fans_[part.from].length_cells[ray]) continue;
       const double saved = part.cost - cost_with(part, ray, facing.ray, from_cells, to_cells);
-      if (saved <= std::max(best.saved, worthwhile * part.cost)) continue;
+      if (saved <= std::max(best.saved, worthwhile_saving * part.cost)) continue;
       const Vec2 turn = points_[part.from] + from_cells * direction;
       // Rounding may lay a leg beside its ray.
       if (space_.along(points_[part.from], turn) && space_.along(turn, points_[part.to]))
