@@ -45,27 +45,22 @@ TurnPath TwoWayTurnSearch::find(std::span<const Vec2> known, const EndHeadings& 
   return found;
 }
 
-/// The cheapest path, and the next ones that turn at clearly different places.
+/// The cheapest path, and the next one that turns at clearly different places; more of them cost time and
+/// save hardly any.
 TurnPath TwoWayTurnSearch::best_paths() {
-  constexpr std::size_t most = 2;  // measured: more cost time and save hardly any
   std::ranges::sort(complete_, [](const Open& a, const Open& b) { return Later{}(b, a); });
   TurnPath found;
   const double apart = 4.0 * space_.radius_cells();
-  const auto is_like = [&](const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-    return std::ranges::equal(a, b, [&](const Vec2& p, const Vec2& q) { return (p - q).norm() < apart; });
-  };
+  const auto is_near = [&](const Vec2& p, const Vec2& q) { return (p - q).norm() < apart; };
   for (const Open& each : complete_) {
     std::vector<Vec2> points = points_over(each.from);
     if (found.points.empty()) {
       found.points = std::move(points);
       found.cost = each.total;
-      continue;
+    } else if (!std::ranges::equal(points, found.points, is_near)) {
+      found.others.push_back(std::move(points));
+      break;
     }
-    if (is_like(points, found.points) ||
-        std::ranges::any_of(found.others, [&](const auto& other) { return is_like(points, other); }))
-      continue;
-    if (found.others.size() + 1 >= most) break;
-    found.others.push_back(std::move(points));
   }
   return found;
 }
