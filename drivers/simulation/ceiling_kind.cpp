@@ -16,6 +16,8 @@ std::string_view name_of(CeilingKind kind) {
       return "plaster";
     case CeilingKind::vents:
       return "vents";
+    case CeilingKind::slats:
+      return "slats";
     case CeilingKind::detectors:
       return "detectors";
     case CeilingKind::reflectors:

@@ -196,6 +196,16 @@ void put_vents(cv::Mat1f& texels, double panel_m, Random random) {
   });
 }
 
+/// Slats along x every 20 to 100 mm. The slots are no wider than a dot, which could not be glued over them.
+void lay_slats(cv::Mat1f& texels, Random random) {
+  const double spacing_m = period_m / std::round(period_m / random.uniform(0.02, 0.1));
+  const double slot_m = std::min(random.uniform(0.006, 0.02), 0.5 * spacing_m);
+  const double slot = random.uniform(0.15, 0.45);
+  for_each_texel(texels, [&](double, double y, double value) {
+    return mixed(value, slot, inside(0.5 * slot_m - from_multiple(y, spacing_m)));
+  });
+}
+
 /// A cap with a dark gap around it and a dark chamber in its middle, or a sprinkler's rosette with a bright
 /// pin.
 void put_detectors(cv::Mat1f& texels, Random random) {
@@ -267,6 +277,9 @@ SurfaceReflectance reflectance_of(CeilingKind kind, std::uint64_t seed) {
     case CeilingKind::vents:
       lay_panels(texels, tile_m, shape);
       put_vents(texels, tile_m, shape);
+      break;
+    case CeilingKind::slats:
+      lay_slats(texels, shape);
       break;
     case CeilingKind::detectors:
       put_detectors(texels, shape);
