@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <optional>
 
 #include "localization/detection/ceiling_level.hpp"
+#include "localization/detection/dark_line.hpp"
 #include "localization/detection/disc_light.hpp"
 #include "localization/detection/even_ceiling.hpp"
 
@@ -59,7 +61,8 @@ class DotsSeen {
         options_.level_spreads * level_->spread_gray();
     const double in_view = share_at_level(gray, place_px, options_.inner_radii * radius_px_,
                                           level_->at(place_px), tolerance_gray);
-    if (in_view < options_.least_in_view) return 0.0;
+    if (in_view < options_.least_in_view && !shows_line_of_ceiling(gray, place_px, tolerance_gray))
+      return 0.0;
     if (!even_ceiling_) even_ceiling_.emplace();
     if (!even_ceiling_->copy(gray, place_px, options_.ring_radii * radius_px_, noise_gray_,
                              -options_.level_noise_sigmas * noise_gray_))
@@ -67,6 +70,25 @@ class DotsSeen {
     const std::optional<DiscLight> light = light_in_disc(even_ceiling_->gray(), even_ceiling_->center_px(),
                                                          radius_px_, even_ceiling_->background_gray());
     return light ? odds_of(light->mass - light_of_neighbours(place_px)) : 0.0;
+  }
+
+  /// As dark as a line through it, as there are lines behind the marker's dots: what is dark is the ceiling.
+  [[nodiscard]] bool shows_line_of_ceiling(const cv::Mat& gray, const Vec2& place_px, double tolerance_gray) {
+    if (!shows_dark_line(gray, disc_at(place_px, tolerance_gray))) return false;
+    if (!dots_on_lines_) {
+      dots_on_lines_ = std::ranges::count_if(dots_, [&](const Dot& dot) {
+        return is_before_dark_line(gray, disc_at(dot.center_px, tolerance_gray));
+      });
+    }
+    return *dots_on_lines_ >= options_.least_dots_on_lines;
+  }
+
+  [[nodiscard]] DiscOnCeiling disc_at(const Vec2& center_px, double tolerance_gray) const {
+    return {.center_px = center_px,
+            .side_px = options_.side_radii * radius_px_,
+            .ring_px = options_.line_radii * radius_px_,
+            .level_gray = level_->at(center_px),
+            .tolerance_gray = tolerance_gray};
   }
 
   /// Light of the marker's dots within the disc about a place, where blur brings it: of Gaussians with the
@@ -100,7 +122,8 @@ class DotsSeen {
   double background_gray_;
   double contrast_gray_;
   std::optional<CeilingLevel> level_;
-  std::optional<EvenCeiling> even_ceiling_;  ///< made when needed: it is large
+  std::optional<std::ptrdiff_t> dots_on_lines_;  ///< dots with a dark line behind them
+  std::optional<EvenCeiling> even_ceiling_;      ///< made when needed: it is large
 };
 
 }  // namespace

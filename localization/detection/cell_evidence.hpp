@@ -27,6 +27,11 @@ struct CellEvidenceOptions {
   /// within `inner_radii`, is at the ceiling's level. As much of a dot would show as light.
   double inner_radii = 0.85;
   double least_in_view = 0.2;
+  /// Or if a dark line passes through it that is the ceiling's: so many of the marker's dots have lines
+  /// behind them. Lines lie behind dots, and a cover wide enough to hide one has no ceiling on both sides.
+  int least_dots_on_lines = 1;
+  double line_radii = 2.2;  ///< a line is looked for up to here: the next dot's edge is at 3
+  double side_radii = 1.4;  ///< beyond a dot's blurred edge the ceiling is seen beside it
   /// At its level: off by less than `dark_contrast` or these sigmas of the noise, ...
   double level_noise_sigmas = 3.0;
   /// ... plus so many standard deviations of the level from dot to dot.

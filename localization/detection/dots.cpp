@@ -14,6 +14,8 @@ constexpr int smallest_part_px = 4;      // least size of each part after erosio
 constexpr double round_as_a_dot = 1.25;  // aspect ratio: rounder areas are a single dot
 constexpr double round_part = 1.5;       // of a part that erosion leaves; others are several dots still
 constexpr double binary_sigma_px = 0.1;  // of the centroid of a dot's bright pixels
+constexpr double usual_spread = 1.32;    // sigmas from the second darkest to the median of 16 normal samples
+constexpr double clearly_more = 1.8;     // 16 samples of noise alone rarely spread this far
 
 /// For non-negative values.
 int rounded(double value) {
@@ -45,8 +47,6 @@ std::optional<double> middle_gray(const cv::Mat& gray, const Vec2& center_px) {
 /// Background variance around a dot in excess of the frame's noise: joints and stains of the ceiling. They
 /// bias its centre the same way in every frame.
 double uneven_variance_gray2(const Surroundings& around, double dark) {
-  constexpr double usual_spread = 1.32;  // sigmas from the second darkest to the median of 16 normal samples
-  constexpr double clearly_more = 1.8;   // 16 samples of noise alone rarely spread this far
   const double sigma = (around.median - around.second_darkest) / usual_spread;
   return sigma > clearly_more * dark ? sigma * sigma - dark * dark : 0.0;
 }
@@ -91,9 +91,17 @@ std::optional<Dot> measured_on(const cv::Mat& gray, Dot dot, double reach_px, co
   return dot;
 }
 
-/// Does the ceiling around a dot vary by so much that it shows in the dot's light?
-bool shows_structure(const Surroundings& around, double contrast_gray, const DotOptions& options) {
+/// Is part of the ceiling around a dot so much darker that it shows in the dot's light?
+bool has_darker_part(const Surroundings& around, double contrast_gray, const DotOptions& options) {
   return around.median - around.second_darkest > options.structure * contrast_gray;
+}
+
+/// The same where lines may fill most of the ring: it varies by twice as much, and more than by noise, but
+/// not by so much as where another dot shines into it.
+bool shows_lines(const Surroundings& around, double contrast_gray, double dark, const DotOptions& options) {
+  const double range = around.second_brightest - around.second_darkest;
+  return range > 2.0 * options.structure * contrast_gray && range < options.most_structure * contrast_gray &&
+         range > clearly_more * 2.0 * usual_spread * dark;
 }
 
 /// A faint dot may exceed the threshold in several specks, each of which measures the whole dot; one is kept.
@@ -202,8 +210,10 @@ std::optional<Dot> DotFinder::measured_dot(const cv::Mat& gray, const BrightArea
   dot.contrast_gray = *middle - dot.background_gray;
   if (!(dot.contrast_gray > options_.least_contrast * thresholds_.least_range_gray())) return std::nullopt;
   const DotNoise noise{dark_noise_gray, light_noise_.variance_per_gray()};
-  const bool structured = thresholds_.has_structure(rounded(dot.center_px.x()), rounded(dot.center_px.y())) &&
-                          shows_structure(around, dot.contrast_gray, options_);
+  const bool tile_is_structured =
+      thresholds_.has_structure(rounded(dot.center_px.x()), rounded(dot.center_px.y()));
+  const bool structured = (tile_is_structured && has_darker_part(around, dot.contrast_gray, options_)) ||
+                          shows_lines(around, dot.contrast_gray, dark_noise_gray, options_);
   if (options_.by_binary_center || !structured ||
       !even_ceiling_.copy(gray, dot.center_px, ring_px, dark_noise_gray,
                           options_.least_light * dot.contrast_gray)) {

@@ -44,6 +44,7 @@ struct DotOptions {
   /// A ceiling that varies by this share of the dot's contrast around it is evened before the dot is
   /// measured: such a dark line on one side shifts its centre by a few hundredths of a pixel.
   double structure = 0.08;
+  double most_structure = 0.5;  ///< surroundings that vary by more than this share hold other dots
   /// Share of the dot's contrast up to which light around it is the ceiling's then. A dot behind a blur of
   /// 0.9 px has 3 % of its light there.
   double least_light = 0.2;

@@ -44,7 +44,7 @@ double quantile(std::array<double, plane_samples> values, double share) {
 /// below it sooner, as lines are darker than the ceiling. It starts above the median and closes in: with wide
 /// slots in the ring, the ceiling is the brighter part.
 Plane plane_through(const Ring& ring, double noise_gray) {
-  constexpr double start_share = 0.6;
+  constexpr double start_share = 0.7;
   constexpr int iterations = 8;
   constexpr double noise_sigmas = 3.0;
   constexpr double above_to_below = 2.0;  // tolerance

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "localization/detection/frame_noise.hpp"
 #include "localization/detection/sixteen_pixels.hpp"
 #include "localization/detection/wide_registers.hpp"
 
@@ -119,36 +120,6 @@ Extremes extremes_of_part(const cv::Mat& gray, const cv::Rect& part) {
     }
   }
   return result;
-}
-
-/// Standard deviation of a pixel's noise, from squared differences of neighbours in short stretches of rows
-/// spread over the frame. A difference cancels the ceiling's pattern and has twice a pixel's variance; dots
-/// and lamps are in the noisier stretches. The lower quartile of the stretches is used: with so few
-/// differences, each of which shares its pixels with the next, it is 0.79 of the mean.
-double noise_of(const cv::Mat& gray) {
-  constexpr int most_stretches = 48;
-  constexpr double quartile_to_mean = 0.79;
-  const int columns = gray.cols / tile;
-  if (columns == 0 || gray.rows == 0) return 0.0;
-  const int wanted_rows = std::max(most_stretches / columns, 1);
-  const int row_step = std::max(gray.rows / wanted_rows, 1);
-  const int column_step = (columns + most_stretches - 1) / most_stretches;
-  std::array<int, most_stretches> squares{};
-  std::size_t count = 0;
-  for (int v = row_step / 2; v < gray.rows; v += row_step) {
-    for (int column = 0; column < columns && count < squares.size(); column += column_step) {
-      const auto* const pixels = gray.ptr<std::uint8_t>(v) + static_cast<std::ptrdiff_t>(column) * tile;
-      int sum = 0;
-      for (int u = 0; u + 1 < tile; ++u) {
-        const int difference = pixels[u + 1] - pixels[u];
-        sum += difference * difference;
-      }
-      squares[count++] = sum;
-    }
-  }
-  auto* const quartile = squares.data() + count / 4;
-  std::nth_element(squares.data(), quartile, squares.data() + count);
-  return std::sqrt(*quartile / (quartile_to_mean * 2.0 * (tile - 1)));
 }
 
 /// The background of a tile on which dots are to be told from the ceiling.

@@ -34,8 +34,10 @@ Surroundings surroundings_of(const std::uint8_t* ring) {
   Samples smaller{};
   for (std::size_t i = 0; i < ring_samples; ++i) smaller -= static_cast<Samples>(samples > ring[i]);
   const auto of_rank = [&](std::uint8_t rank) { return greatest_of(smaller <= rank ? samples : Samples{}); };
-  return {
-      .second_darkest = of_rank(1), .third = of_rank(ring_samples / 3), .median = of_rank(ring_samples / 2)};
+  return {.second_darkest = of_rank(1),
+          .third = of_rank(ring_samples / 3),
+          .median = of_rank(ring_samples / 2),
+          .second_brightest = of_rank(ring_samples - 2)};
 }
 
 }  // namespace

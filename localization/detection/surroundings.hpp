@@ -12,6 +12,7 @@ struct Surroundings {
   std::uint8_t second_darkest = 0;
   std::uint8_t third = 0;  ///< a third of the pixels are darker
   std::uint8_t median = 0;
+  std::uint8_t second_brightest = 0;
 };
 
 /// From a ring of 16 pixels around the dot, clamped to the frame.

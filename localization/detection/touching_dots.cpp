@@ -6,6 +6,21 @@
 #include <numeric>
 
 namespace lodestar {
+namespace {
+
+/// Where half of the dots lie on structure: is the background that they were fitted with darker than all of
+/// those they were measured with alone? Then dark lines were taken for the background, and the ceiling
+/// between them for the dots' light.
+bool took_lines_for_background(double fitted_gray, std::span<const std::size_t> group,
+                               std::span<const Dot> dots, double noise_gray) {
+  constexpr double sigmas = 3.0;
+  const auto on_structure = std::ranges::count_if(group, [&](std::size_t i) { return dots[i].on_structure; });
+  return 2 * on_structure >= std::ssize(group) && std::ranges::all_of(group, [&](std::size_t i) {
+           return fitted_gray < dots[i].background_gray - sigmas * noise_gray;
+         });
+}
+
+}  // namespace
 
 void TouchingDots::fit(const cv::Mat& gray, double noise_gray, double variance_per_gray,
                        std::vector<Dot>& dots) {
@@ -66,7 +81,8 @@ void TouchingDots::fit_group(const cv::Mat& gray, double noise_gray, double vari
   }
   light.width_px = radius_px / std::numbers::sqrt2;
   const FittedDots fitted = joint_fit_.fit(gray, starts_px_, light);
-  if (fitted.dots.empty()) return;
+  if (fitted.dots.empty() || took_lines_for_background(fitted.background_gray, group, dots, noise_gray))
+    return;
   for (const std::size_t i : group) dropped_[i] = true;
   for (const FittedDot& fit : fitted.dots) {
     Dot& dot = dots[group[fit.start]];
