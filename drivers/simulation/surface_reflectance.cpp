@@ -196,10 +196,10 @@ void put_vents(cv::Mat1f& texels, double panel_m, Random random) {
   });
 }
 
-/// Slats along x every 20 to 100 mm. The slots are no wider than a dot, which could not be glued over them.
+/// Slats along x every 20 to 100 mm. A dot over the middle of a wider slot would have nothing to hold on.
 void lay_slats(cv::Mat1f& texels, Random random) {
   const double spacing_m = period_m / std::round(period_m / random.uniform(0.02, 0.1));
-  const double slot_m = std::min(random.uniform(0.006, 0.02), 0.5 * spacing_m);
+  const double slot_m = std::min(random.uniform(0.006, 0.016), 0.4 * spacing_m);
   const double slot = random.uniform(0.15, 0.45);
   for_each_texel(texels, [&](double, double y, double value) {
     return mixed(value, slot, inside(0.5 * slot_m - from_multiple(y, spacing_m)));

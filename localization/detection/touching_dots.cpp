@@ -43,24 +43,19 @@ void TouchingDots::fit(const cv::Mat& gray, double noise_gray, double variance_p
 bool TouchingDots::find_groups(std::span<const Dot> dots) {
   const auto near = [&](std::size_t i, std::size_t j, double sigmas) {
     const auto [small, large] = std::minmax(dots[i].radius_px, dots[j].radius_px);
-    if (large > options_.alike * small) return false;  // a glint beside a dot
-    const double width_px = large / std::numbers::sqrt2;
-    return (dots[i].center_px - dots[j].center_px).squaredNorm() < square(sigmas * width_px);
+    // A dot's sigma is its radius over the root of 2. A glint beside it is not alike.
+    return 2.0 * (dots[i].center_px - dots[j].center_px).squaredNorm() < square(sigmas * large) &&
+           large <= options_.alike * small;
   };
-  const auto touches_any = [&](std::size_t i) {
-    for (std::size_t j = 0; j < dots.size(); ++j)
-      if (j != i && near(i, j, options_.touching_sigmas)) return true;
-    return false;
-  };
+  touching_.assign(dots.size(), 0);
+  for (std::size_t i = 0; i < dots.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (near(i, j, options_.touching_sigmas)) touching_[i] = touching_[j] = 1;
+  if (std::ranges::count(touching_, 1) == 0) return false;
   groups_.reset(dots.size());
-  bool any = false;
-  for (std::size_t i = 0; i < dots.size(); ++i) {
-    if (!touches_any(i)) continue;
-    any = true;
-    for (std::size_t j = 0; j < dots.size(); ++j)
+  for (std::size_t i = 0; i < dots.size(); ++i)
+    for (std::size_t j = 0; touching_[i] != 0 && j < dots.size(); ++j)
       if (near(i, j, options_.fitted_along_sigmas)) groups_.join(i, j);
-  }
-  if (!any) return false;
   groups_.number(numbers_);
   order_.resize(dots.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <span>
 #include <vector>
@@ -38,8 +39,9 @@ class TouchingDots {
   TouchingOptions options_;
   JointFit joint_fit_;
   DisjointSets groups_;
-  std::vector<std::size_t> numbers_;  ///< of each dot's group
-  std::vector<std::size_t> order_;    ///< dots, group by group
+  std::vector<std::uint8_t> touching_;  ///< 1 for a dot that touches another
+  std::vector<std::size_t> numbers_;    ///< of each dot's group
+  std::vector<std::size_t> order_;      ///< dots, group by group
   std::vector<Vec2> starts_px_;
   std::vector<bool> dropped_;
 };
