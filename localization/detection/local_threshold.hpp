@@ -31,8 +31,8 @@ class LocalThresholds {
   void find_within(std::span<const cv::Rect> parts, const cv::Mat& gray,
                    const LocalThresholdOptions& options);
 
-  /// Standard deviation of a pixel's noise in the dark, from the differences of neighbouring pixels in the
-  /// quieter stretches of some rows.
+  /// Standard deviation of a pixel's noise in the dark, from the differences of neighbouring pixels where and
+  /// in the direction in which the ceiling is quiet: `noise_of`.
   [[nodiscard]] double noise_gray() const { return noise_gray_; }
 
   /// The contrast from which on a tile may hold dots in the last frame: from the options and the noise.

@@ -51,11 +51,13 @@ bool TouchingDots::find_groups(std::span<const Dot> dots) {
   for (std::size_t i = 0; i < dots.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (near(i, j, options_.touching_sigmas)) touching_[i] = touching_[j] = 1;
-  if (std::ranges::count(touching_, 1) == 0) return false;
+  if (std::ranges::find(touching_, 1) == touching_.end()) return false;
   groups_.reset(dots.size());
-  for (std::size_t i = 0; i < dots.size(); ++i)
-    for (std::size_t j = 0; touching_[i] != 0 && j < dots.size(); ++j)
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    if (touching_[i] == 0) continue;
+    for (std::size_t j = 0; j < dots.size(); ++j)
       if (near(i, j, options_.fitted_along_sigmas)) groups_.join(i, j);
+  }
   groups_.number(numbers_);
   order_.resize(dots.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
