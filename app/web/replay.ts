@@ -28,6 +28,8 @@ export class Replay {
   private opened = false;
   private watching = 0;
   private listed = '';
+  private asked = '';  // the run that was chosen last: answers about runs chosen before it come too late
+  private askedBeside: string | null = null;
   private playing = false;
   private lastFrame = 0;
   private plots: DrivePlots | null = null;
@@ -88,7 +90,7 @@ export class Replay {
     this.plots ??= new DrivePlots(byId('replay-plots'), (time) => this.settleAt(time));
     await this.load(chosen);
     this.wanted = null;
-    if (wanted?.run !== chosen) return;
+    if (wanted === null || this.run?.name !== wanted.run) return;
     if (wanted.at !== null) this.settleAt(wanted.at);
     if (wanted.beside !== null && names.includes(wanted.beside)) await this.loadSecond(wanted.beside);
   }
@@ -96,8 +98,8 @@ export class Replay {
   leave(): void {
     this.opened = false;
     clearInterval(this.watching);
-    this.listed = '';
-    this.run = this.second = null;
+    this.listed = this.asked = '';
+    this.run = this.second = this.askedBeside = null;
     this.playing = false;
     this.stage.scene = null;
     byId('replay').hidden = byId('replay-plots').hidden = true;
@@ -125,12 +127,15 @@ export class Replay {
     if (this.run) linkTo({ run: this.run.name, at: this.time, beside: this.second?.name ?? null });
   }
 
+  /** Shows a run from its start; one that is shown already stays at its time. */
   private async load(name: string): Promise<void> {
+    this.asked = name;
     const run = await getRun(name);
     const { scene, words } = await sceneOf(run, this.stage, this.site);
-    if (!this.opened) return;
+    if (this.asked !== name) return;
+    const time = this.run?.name === name ? this.time : null;
     this.run = run;
-    if (this.second?.name === name) this.second = null;
+    if (this.second?.name === name) this.second = this.askedBeside = null;
     this.stage.scene = scene;
     this.runs.value = name;
     this.list.mark(name, this.second?.name ?? null);
@@ -140,11 +145,14 @@ export class Replay {
     this.plots?.set(this.columns);
     showSummary(run, words);
     this.stage.redraw();
-    this.settleAt(this.start());
+    this.settleAt(time ?? this.start());
   }
 
   private async loadSecond(name: string | null): Promise<void> {
-    this.second = name === null ? null : await getRun(name);
+    this.askedBeside = name;
+    const run = name === null ? null : await getRun(name);
+    if (this.askedBeside !== name) return;
+    this.second = run;
     this.list.mark(this.run?.name ?? '', name);
     this.settleAt(this.time);
   }

@@ -127,6 +127,26 @@ describe('runs', () => {
     await leave(page);
   });
 
+  test('chosen one after the other show the last, whichever answer comes first; chosen again, a run stays at its time', async () => {
+    const page = await replaying('plain');
+    const held = [];
+    await page.route('**/api/runs/waiting', async (route) => { await new Promise((go) => held.push(go)); await route.continue(); });
+    await line(page, 'waiting').getByRole('button').first().click();
+    await line(page, 'pushed').getByRole('button').first().click();
+    await opened(page, 'pushed');
+    await page.evaluate(() => { const { replay } = window.lodestar.console; replay.goTo(replay.start() + 3); });
+    const time = await page.evaluate(() => window.lodestar.console.replay.time);
+    const late = page.waitForResponse((answer) => answer.url().endsWith('/api/runs/waiting'));
+    held.forEach((go) => go());
+    await (await late).finished();
+    const again = page.waitForResponse((answer) => answer.url().endsWith('/api/runs/pushed'));
+    await page.getByRole('combobox', { name: 'Run', exact: true }).selectOption('pushed');  // the one that is shown
+    await (await again).finished();
+    await page.waitForTimeout(300);
+    assert.deepEqual(await page.evaluate(() => { const { run, time: now } = window.lodestar.console.replay; return [run.name, now]; }), ['pushed', time]);
+    await leave(page);
+  });
+
   test('a link to a run that is gone says so and shows the newest', async () => {
     const page = await open(browser, `${server.url}#run=nowhere&at=3`);
     await page.locator('#state', { hasText: "There is no run 'nowhere' any more" }).waitFor();
