@@ -32,15 +32,15 @@ double IntegrityMonitor::rolled_until_m(Stamp stamp) const {
 void IntegrityMonitor::add_fix(const FixVerdict& fix) {
   switch (fix.outcome) {
     case FixOutcome::accepted:
-      return agree();
+      return agree(fix);
     case FixOutcome::started:
-      if (is_out_of_reach(fix)) latched_ = IntegrityAlarm::carried_away;
+      if (!may_start_by(fix)) latched_ = IntegrityAlarm::carried_away;
       failure_.reset();
-      return agree();
+      return agree(fix);
     case FixOutcome::relocated:
       if (is_gross(fix)) latched_ = IntegrityAlarm::carried_away;
       moved_at_ = fix.stamp;
-      return agree();
+      return agree(fix);
     case FixOutcome::refused_gate:
       return contradict(fix);
     case FixOutcome::collecting:
@@ -49,10 +49,11 @@ void IntegrityMonitor::add_fix(const FixVerdict& fix) {
   }
 }
 
-void IntegrityMonitor::agree() {
+void IntegrityMonitor::agree(const FixVerdict& fix) {
   gross_in_a_row_ = 0;
   witnesses_.clear();
   rolled_at_agreement_m_ = rolled_m_;
+  agreed_ = Waypoint{fix.map_from_base.position_m, rolled_until_m(fix.stamp)};
 }
 
 void IntegrityMonitor::contradict(const FixVerdict& fix) {
@@ -64,7 +65,7 @@ void IntegrityMonitor::contradict(const FixVerdict& fix) {
   std::vector<int> who(fix.ids.begin(), fix.ids.end());
   std::ranges::sort(who);
   const auto [witness, is_new] =
-      witnesses_.try_emplace(std::move(who), Witness{map_from_estimated, rolled_m});
+      witnesses_.try_emplace(std::move(who), Witness{map_from_estimated, rolled_m, is_beyond_wheels(fix)});
   if (is_new) return;
   const Witness& first = witness->second;
   const double apart_m =
@@ -82,7 +83,9 @@ void IntegrityMonitor::contradict(const FixVerdict& fix) {
 
 void IntegrityMonitor::register_odometry_failure(const FixVerdict& fix) {
   failure_is_new_ = true;
-  failure_ = OdometryFailure{fix.expected->position_m, rolled_m_};
+  failure_ = OdometryFailure{.estimated = {fix.expected->position_m, rolled_m_}};
+  for (const auto& [ids, witness] : witnesses_)
+    if (witness.is_out_of_reach) failure_->ids_out_of_reach.insert(ids.begin(), ids.end());
   witnesses_.clear();
   gross_in_a_row_ = 0;
   std::erase_if(wheel_errors_, [&](Stamp error) { return fix.stamp - error > options_.memory; });
@@ -96,11 +99,22 @@ bool IntegrityMonitor::is_gross(const FixVerdict& fix) const {
           std::abs(wrap_angle(fix.map_from_base.yaw_rad - fix.expected->yaw_rad)) > options_.gross_rad);
 }
 
-/// After an odometry failure, a new belief cannot start farther away than the wheels have rolled since.
-/// Otherwise a marker is displaced, or the robot was carried.
-bool IntegrityMonitor::is_out_of_reach(const FixVerdict& start) const {
-  return failure_ && (start.map_from_base.position_m - failure_->position_m).norm() >
-                         rolled_m_ - failure_->rolled_m + options_.gross_m;
+/// Since the last agreement, the robot cannot have gone farther than its wheels have rolled.
+bool IntegrityMonitor::is_beyond_wheels(const FixVerdict& fix) const {
+  return agreed_ && (fix.map_from_base.position_m - agreed_->position_m).norm() >
+                        rolled_until_m(fix.stamp) - agreed_->rolled_m + options_.steady_m;
+}
+
+/// After an odometry failure, a new belief cannot start farther away than the wheels have rolled since, nor
+/// by markers alone that were out of reach when they began to contradict. Otherwise a marker is displaced, or
+/// the robot was carried.
+bool IntegrityMonitor::may_start_by(const FixVerdict& fix) const {
+  if (!failure_) return true;
+  const Waypoint& estimated = failure_->estimated;
+  const bool is_near = (fix.map_from_base.position_m - estimated.position_m).norm() <=
+                       rolled_m_ - estimated.rolled_m + options_.gross_m;
+  const auto was_in_reach = [this](int id) { return !failure_->ids_out_of_reach.contains(id); };
+  return is_near && std::ranges::any_of(fix.ids, was_in_reach);
 }
 
 bool IntegrityMonitor::take_odometry_failure() {

@@ -3,6 +3,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -32,7 +33,7 @@ enum class IntegrityAlarm {
   contradicted,   ///< fixes place the robot far from the estimate
   moved,          ///< the estimate has just been relocated to the fixes
   wheels_wrong,   ///< odometry contradicts the fixes by a changing error
-  carried_away,   ///< the robot was carried elsewhere; latched
+  carried_away,   ///< the robot was carried elsewhere, or the only marker that it could go by; latched
   wheels_broken,  ///< repeated odometry failures; latched
 };
 
@@ -47,7 +48,10 @@ struct FixVerdict {
 
 /// Watches how fixes contradict the estimate. A displaced marker contradicts steadily: its fixes show the
 /// same error of the estimate wherever the robot drives. So does a robot that was carried away, but grossly.
-/// Where the error by one marker changes as the robot drives, odometry is wrong. A value type.
+/// Where the error by one marker changes as the robot drives, odometry is wrong. Wheels that slip move the
+/// robot no farther than they roll, though: fixes that began to contradict by more are of a marker that was
+/// displaced or of a robot that was carried, and no belief starts by them after an odometry failure. A value
+/// type.
 class IntegrityMonitor {
  public:
   explicit IntegrityMonitor(const IntegrityOptions& options = {}) : options_(options) {}
@@ -72,6 +76,7 @@ class IntegrityMonitor {
   struct Witness {
     Pose2 map_from_estimated;
     double rolled_m = 0.0;
+    bool is_out_of_reach = false;  ///< farther from the last agreement than the wheels had rolled since
   };
 
   /// Distance rolled until `stamp`.
@@ -80,17 +85,23 @@ class IntegrityMonitor {
     double distance_m = 0.0;
   };
 
-  /// Position of the estimate at an odometry failure.
-  struct OdometryFailure {
+  /// A place on the way, and the distance rolled until there.
+  struct Waypoint {
     Vec2 position_m;
     double rolled_m = 0.0;
   };
 
-  void agree();
+  struct OdometryFailure {
+    Waypoint estimated;
+    std::set<int> ids_out_of_reach;  ///< of the witnesses out of reach
+  };
+
+  void agree(const FixVerdict& fix);
   void contradict(const FixVerdict& fix);
   void register_odometry_failure(const FixVerdict& fix);
   [[nodiscard]] double rolled_until_m(Stamp stamp) const;
-  [[nodiscard]] bool is_out_of_reach(const FixVerdict& start) const;
+  [[nodiscard]] bool is_beyond_wheels(const FixVerdict& fix) const;
+  [[nodiscard]] bool may_start_by(const FixVerdict& fix) const;
   [[nodiscard]] bool is_gross(const FixVerdict& fix) const;
 
   IntegrityOptions options_;
@@ -98,6 +109,7 @@ class IntegrityMonitor {
   std::deque<Rolled> rolled_;  ///< of the last `belief_history`
   double rolled_m_ = 0.0;
   double rolled_at_agreement_m_ = 0.0;
+  std::optional<Waypoint> agreed_;  ///< by the last fix that agreed, at its exposure
   int gross_in_a_row_ = 0;
   std::map<std::vector<int>, Witness> witnesses_;
   std::vector<Stamp> wheel_errors_;

@@ -150,6 +150,52 @@ TEST(IntegrityMonitor, does_not_let_a_belief_begin_anew_out_of_the_wheels_reach)
   }
 }
 
+/// The error by one marker changes while the wheels slip. A marker that fell first jumped away before they
+/// did.
+TEST(IntegrityMonitor, lets_no_belief_begin_by_a_marker_alone_that_jumped_farther_than_the_wheels_rolled) {
+  for (const double jump_m : {0.0, 0.08, 0.28}) {
+    for (const std::vector<int>& starts_by : {std::vector{447}, std::vector{447, 2400}}) {
+      Drive drive;
+      drive.fix(drive.ahead(), FixOutcome::accepted);
+      while (!drive.monitor.take_odometry_failure()) {
+        Pose2 seen = drive.ahead();
+        seen.position_m = {0.6 * seen.position_m.x(), jump_m};
+        drive.fix(seen, FixOutcome::refused_gate);
+      }
+      drive.fix(Pose2{{0.0, jump_m}, 0.0} * drive.ahead(), FixOutcome::started, starts_by);
+      const bool is_by_it_alone = starts_by.size() == 1;
+      EXPECT_EQ(drive.monitor.alarm(drive.now() + std::chrono::hours(1)),
+                jump_m > 0.0 && is_by_it_alone ? std::optional(IntegrityAlarm::carried_away) : std::nullopt)
+          << jump_m << " m, by " << starts_by.size();
+    }
+  }
+}
+
+/// At 0.6 m/s and 0.2 s late, the wheels have rolled 12 cm between exposure and arrival.
+TEST(IntegrityMonitor, takes_late_frames_for_no_jump) {
+  IntegrityMonitor monitor;
+  const auto fix_late = [&](double x_m, milliseconds exposed, FixOutcome outcome) {
+    monitor.add_fix({.stamp = Stamp{} + exposed,
+                     .ids = std::vector{447},
+                     .map_from_base = {{x_m, 0.0}, 0.0},
+                     .expected = Pose2{{1e-3 * 0.6 * static_cast<double>(exposed.count()), 0.0}, 0.0},
+                     .outcome = outcome});
+  };
+  for (milliseconds at{0}; at <= milliseconds(800); at += milliseconds(20)) {
+    const double rolled_m = 1e-3 * 0.6 * static_cast<double>(at.count());
+    monitor.add_travel({Stamp{} + at, rolled_m, rolled_m});
+    if (at == milliseconds(300)) fix_late(0.06, milliseconds(100), FixOutcome::accepted);
+    if (at == milliseconds(500)) fix_late(0.18, milliseconds(300), FixOutcome::refused_gate);
+    if (at == milliseconds(800)) fix_late(0.20, milliseconds(600), FixOutcome::refused_gate);
+  }
+  ASSERT_TRUE(monitor.take_odometry_failure());
+  monitor.add_fix({.stamp = Stamp{} + milliseconds(650),
+                   .ids = std::vector{447},
+                   .map_from_base = {{0.21, 0.0}, 0.0},
+                   .outcome = FixOutcome::started});
+  EXPECT_FALSE(monitor.alarm(Stamp{} + std::chrono::hours(1)));
+}
+
 TEST(IntegrityMonitor, knows_a_robot_that_moves_without_its_wheels) {
   Drive drive;
   drive.pace_m = 0.0;
