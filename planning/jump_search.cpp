@@ -1,7 +1,8 @@
 #include "planning/jump_search.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <limits>
+#include <utility>
 
 namespace lodestar {
 namespace {
@@ -45,6 +46,13 @@ std::size_t spread(std::uint32_t index, std::size_t room) {
   return static_cast<std::size_t>((index * 0x9e3779b97f4a7c15ULL) >> 20U) & (room - 1);
 }
 
+/// Of a diagonal leg followed by a straight one.
+Cell end_of_diagonal(Cell from, Cell to) {
+  const int steps = free_steps(from, to).diagonal;
+  return {from.column + (to.column > from.column ? steps : -steps),
+          from.row + (to.row > from.row ? steps : -steps)};
+}
+
 }  // namespace
 
 /// Least total first; among equals the lower index.
@@ -79,6 +87,16 @@ typename JumpSearch<Jumps>::Node& JumpSearch<Jumps>::node_of(std::uint32_t index
   return nodes_[at];
 }
 
+/// The same; its length is beyond any when the present search has not reached it.
+template <typename Jumps>
+typename JumpSearch<Jumps>::Node& JumpSearch<Jumps>::node_to_reach(std::uint32_t index) {
+  if (node_of(index).visit < visit_) {
+    make_room();
+    node_of(index) = {.length = std::numeric_limits<StepLength>::max(), .visit = visit_};
+  }
+  return node_of(index);
+}
+
 /// Doubles a hash table that becomes half full with one node more.
 template <typename Jumps>
 void JumpSearch<Jumps>::make_room() {
@@ -94,10 +112,8 @@ void JumpSearch<Jumps>::make_room() {
 template <typename Jumps>
 std::optional<JumpPath> JumpSearch<Jumps>::find(Cell start, Cell goal) {
   begin(start, goal);
-  while (!open_.empty()) {
-    const Open next = open_.front();
-    std::ranges::pop_heap(open_, Later{});
-    open_.pop_back();
+  while (!level_.empty() || !open_.empty()) {
+    const Open next = take_next();
     Node& node = node_of(next.index);
     if (node.visit != visit_) continue;  // stale: expanded before, at no greater length
     node.visit = visit_ + 1;
@@ -117,6 +133,8 @@ void JumpSearch<Jumps>::begin(Cell start, Cell goal) {
   goal_ = goal;
   expanded_ = 0;
   open_.clear();
+  level_.clear();
+  level_total_ = free_length(start, goal);
   reached_ = 0;
   visit_ += 2;
   if (visit_ == 0) {  // wraps around after 2^31 searches
@@ -126,46 +144,91 @@ void JumpSearch<Jumps>::begin(Cell start, Cell goal) {
   reach(start, 0, index(start), 0);
 }
 
+/// No total is below the last one (the heuristic is consistent), so those equal to it need no heap; the
+/// newest of them is nearest to the goal, as a rule.
+template <typename Jumps>
+typename JumpSearch<Jumps>::Open JumpSearch<Jumps>::take_next() {
+  if (level_.empty()) {
+    std::ranges::pop_heap(open_, Later{});
+    std::swap(open_.back(), level_.emplace_back());
+    open_.pop_back();
+    level_total_ = level_.back().total;
+  }
+  const Open next = level_.back();
+  level_.pop_back();
+  return next;
+}
+
 template <typename Jumps>
 void JumpSearch<Jumps>::expand(Cell cell, unsigned directions) {
   const std::uint32_t at = index(cell);
   const StepLength length = node_of(at).length;
-  for (; directions != 0; directions &= directions - 1) {
-    const int direction = std::countr_zero(directions);
-    const int steps = steps_towards(cell, direction);
-    if (steps <= 0) continue;
-    const Cell step = grid_steps[static_cast<std::size_t>(direction)];
-    reach({cell.column + steps * step.column, cell.row + steps * step.row},
-          length + steps * (is_diagonal(direction) ? diagonal_length : straight_length), at, direction);
-  }
+  const auto expand_towards = [&]<int direction>() {
+    if (((directions >> static_cast<unsigned>(direction)) & 1U) == 0) return;
+    if constexpr (is_diagonal(direction))
+      expand_diagonal<direction>(cell, length, at);
+    else
+      expand_straight<direction>(cell, length, at);
+  };
+  [&]<int... direction>(std::integer_sequence<int, direction...>) {
+    (expand_towards.template operator()<direction>(), ...);
+  }(std::make_integer_sequence<int, grid_steps.size()>());
 }
 
-/// Steps to the next cell to expand in a direction: a jump point, the goal, or on a diagonal the cell in the
-/// goal's row or column. Not above 0 when there is none.
+/// To the next jump point, or to the goal where it comes first.
 template <typename Jumps>
-int JumpSearch<Jumps>::steps_towards(Cell from, int direction) const {
+template <int direction>
+void JumpSearch<Jumps>::expand_straight(Cell from, StepLength length, std::uint32_t parent) {
+  constexpr Cell step = grid_steps[direction];
   const int jump = jumps_.jump(from, direction);
-  const Cell step = grid_steps[static_cast<std::size_t>(direction)];
-  const Cell ahead{(goal_.column - from.column) * step.column, (goal_.row - from.row) * step.row};
-  if (is_diagonal(direction)) {
-    const int to_line = std::min(ahead.column, ahead.row);
-    return to_line > 0 && to_line <= std::abs(jump) ? to_line : jump;
-  }
-  const int to_goal = ahead.column + ahead.row;
+  const int to_goal = (goal_.column - from.column) * step.column + (goal_.row - from.row) * step.row;
   const bool in_line = step.row == 0 ? goal_.row == from.row : goal_.column == from.column;
-  return in_line && to_goal > 0 && to_goal <= std::abs(jump) ? to_goal : jump;
+  const int steps = in_line && to_goal > 0 && to_goal <= std::abs(jump) ? to_goal : jump;
+  if (steps <= 0) return;
+  reach({from.column + steps * step.column, from.row + steps * step.row}, length + steps * straight_length,
+        parent, direction);
+}
+
+/// From one cell to the next from which a straight jump leads on, or which is in the goal's row or column;
+/// each is expanded at once. Ends where one was reached on a shorter way: what follows is shorter from there,
+/// too. One that a straight step reaches on a way as long is settled with it: a shortest path goes on from
+/// there only in directions in which one along the diagonal does. The ends of the straight jumps have the
+/// cell where the diagonal began as parent.
+template <typename Jumps>
+template <int direction>
+void JumpSearch<Jumps>::expand_diagonal(Cell from, StepLength length, std::uint32_t parent) {
+  constexpr Cell step = grid_steps[direction];
+  for (;;) {
+    const int jump = jumps_.jump(from, direction);
+    const int to_line =
+        std::min((goal_.column - from.column) * step.column, (goal_.row - from.row) * step.row);
+    const int steps = to_line > 0 && to_line <= std::abs(jump) ? to_line : jump;
+    if (steps <= 0) return;
+    from = {from.column + steps * step.column, from.row + steps * step.row};
+    length += steps * diagonal_length;
+    if (from == goal_) return reach(from, length, parent, direction);
+    const std::uint32_t at = index(from);
+    Node& node = node_to_reach(at);
+    if (length > node.length) return;
+    node = {.length = length, .parent = parent, .visit = visit_ + 1};
+    expand_straight<turned(direction, 1)>(from, length, parent);
+    expand_straight<turned(direction, -1)>(from, length, parent);
+  }
 }
 
 template <typename Jumps>
 void JumpSearch<Jumps>::reach(Cell cell, StepLength length, std::uint32_t parent, int direction) {
   const std::uint32_t at = index(cell);
-  const bool is_new = node_of(at).visit < visit_;
-  if (is_new) make_room();
-  Node& node = node_of(at);
-  if (!is_new && length >= node.length) return;
+  Node& node = node_to_reach(at);
+  if (length >= node.length) return;
   node = {.length = length, .parent = parent, .visit = visit_};
-  open_.push_back({length + free_length(cell, goal_), at, direction});
-  std::ranges::push_heap(open_, Later{});
+  const Open open{length + free_length(cell, goal_), at, direction};
+  if (open.total == level_total_) {
+    level_.push_back(open);
+  } else {
+    open_.push_back(open);
+    std::ranges::push_heap(open_, Later{});
+  }
 }
 
 template <typename Jumps>
@@ -173,11 +236,13 @@ JumpPath JumpSearch<Jumps>::path_found() {
   turns_.assign(1, goal_);
   StepCount steps;
   while (turns_.back() != start_) {
-    const Cell before = cell_at(node_of(index(turns_.back())).parent);
-    const StepCount leg = free_steps(before, turns_.back());
-    steps.straight += leg.straight;
-    steps.diagonal += leg.diagonal;
-    turns_.push_back(before);
+    const Cell to = turns_.back();
+    const Cell from = cell_at(node_of(index(to)).parent);
+    const StepCount legs = free_steps(from, to);
+    steps.straight += legs.straight;
+    steps.diagonal += legs.diagonal;
+    if (legs.straight > 0 && legs.diagonal > 0) turns_.push_back(end_of_diagonal(from, to));
+    turns_.push_back(from);
   }
   std::ranges::reverse(turns_);
   return {.turns = turns_, .steps = steps, .expanded = expanded_};

@@ -16,8 +16,9 @@ struct JumpPath {
 };
 
 /// The shortest path on the 8-connected grid of clear cells without cutting corners: jump point search, A*
-/// that expands only cells where a path may have to turn (Harabor and Grastien 2012 and 2014). `Jumps` is
-/// JumpTable or JumpScan and must outlive it. Memory is kept, so later searches hardly allocate.
+/// that expands only cells where a path may have to turn, and those on a diagonal from which straight jumps
+/// lead on without the open list (Harabor and Grastien 2012 and 2014). `Jumps` is JumpTable or JumpScan and
+/// must outlive it. Memory is kept, so later searches hardly allocate.
 template <typename Jumps>
 class JumpSearch {
  public:
@@ -45,14 +46,19 @@ class JumpSearch {
   }
   /// The cell's node; one that no search has reached when the present search has not.
   Node& node_of(std::uint32_t index);
+  Node& node_to_reach(std::uint32_t index);
   void make_room();
   [[nodiscard]] Cell cell_at(std::uint32_t index) const {
     const auto columns = static_cast<std::uint32_t>(jumps_.columns());
     return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
   }
   void begin(Cell start, Cell goal);
+  Open take_next();
   void expand(Cell cell, unsigned directions);
-  [[nodiscard]] int steps_towards(Cell from, int direction) const;
+  template <int direction>
+  void expand_straight(Cell from, StepLength length, std::uint32_t parent);
+  template <int direction>
+  void expand_diagonal(Cell from, StepLength length, std::uint32_t parent);
   void reach(Cell cell, StepLength length, std::uint32_t parent, int direction);
   JumpPath path_found();
 
@@ -66,7 +72,9 @@ class JumpSearch {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> indices_;  ///< of the nodes' cells in the hash table; empty on a small map
   std::size_t reached_ = 0;             ///< nodes in the hash table that the present search uses
-  std::vector<Open> open_;
+  std::vector<Open> open_;              ///< heap, the least total first
+  std::vector<Open> level_;             ///< taken before, the newest first: those of the least total
+  StepLength level_total_ = 0;
   std::vector<Cell> turns_;
 };
 
