@@ -56,12 +56,18 @@ CollisionChecker::CollisionChecker(std::shared_ptr<const ObstacleField> field, d
       in_part_clear_(clear_.size(), ~std::uint64_t{0}) {
   clear_drivable();
   block_around_obstacles();
-  block_border();
+  block_border(radius_cells_, clear_);
+  block_border(in_part_cells(), in_part_clear_);
   regions_ = Regions(clear_, map_.columns, map_.rows);
 }
 
 CollisionChecker::CollisionChecker(const OccupancyMap& map, double radius_m)
     : CollisionChecker(std::make_shared<const ObstacleField>(map), radius_m) {}
+
+/// A disc anywhere in a cell is blocked by what is nearer to the cell's centre than this.
+double CollisionChecker::in_part_cells() const {
+  return radius_cells_ - 0.5 * std::numbers::sqrt2 - rounding;
+}
 
 void CollisionChecker::clear_drivable() {
   const auto used = static_cast<unsigned>(map_.columns % 64);
@@ -87,7 +93,7 @@ std::vector<int> CollisionChecker::spans_within(double distance_cells) {
 /// Obstacle cells enclosed by obstacles are skipped, as their neighbours block the same cells.
 void CollisionChecker::block_around_obstacles() {
   const std::vector<int> spans = spans_within(radius_cells_);
-  const std::vector<int> whole_spans = spans_within(radius_cells_ - 0.5 * std::numbers::sqrt2 - rounding);
+  const std::vector<int> whole_spans = spans_within(in_part_cells());
   const std::vector<std::uint64_t> outside(words_a_row_, ~std::uint64_t{0});
   for (int row = 0; row < map_.rows; ++row) {
     const std::span<const std::uint64_t> here = field_->obstacles(row);
@@ -118,16 +124,17 @@ void CollisionChecker::block_around(Cell obstacle, std::span<const int> spans,
   }
 }
 
-void CollisionChecker::block_border() {
-  for (int i = 0; 0.5 + i < radius_cells_ && i < std::max(map_.rows, map_.columns); ++i) {
+/// Outside the map is obstacle: blocks the cells whose centre is nearer to it than this.
+void CollisionChecker::block_border(double distance_cells, std::vector<std::uint64_t>& bits) {
+  for (int i = 0; 0.5 + i < distance_cells && i < std::max(map_.rows, map_.columns); ++i) {
     if (i < map_.rows) {
-      block(i, 0, map_.columns - 1, clear_);
-      block(map_.rows - 1 - i, 0, map_.columns - 1, clear_);
+      block(i, 0, map_.columns - 1, bits);
+      block(map_.rows - 1 - i, 0, map_.columns - 1, bits);
     }
     if (i >= map_.columns) continue;
     for (int row = 0; row < map_.rows; ++row) {
-      block(row, i, i, clear_);
-      block(row, map_.columns - 1 - i, map_.columns - 1 - i, clear_);
+      block(row, i, i, bits);
+      block(row, map_.columns - 1 - i, map_.columns - 1 - i, bits);
     }
   }
 }

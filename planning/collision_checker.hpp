@@ -33,6 +33,12 @@ class CollisionChecker {
     return ((clear_[word(cell.row) + column / 64U] >> (column % 64U)) & 1U) != 0;
   }
 
+  /// May the disc be clear somewhere in this cell of the map? Where it is, surely; seldom where it is not.
+  [[nodiscard]] bool is_in_part_clear(Cell cell) const {
+    const auto column = static_cast<std::size_t>(cell.column);
+    return ((in_part_clear_[word(cell.row) + column / 64U] >> (column % 64U)) & 1U) != 0;
+  }
+
   /// Is the disc clear all along a straight leg? Exact, for any two points.
   [[nodiscard]] bool along(const Vec2& from, const Vec2& to) const;
 
@@ -60,17 +66,14 @@ class CollisionChecker {
 
  private:
   [[nodiscard]] std::size_t word(int row) const { return static_cast<std::size_t>(row) * words_a_row_; }
+  [[nodiscard]] double in_part_cells() const;
   void clear_drivable();
   void block_around_obstacles();
   [[nodiscard]] static std::vector<int> spans_within(double distance_cells);
   void block_around(Cell obstacle, std::span<const int> spans, std::vector<std::uint64_t>& bits);
-  void block_border();
+  void block_border(double distance_cells, std::vector<std::uint64_t>& bits);
   void block(int row, int first, int last, std::vector<std::uint64_t>& bits);
   [[nodiscard]] double length_to_border(const Vec2& from, const Vec2& direction) const;
-  [[nodiscard]] bool is_in_part_clear(Cell cell) const {
-    const auto column = static_cast<std::size_t>(cell.column);
-    return ((in_part_clear_[word(cell.row) + column / 64U] >> (column % 64U)) & 1U) != 0;
-  }
   [[nodiscard]] std::optional<Cell> obstacle_around(const Vec2& point) const;
   [[nodiscard]] std::optional<Cell> obstacle_on_stretch(const Vec2& from, const Vec2& to) const;
 

@@ -13,7 +13,7 @@ std::vector<Vec2> refined_best(TurnPath& found, const EndHeadings& headings, con
                                const PathCost& cost) {
   constexpr double most_saved_s = 1.5;  // measured: refining seldom saves more
   const auto refine = [&](std::vector<Vec2> points, Refinement refinement) {
-    RefinedPath path = refined(std::move(points), headings, space, cost, refinement);
+    CountedPath path = refined(std::move(points), headings, space, cost, refinement);
     found.work += path.work;
     return std::move(path.points);
   };
@@ -30,9 +30,13 @@ std::vector<Vec2> refined_best(TurnPath& found, const EndHeadings& headings, con
 
 TurnPath fastest_path(std::vector<Vec2> known, const EndHeadings& headings, const CollisionChecker& space,
                       const PathCost& cost, VisibilityGraphSearch& turns, const TurnSearchLimits& limits) {
-  RefinedPath first = refined(std::move(known), headings, space, cost, Refinement::quick);
+  CountedPath first = refined(std::move(known), headings, space, cost, Refinement::quick);
   TurnPath best{.points = std::move(first.points), .work = first.work};
-  if (!cost.counts_cells()) best.points = with_shortcuts(std::move(best.points), headings, space, cost);
+  if (!cost.counts_cells()) {
+    CountedPath straighter = with_shortcuts(std::move(best.points), headings, space, cost);
+    best.points = std::move(straighter.points);
+    best.work += straighter.work;
+  }
   for (int round = 0; round < limits.rounds && best.points.size() > 2; ++round) {
     TurnPath found = turns.find(best.points, headings, cost, round);
     std::vector<Vec2> points = refined_best(found, headings, space, cost);

@@ -42,25 +42,26 @@ bool take_best(PathDraft& path, std::size_t at, std::vector<Change>& changes) {
 
 }  // namespace
 
-double PathDraft::cost_around(std::size_t first, std::size_t last) const {
-  const std::size_t from = first > 2 ? first - 2 : 0;
-  const std::size_t to = std::min(last + 2, points.size() - 1);
-  EndHeadings known;
-  if (from == 0) known.start_rad = headings.start_rad;
-  if (to + 1 == points.size()) known.goal_rad = headings.goal_rad;
-  return cost.path(std::span(points).subspan(from, to - from + 1), known);
+EndHeadings PathDraft::headings_around(std::size_t first, std::size_t last) const {
+  return headings_of_part(points, first > 0 ? first - 1 : 0, std::min(last + 1, points.size() - 1), headings);
+}
+
+double PathDraft::cost_around(std::size_t first, std::size_t last, const EndHeadings& around) {
+  work += work_of_cost;
+  const std::size_t from = first > 0 ? first - 1 : 0;
+  const std::size_t to = std::min(last + 1, points.size() - 1);
+  return cost.path(std::span(points).subspan(from, to - from + 1), around);
 }
 
 bool PathDraft::is_clear(std::size_t first, std::size_t last) {
   constexpr std::size_t units_to_look = 3;
-  constexpr std::size_t units_to_check = 30;
   blocking_.resize(std::max(blocking_.size(), points.size()));
   for (std::size_t leg = first; leg < last; ++leg) {
     work += units_to_look;
     if (blocking_[leg] && space.is_blocked_by(*blocking_[leg], points[leg], points[leg + 1])) return false;
   }
   for (std::size_t leg = first; leg < last; ++leg) {
-    work += units_to_check + static_cast<std::size_t>((points[leg + 1] - points[leg]).norm());
+    work += work_of_check((points[leg + 1] - points[leg]).norm());
     if (!space.along(points[leg], points[leg + 1], blocking_[leg])) return false;
   }
   return true;
@@ -72,11 +73,12 @@ bool move_turn(PathDraft& path, std::size_t turn, double step_cells) {
       {{1, 0}, {slant, slant}, {0, 1}, {-slant, slant}, {-1, 0}, {-slant, -slant}, {0, -1}, {slant, -slant}}};
   Vec2& point = path.points[turn];
   const Vec2 before = point;
-  const double limit = path.cost_around(turn, turn) * (1.0 - worthwhile_saving);
+  const EndHeadings around = path.headings_around(turn, turn);
+  const double limit = path.cost_around(turn, turn, around) * (1.0 - worthwhile_saving);
   std::vector<Change> changes;
   for (const auto& [x, y] : directions) {
     point = before + step_cells * Vec2(x, y);
-    const double cost = path.cost_around(turn, turn);
+    const double cost = path.cost_around(turn, turn, around);
     if (cost < limit) changes.push_back({.cost = cost, .first = point});
   }
   std::ranges::stable_sort(changes, {}, &Change::cost);
@@ -106,12 +108,13 @@ bool slide_leg(PathDraft& path, std::size_t turn, double step_cells) {
   const Vec2 to = path.points[turn + 1];
   const Vec2 on_from = way(path, turn - 1, turn);
   const Vec2 on_to = way(path, turn + 2, turn + 1);
-  const double limit = path.cost_around(turn, turn + 1) * (1.0 - worthwhile_saving);
+  const EndHeadings around = path.headings_around(turn, turn + 1);
+  const double limit = path.cost_around(turn, turn + 1, around) * (1.0 - worthwhile_saving);
   std::vector<Change> changes;
   for (const Shift& shift : shifts) {
     path.points[turn] = from + shift.first * step_cells * on_from;
     path.points[turn + 1] = to + shift.second * step_cells * on_to;
-    const double cost = path.cost_around(turn, turn + 1);
+    const double cost = path.cost_around(turn, turn + 1, around);
     if (cost < limit) changes.push_back({cost, path.points[turn], path.points[turn + 1]});
   }
   if (take_best(path, turn, changes)) return true;
@@ -127,7 +130,8 @@ bool straighten(PathDraft& path, std::size_t turn) {
   const std::vector<Vec2> whole = path.points;
   const Vec2 on_from = is_first ? Vec2::Zero() : way(path, turn - 2, turn - 1);
   const Vec2 on_to = is_last ? Vec2::Zero() : way(path, turn + 2, turn + 1);
-  const double limit = path.cost_around(turn - 1, turn + 1) * (1.0 - worthwhile_saving);
+  const EndHeadings around = path.headings_around(turn - 1, turn + 1);
+  const double limit = path.cost_around(turn - 1, turn + 1, around) * (1.0 - worthwhile_saving);
   path.points.erase(path.points.begin() + static_cast<std::ptrdiff_t>(turn));
   std::vector<Change> changes;
   for (const double shift_from : std::span(radii).first(is_first ? 1 : radii.size())) {
@@ -137,7 +141,7 @@ bool straighten(PathDraft& path, std::size_t turn) {
       constexpr std::size_t units = 3;
       path.work += units;
       if (path.space.is_surely_blocked(path.points[turn - 1], path.points[turn])) continue;
-      const double cost = path.cost_around(turn - 1, turn);
+      const double cost = path.cost_around(turn - 1, turn, around);
       if (cost < limit) changes.push_back({cost, path.points[turn - 1], path.points[turn]});
     }
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planning/path_cost.hpp"
+#include "planning/turn_search_limits.hpp"
 
 namespace lodestar {
 
@@ -14,8 +15,11 @@ struct PathDraft {
             const PathCost& path_cost)
       : points(std::move(clear_points)), headings(end_headings), space(checker), cost(path_cost) {}
 
-  /// Cost of what changes when points from `first` to `last` are moved.
-  [[nodiscard]] double cost_around(std::size_t first, std::size_t last) const;
+  /// Headings of the legs before and after those that change when points from `first` to `last` are moved.
+  [[nodiscard]] EndHeadings headings_around(std::size_t first, std::size_t last) const;
+
+  /// Cost of what changes then, with the turns from and to these headings.
+  [[nodiscard]] double cost_around(std::size_t first, std::size_t last, const EndHeadings& around);
 
   /// Are the legs between these points clear? Remembers for each leg what blocked it, as most tries are
   /// blocked by the same cell.

@@ -60,12 +60,16 @@ void move_turns(PathDraft& path, bool and_legs, double least_step_cells) {
 
 }  // namespace
 
-RefinedPath refined(std::vector<Vec2> points, const EndHeadings& headings, const CollisionChecker& space,
+CountedPath refined(std::vector<Vec2> points, const EndHeadings& headings, const CollisionChecker& space,
                     const PathCost& cost, Refinement refinement) {
   if (points.size() < 3) return {std::move(points), 0};
   PathDraft path(std::move(points), headings, space, cost);
   leave_out_turns(path);
-  if (cost.counts_turns()) path.points = with_turns_merged(std::move(path.points), headings, space, cost);
+  if (cost.counts_turns()) {
+    CountedPath merged = with_turns_merged(std::move(path.points), headings, space, cost);
+    path.points = std::move(merged.points);
+    path.work += merged.work;
+  }
   const bool and_legs = refinement != Refinement::quick && cost.counts_turns();
   if (and_legs) straighten_all(path);
   move_turns(path, and_legs, (refinement == Refinement::fine ? 0.004 : 0.1) * space.radius_cells());

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "planning/path_cost.hpp"
+#include "planning/turn_search_limits.hpp"
 
 namespace lodestar {
 
@@ -13,15 +13,10 @@ enum class Refinement {
   fine     ///< to 0.01 cells
 };
 
-struct RefinedPath {
-  std::vector<Vec2> points;
-  std::size_t work = 0;  ///< as TurnSearchLimits count it
-};
-
 /// The same path, clear, with its turns left out, merged and moved where that costs less: a pattern search
 /// (Hooke and Jeeves 1961) for turns and for legs, from steps of a radius down. Start and goal stay. Points
 /// in grid coordinates; `points` must be clear.
-RefinedPath refined(std::vector<Vec2> points, const EndHeadings& headings, const CollisionChecker& space,
+CountedPath refined(std::vector<Vec2> points, const EndHeadings& headings, const CollisionChecker& space,
                     const PathCost& cost, Refinement refinement);
 
 }  // namespace lodestar

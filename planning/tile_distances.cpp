@@ -22,7 +22,7 @@ void TileMap::join_rows(const CollisionChecker& space) {
   for (int row = 0; row < space.rows(); ++row) {
     for (int tile = 0; tile + 1 < columns_; ++tile) {
       const int border = (tile + 1) * side_;
-      if (!space.at({border - 1, row}) || !space.at({border, row})) continue;
+      if (!space.is_in_part_clear({border - 1, row}) || !space.is_in_part_clear({border, row})) continue;
       const std::size_t left = index({tile, row / side_});
       steps_[left] |= 1U << 0U;
       steps_[left + 1] |= 1U << 4U;
@@ -34,7 +34,8 @@ void TileMap::join_columns(const CollisionChecker& space) {
   for (int tile = 0; tile + 1 < rows_; ++tile) {
     const int border = (tile + 1) * side_;
     for (int column = 0; column < space.columns(); ++column) {
-      if (!space.at({column, border - 1}) || !space.at({column, border})) continue;
+      if (!space.is_in_part_clear({column, border - 1}) || !space.is_in_part_clear({column, border}))
+        continue;
       steps_[index({column / side_, tile})] |= 1U << 2U;
       steps_[index({column / side_, tile + 1})] |= 1U << 6U;
     }

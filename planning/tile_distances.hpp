@@ -9,9 +9,9 @@
 
 namespace lodestar {
 
-/// The clear cells in square tiles, with the steps between neighbouring tiles that a clear pair of cells
-/// allows. What is connected in cells is connected in tiles. The converse holds for walls, as a tile's
-/// diagonal is at most the width that a wall blocks; a gap just too narrow for the robot may seem open.
+/// The cells in square tiles, with the steps between neighbouring tiles that a pair of cells allows which are
+/// clear in part. What a clear path connects is connected in tiles. The converse holds for walls, as a tile's
+/// diagonal is at most the width that a wall blocks; a gap too narrow by up to 1.4 cells may seem open.
 class TileMap {
  public:
   explicit TileMap(const CollisionChecker& space);

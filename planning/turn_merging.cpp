@@ -70,11 +70,11 @@ class TurnMerging {
               const PathCost& cost)
       : points_(std::move(points)), headings_(headings), space_(space), cost_(cost) {}
 
-  std::vector<Vec2> run() {
+  CountedPath run() {
     for (std::size_t from = 0; from + 3 < points_.size();) {
       if (!merge(from, from + 4) && !merge(from, from + 3)) ++from;
     }
-    return points_;
+    return {std::move(points_), work_};
   }
 
  private:
@@ -84,7 +84,9 @@ class TurnMerging {
     const double limit = cost_around({&points_[from], to - from + 1}, from, to) * (1.0 - worthwhile_saving);
     Fan fan_from(space_, points_[from], points_[from + 1]);
     Fan fan_to(space_, points_[to], points_[to - 1]);
+    work_ += Fan::offsets_deg.size() * Fan::offsets_deg.size();
     for (const Meeting& at : meetings(fan_from, fan_to, from, to, limit)) {
+      work_ += work_of_check(at.length_from) + work_of_check(at.length_to);
       if (!fan_from.is_clear(at.ray_from, at.length_from) || !fan_to.is_clear(at.ray_to, at.length_to))
         continue;
       const std::array three{points_[from], fan_from.point(at.ray_from, at.length_from), points_[to]};
@@ -142,12 +144,13 @@ class TurnMerging {
   const CollisionChecker& space_;
   const PathCost& cost_;
   std::vector<Meeting> meetings_;
+  std::size_t work_ = 0;
 };
 
 }  // namespace
 
-std::vector<Vec2> with_turns_merged(std::vector<Vec2> points, const EndHeadings& headings,
-                                    const CollisionChecker& space, const PathCost& cost) {
+CountedPath with_turns_merged(std::vector<Vec2> points, const EndHeadings& headings,
+                              const CollisionChecker& space, const PathCost& cost) {
   return TurnMerging(std::move(points), headings, space, cost).run();
 }
 

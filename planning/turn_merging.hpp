@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "planning/path_cost.hpp"
+#include "planning/turn_search_limits.hpp"
 
 namespace lodestar {
 
@@ -13,7 +14,7 @@ namespace lodestar {
 ///     before  o------.          o  after      the new turn lies where no obstacle has a
 ///                     \________/              corner, so no search over turn points finds it
 ///
-std::vector<Vec2> with_turns_merged(std::vector<Vec2> points, const EndHeadings& headings,
-                                    const CollisionChecker& space, const PathCost& cost);
+CountedPath with_turns_merged(std::vector<Vec2> points, const EndHeadings& headings,
+                              const CollisionChecker& space, const PathCost& cost);
 
 }  // namespace lodestar

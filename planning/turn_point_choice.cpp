@@ -61,7 +61,7 @@ double TurnPointChoice::measured(const TileDistances& distances, const Vec2& poi
 
 const std::vector<TurnPlace>& TurnPointChoice::choose(std::span<const Vec2> known, double longest_cells,
                                                       bool counts_turns, std::size_t most, int round) {
-  measure(known.front(), known.back(), longest_cells);
+  if (round == 0) measure(known.front(), known.back(), longest_cells);
   forget_chosen();
   constexpr double open_share = 0.4;
   if (counts_turns)
@@ -102,17 +102,15 @@ void TurnPointChoice::choose_corners_of(std::uint32_t tile, std::size_t most, bo
   }
 }
 
-/// On a lattice, so that a leg can pass between two corners without a turn at either. Every other round
-/// spreads them over all the ground that a cheaper path may use: the shortest way is not always the fastest.
+/// On a lattice, so that a leg can pass between two corners without a turn at either; so wide that they lie
+/// all over the ground that a cheaper path may use: the shortest way is not always the fastest.
 void TurnPointChoice::choose_open(std::size_t most, double longest_cells, int round) {
   constexpr int densest = 2;  // tiles
   constexpr int widest = 12;
   constexpr double dropped = 1.5;  // so many times the wanted ones still count as spread
   int spacing = densest;
   rank_open(spacing, round, longest_cells);
-  const bool is_spread = round % 2 == 1;
-  while (is_spread &&
-         spacing<widest&& static_cast<double>(ranked_.size())> dropped * static_cast<double>(most))
+  while (spacing<widest&& static_cast<double>(ranked_.size())> dropped * static_cast<double>(most))
     rank_open(++spacing, round, longest_cells);
   most = std::min(most, ranked_.size());
   std::ranges::partial_sort(ranked_, ranked_.begin() + static_cast<std::ptrdiff_t>(most), Earlier{});

@@ -25,7 +25,8 @@ class TurnPointChoice {
   TurnPointChoice(const CollisionChecker& space, std::span<const TurnPoint> turn_points);
 
   /// For paths from the first to the last of the known points of at most this length. Without turns counted,
-  /// only tight points. At most `most`; valid until the next call.
+  /// only tight points. At most `most`; valid until the next call. Rounds after round 0 choose others, for
+  /// the same start and goal and no greater length: lengths over tiles are measured in round 0.
   const std::vector<TurnPlace>& choose(std::span<const Vec2> known, double longest_cells, bool counts_turns,
                                        std::size_t most, int round);
 

@@ -74,10 +74,10 @@ class Shortcuts {
             const PathCost& cost)
       : points_(std::move(points)), headings_(headings), space_(space), cost_(cost) {}
 
-  std::vector<Vec2> run() {
+  CountedPath run() {
     send_out_fans();
     for (Shortcut best = find(); best.saved > 0.0; best = find()) take(best);
-    return std::move(points_);
+    return {std::move(points_), work_};
   }
 
  private:
@@ -90,6 +90,7 @@ class Shortcuts {
       const std::size_t at = i * last / (count - 1);
       fans_[at] = fan_around(space_, points_[at]);
     }
+    work_ += count * ray_count * work_of_ray;
   }
 
   void take(const Shortcut& at) {
@@ -99,6 +100,7 @@ class Shortcuts {
     points_.insert(points_.begin() + first, at.turn);
     fans_.erase(fans_.begin() + first, fans_.begin() + last);
     fans_.insert(fans_.begin() + first, fan_around(space_, at.turn));
+    work_ += ray_count * work_of_ray;
   }
 
   Shortcut find() {
@@ -180,13 +182,15 @@ class Shortcuts {
   const CollisionChecker& space_;
   const PathCost& cost_;
   std::vector<Facing> facing_;
+  std::size_t work_ = 0;
 };
 
 }  // namespace
 
-std::vector<Vec2> with_shortcuts(std::vector<Vec2> points, const EndHeadings& headings,
-                                 const CollisionChecker& space, const PathCost& cost) {
-  return points.size() < 3 ? points : Shortcuts(std::move(points), headings, space, cost).run();
+CountedPath with_shortcuts(std::vector<Vec2> points, const EndHeadings& headings,
+                           const CollisionChecker& space, const PathCost& cost) {
+  if (points.size() < 3) return {std::move(points), 0};
+  return Shortcuts(std::move(points), headings, space, cost).run();
 }
 
 }  // namespace lodestar

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "planning/path_cost.hpp"
+#include "planning/turn_search_limits.hpp"
 
 namespace lodestar {
 
@@ -11,7 +12,7 @@ namespace lodestar {
 /// meet. Unlike merging (turn_merging.hpp), which looks near the present legs, it finds other, straighter
 /// ways. Points in grid coordinates; `points` must be clear. For paths whose turns count and whose cells do
 /// not.
-std::vector<Vec2> with_shortcuts(std::vector<Vec2> points, const EndHeadings& headings,
-                                 const CollisionChecker& space, const PathCost& cost);
+CountedPath with_shortcuts(std::vector<Vec2> points, const EndHeadings& headings,
+                           const CollisionChecker& space, const PathCost& cost);
 
 }  // namespace lodestar

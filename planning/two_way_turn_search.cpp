@@ -8,6 +8,7 @@ namespace {
 
 /// The cost to the goal is that of an actual path, which another turn into it may improve by about this much.
 constexpr double improvement_s = 1.5;
+constexpr std::size_t units_to_look = 10;
 
 }  // namespace
 
@@ -73,8 +74,6 @@ void TwoWayTurnSearch::gather_places(std::span<const Vec2> known, int round) {
   add_place({known.front(), std::nullopt});
   for (const Vec2& point : known.subspan(1, known.size() - 2)) add_place({point, std::nullopt});
   for (const TurnPlace& place : chosen) add_place(place);
-  legs_.resize(std::max(legs_.size(), places_.size()));
-  for (std::vector<Leg>& legs : legs_) legs.clear();
   sights_.assign(places_.size() * places_.size(), Sight::unknown);
 }
 
@@ -94,27 +93,6 @@ void TwoWayTurnSearch::add_place(const TurnPlace& at) {
   places_.push_back(place);
 }
 
-/// Listed when a place is expanded first.
-const std::vector<TwoWayTurnSearch::Leg>& TwoWayTurnSearch::legs_from(std::uint32_t place) {
-  std::vector<Leg>& legs = legs_[place];
-  if (!legs.empty()) return legs;
-  const Place& from = places_[place];
-  for (std::uint32_t to = 0; to < places_.size(); ++to) {
-    const Vec2 way = places_[to].position - from.position;
-    const double length_cells = way.norm();
-    if (to == place || way.isZero(0.0) || !may_see(from, places_[to], length_cells)) continue;
-    Sight& sight = sight_between(place, to);
-    if (sight == Sight::unknown)
-      sight = space_.is_surely_blocked(from.position, places_[to].position) ? Sight::blocked : Sight::perhaps;
-    if (sight == Sight::blocked) continue;
-    legs.push_back({.cost = cost_->at_least(length_cells),
-                    .heading_rad = cost_->counts_turns() ? heading_of(way) : 0.0,
-                    .to = to});
-  }
-  work_ += 2 * places_.size() + 10 * legs.size();
-  return legs;
-}
-
 /// False when the paths over tiles differ by more than a straight leg between the two can.
 bool TwoWayTurnSearch::may_see(const Place& from, const Place& to, double length_cells) const {
   const double most = choice_.at_most_cells(length_cells);
@@ -132,14 +110,23 @@ bool TwoWayTurnSearch::is_taut(const Place& at, const Vec2& from, const Vec2& to
   return turn * cross(arrival, to_corner) >= 0.0 && turn * cross(way, to_corner) >= 0.0;
 }
 
+/// A quick look, once for each line of sight.
+bool TwoWayTurnSearch::may_be_clear(std::uint32_t from, std::uint32_t to) {
+  work_ += units_to_look;
+  Sight& sight = sight_between(from, to);
+  if (sight == Sight::unknown)
+    sight = space_.is_surely_blocked(places_[from].position, places_[to].position) ? Sight::blocked
+                                                                                   : Sight::perhaps;
+  return sight != Sight::blocked;
+}
+
 /// Each line of sight is checked once.
 bool TwoWayTurnSearch::sees(std::uint32_t from, std::uint32_t to) {
   Sight& sight = sight_between(from, to);
   if (sight == Sight::unknown || sight == Sight::perhaps) {
     const Vec2& begin = places_[from].position;
     const Vec2& end = places_[to].position;
-    constexpr std::size_t units = 30;
-    work_ += units + static_cast<std::size_t>((end - begin).norm());
+    work_ += work_of_check((end - begin).norm());
     sight = space_.along(begin, end) ? Sight::clear : Sight::blocked;
   }
   return sight == Sight::clear;
@@ -195,23 +182,27 @@ void TwoWayTurnSearch::search_backwards() {
   }
 }
 
+/// Cheap tests come first, since most legs fail one of them.
 void TwoWayTurnSearch::expand_backwards(std::uint32_t place) {
   const Place& to = places_[place];
-  const std::vector<Leg>& legs = legs_from(place);
-  work_ += legs.size();
+  work_ += places_.size();
   ++expanded_;
-  for (const Leg& leg : legs) {
-    const Place& from = places_[leg.to];
-    if (from.next != none) continue;
-    Open open{.cost = to.cost_to_goal + leg.cost, .place = leg.to, .from = place};
-    if (open.cost + from.least_from_start >= limit_) continue;
+  for (std::uint32_t other = 0; other < places_.size(); ++other) {
+    const Place& from = places_[other];
+    if (from.next != none || other == place) continue;
     if (place != goal && !is_taut(to, from.position, places_[to.next].position)) continue;
+    const Vec2 way = to.position - from.position;
+    const double length_cells = way.norm();
+    if (length_cells == 0.0) continue;
+    Open open{.cost = to.cost_to_goal + cost_->at_least(length_cells), .place = other, .from = place};
+    if (open.cost + from.least_from_start >= limit_ || !may_see(from, to, length_cells)) continue;
     if (cost_->counts_turns()) {
-      open.heading_rad = wrap_angle(leg.heading_rad + std::numbers::pi);
+      open.heading_rad = heading_of(way);
       open.cost += turn_at(place, open.heading_rad);
+      if (open.cost + from.least_from_start >= limit_) continue;
     }
     open.total = open.cost;
-    if (open.cost + from.least_from_start < limit_) push(open);
+    if (may_be_clear(other, place)) push(open);
   }
 }
 
@@ -254,24 +245,26 @@ void TwoWayTurnSearch::search_forwards() {
 
 void TwoWayTurnSearch::expand_forwards(std::uint32_t label) {
   const Label from = labels_[label];
-  const std::vector<Leg>& legs = legs_from(from.place);
-  work_ += legs.size();
+  const Place& at = places_[from.place];
+  work_ += places_.size();
   ++expanded_;
-  const double slack = cost_->counts_turns() ? improvement_s : 0.0;
-  for (const Leg& leg : legs) {
-    const Place& to = places_[leg.to];
-    if (to.next == none || leg.to == start) continue;
-    Open open{.cost = from.cost + leg.cost, .heading_rad = leg.heading_rad, .place = leg.to, .from = label};
-    if (open.cost + to.cost_to_goal >= limit_ + slack) continue;
-    if (sight_between(from.place, leg.to) == Sight::blocked) continue;
-    if (from.place != start &&
-        !is_taut(places_[from.place], places_[labels_[from.parent].place].position, to.position))
+  const bool counts_turns = cost_->counts_turns();
+  const double limit = limit_ + (counts_turns ? improvement_s : 0.0);
+  for (std::uint32_t other = 0; other < places_.size(); ++other) {
+    const Place& to = places_[other];
+    if (to.next == none || other == start || other == from.place) continue;
+    if (from.place != start && !is_taut(at, places_[labels_[from.parent].place].position, to.position))
       continue;
-    if (cost_->counts_turns() && (from.place != start || headings_.start_rad))
-      open.cost += cost_->turn(from.heading_rad, leg.heading_rad);
-    open.total =
-        open.cost + to.cost_to_goal + (cost_->counts_turns() ? turn_at(leg.to, leg.heading_rad) : 0.0);
-    if (open.total < limit_ + slack && !is_dominated(open)) push(open);
+    const Vec2 way = to.position - at.position;
+    const double length_cells = way.norm();
+    if (length_cells == 0.0) continue;
+    Open open{.cost = from.cost + cost_->at_least(length_cells), .place = other, .from = label};
+    if (open.cost + to.cost_to_goal >= limit || !may_see(at, to, length_cells)) continue;
+    if (counts_turns) open.heading_rad = heading_of(way);
+    if (counts_turns && (from.place != start || headings_.start_rad))
+      open.cost += cost_->turn(from.heading_rad, open.heading_rad);
+    open.total = open.cost + to.cost_to_goal + (counts_turns ? turn_at(other, open.heading_rad) : 0.0);
+    if (open.total < limit && may_be_clear(from.place, other) && !is_dominated(open)) push(open);
   }
 }
 

@@ -55,12 +55,6 @@ class TwoWayTurnSearch {
     double heading_on_rad = 0.0;  ///< of the leg to `next`
     std::uint32_t newest_label = none;
   };
-  /// A leg that may be clear, at its least cost.
-  struct Leg {
-    double cost = 0.0;
-    double heading_rad = 0.0;
-    std::uint32_t to = 0;
-  };
   struct Label {
     double cost = 0.0;
     double heading_rad = 0.0;
@@ -80,12 +74,12 @@ class TwoWayTurnSearch {
 
   void gather_places(std::span<const Vec2> known, int round);
   void add_place(const TurnPlace& at);
-  [[nodiscard]] const std::vector<Leg>& legs_from(std::uint32_t place);
   [[nodiscard]] bool may_see(const Place& from, const Place& to, double length_cells) const;
   [[nodiscard]] bool is_taut(const Place& at, const Vec2& from, const Vec2& to) const;
   [[nodiscard]] Sight& sight_between(std::uint32_t a, std::uint32_t b) {
     return sights_[std::min(a, b) * places_.size() + std::max(a, b)];
   }
+  bool may_be_clear(std::uint32_t from, std::uint32_t to);
   bool sees(std::uint32_t from, std::uint32_t to);
   std::optional<double> extra_cost(std::uint32_t from, std::uint32_t to);
   void push(const Open& open);
@@ -110,8 +104,7 @@ class TwoWayTurnSearch {
   std::size_t expanded_ = 0;
   std::vector<Open> complete_;  ///< labels with a path to the goal: their total, `from` is the label
   std::vector<Place> places_;
-  std::vector<std::vector<Leg>> legs_;  ///< by place; empty: not listed yet
-  std::vector<Sight> sights_;           ///< between places
+  std::vector<Sight> sights_;  ///< between places
   std::vector<Label> labels_;
   std::vector<Open> open_;
 };

@@ -39,16 +39,12 @@ TurnPath VisibilityGraphSearch::find(std::span<const Vec2> known, const EndHeadi
   labels_.clear();
   open_.clear();
   work_ = 0;
-  if (round > 0 || !gather_candidates(known)) return two_way_.find(known, headings, cost, round);
+  // The fastest path often turns on open ground, where only the search both ways has turn points.
+  const bool turns_anywhere = cost.counts_turns() && !cost.counts_cells();
+  if (turns_anywhere || round > 0 || !gather_candidates(known))
+    return two_way_.find(known, headings, cost, round);
   TurnPath found = search(known);
   found.work = work_;
-  if (!cost.counts_turns() || cost.counts_cells()) return found;
-  // A path with turns on open ground may be faster once it is refined.
-  TurnPath other = two_way_.find(known, headings, cost, round);
-  found.expanded += other.expanded;
-  found.work += other.work;
-  found.others = std::move(other.others);
-  found.others.push_back(std::move(other.points));
   return found;
 }
 
@@ -253,8 +249,7 @@ bool VisibilityGraphSearch::sees(std::uint32_t from, std::uint32_t to) {
   if (known == Sight::unknown) {
     const Vec2& begin = from == none ? start_ : candidates_[from].position;
     const Vec2& end = candidates_[to].position;
-    constexpr std::size_t units = 30;
-    work_ += units + static_cast<std::size_t>((end - begin).norm());
+    work_ += work_of_check((end - begin).norm());
     known = space_.along(begin, end) ? Sight::clear : Sight::blocked;
   }
   return known == Sight::clear;

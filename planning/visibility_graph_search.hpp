@@ -16,9 +16,9 @@ namespace lodestar {
 /// their visibility graph. A state is a turn point with the arrival heading, on which the next turn's cost
 /// depends; it is dominated when another path and a turn on the spot reach it more cheaply. Only legs taken
 /// from the open list are checked for a line of sight (lazy A*, Cohen, Phillips and Likhachev 2014). When its
-/// work is used up, the best path found so far is the answer. Where too many turn points may lie on a cheaper
-/// path, TwoWayTurnSearch searches instead; where turns count and cells do not, it adds its paths. Memory is
-/// kept between searches.
+/// work is used up, the best path found so far is the answer. Where turns count and cells do not, and where
+/// too many turn points may lie on a cheaper path, TwoWayTurnSearch searches instead. Memory is kept between
+/// searches.
 class VisibilityGraphSearch {
  public:
   /// The space must outlive it.

@@ -1,9 +1,11 @@
 #include "planning/fastest_path.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "planning/grid_planner.hpp"
 #include "planning/path_draft.hpp"
+#include "planning/turn_point_choice.hpp"
 #include "planning/turn_shortcuts.hpp"
 
 #include "tests/planning/sample_maps.hpp"
@@ -79,10 +81,31 @@ TEST(TurnShortcuts, find_the_way_around_that_has_one_turn) {
   for (std::size_t y = 70; y < 90; ++y) rows[119 - y].replace(98, 4, "....");
   const Draft draft{.map = map_from(rows, 0.05), .no_costs = {}};
   const std::vector<Vec2> over{{30.0, 60.0}, {60.0, 80.0}, {140.0, 80.0}, {120.0, 60.0}, {170.0, 40.0}};
-  const std::vector<Vec2> one = with_shortcuts(over, {}, draft.space, draft.cost);
+  const std::vector<Vec2> one = with_shortcuts(over, {}, draft.space, draft.cost).points;
   ASSERT_EQ(one.size(), 3U);
   EXPECT_TRUE(draft.space.along(one[0], one[1]) && draft.space.along(one[1], one[2]));
   EXPECT_LT(draft.cost.path(one, {}), draft.cost.path(over, {}) - 3.0);
+}
+
+/// The shortest way is not always the fastest: already the first round looks everywhere.
+TEST(TurnPointChoice, spreads_points_on_open_ground_wherever_a_faster_path_may_lead) {
+  const OccupancyMap map = map_from(std::vector<std::string>(600, std::string(600, '.')), 0.05);
+  const CollisionChecker space(map, 0.25);
+  TurnPointChoice choice(space, {});
+  const std::vector<Vec2> known{{100.0, 300.0}, {500.0, 300.0}};
+  constexpr double longest_cells = 600.0;  // its ellipse reaches 223 cells aside
+  for (const int round : {0, 1, 2}) {
+    double highest = 300.0;
+    double lowest = 300.0;
+    for (const TurnPlace& place : choice.choose(known, longest_cells, true, 100, round)) {
+      EXPECT_LT((place.position - known[0]).norm() + (place.position - known[1]).norm(),
+                1.15 * longest_cells);
+      highest = std::max(highest, place.position.y());
+      lowest = std::min(lowest, place.position.y());
+    }
+    EXPECT_GT(highest, 450.0) << "round " << round;
+    EXPECT_LT(lowest, 150.0) << "round " << round;
+  }
 }
 
 TEST(FastestPath, is_never_slower_with_more_rounds) {
@@ -95,7 +118,6 @@ TEST(FastestPath, is_never_slower_with_more_rounds) {
     const Vec2 goal(random.uniform(0.5, 11.5), random.uniform(0.5, 11.5));
     const auto seconds = [&](int rounds) -> std::optional<double> {
       GridPlannerOptions options = fastest();
-      options.turn_search.complete = 0;  // both ways, in rounds
       options.turn_search.candidates = 60;
       options.turn_search.rounds = rounds;
       options.turn_search.work_of_rounds = 100000000;

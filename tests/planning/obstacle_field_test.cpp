@@ -101,18 +101,33 @@ TEST(TileDistances, reach_the_whole_region_and_are_hardly_longer_than_paths_over
   EXPECT_GT(compared, 100);
 }
 
+/// As wide as the robot: its centre has to pass on the border between two cells.
+TEST(TileDistances, go_through_a_gap_that_no_cell_s_centre_is_clear_in) {
+  std::vector<std::string> rows(40, std::string(60, '.'));
+  for (std::size_t row = 0; row < 40; ++row)
+    if (row < 18 || row >= 22) rows[row][30] = '#';
+  const OccupancyMap map = map_from(rows, 0.05);
+  const CollisionChecker space(map, 0.1);
+  ASSERT_TRUE(space.along({20.0, 20.0}, {40.0, 20.0}));
+  ASSERT_NE(space.region({20, 20}), space.region({40, 20}));
+  const TileMap tiles(space);
+  TileDistances distances(tiles);
+  distances.measure({20, 20}, 1e6, tiles.size());
+  EXPECT_TRUE(distances.at(tiles.tile_at({40.0, 20.0})).has_value());
+}
+
 TEST(TileDistances, go_around_walls) {
   std::vector<std::string> rows(40, std::string(60, '.'));
-  for (std::size_t row = 0; row < 36; ++row) rows[row][30] = '#';
+  for (std::size_t row = 0; row < 38; ++row) rows[row][30] = '#';
   const OccupancyMap map = map_from(rows, 0.05);
   const CollisionChecker space(map, 0.1);
   const TileMap tiles(space);
   TileDistances distances(tiles);
   EXPECT_TRUE(space.at({25, 35}));
   distances.measure({25, 35}, 1e6, tiles.size());
-  EXPECT_FALSE(distances.at(tiles.tile_at({35.5, 35.5})).has_value()) << "four cells are too narrow a gap";
+  EXPECT_FALSE(distances.at(tiles.tile_at({35.5, 35.5})).has_value()) << "two cells are too narrow a gap";
   const OccupancyMap open = [&] {
-    for (std::size_t row = 30; row < 36; ++row) rows[row][30] = '.';
+    for (std::size_t row = 30; row < 38; ++row) rows[row][30] = '.';
     return map_from(rows, 0.05);
   }();
   const CollisionChecker open_space(open, 0.1);

@@ -23,7 +23,7 @@ TEST(TurnMerging, makes_one_turn_of_two_behind_an_obstacle) {
   const CellCosts no_costs;
   const PathCost cost = travel_time(map, no_costs);
   const std::vector<Vec2> two{{2.0, 10.0}, {8.0, 14.0}, {12.0, 14.0}, {18.0, 10.0}};
-  const std::vector<Vec2> one = with_turns_merged(two, {}, space, cost);
+  const std::vector<Vec2> one = with_turns_merged(two, {}, space, cost).points;
   ASSERT_EQ(one.size(), 3U);
   EXPECT_EQ(one.front(), two.front());
   EXPECT_EQ(one.back(), two.back());
@@ -39,7 +39,7 @@ TEST(TurnMerging, keeps_both_turns_where_one_would_lie_in_an_obstacle) {
   const CollisionChecker space(map, 0.9 * map.resolution_m);
   const CellCosts no_costs;
   const std::vector<Vec2> two{{6.5, 2.0}, {6.5, 13.5}, {13.5, 13.5}, {13.5, 2.0}};
-  EXPECT_EQ(with_turns_merged(two, {}, space, travel_time(map, no_costs)), two);
+  EXPECT_EQ(with_turns_merged(two, {}, space, travel_time(map, no_costs)).points, two);
 }
 
 TEST(TurnMerging, never_makes_a_path_slower_or_touch_an_obstacle) {
@@ -61,7 +61,7 @@ TEST(TurnMerging, never_makes_a_path_slower_or_touch_an_obstacle) {
     const CellCosts no_costs;
     const PathCost cost = travel_time(map, no_costs);
     const EndHeadings headings{.start_rad = 0.5, .goal_rad = -1.0};
-    const std::vector<Vec2> after = with_turns_merged(before, headings, space, cost);
+    const std::vector<Vec2> after = with_turns_merged(before, headings, space, cost).points;
     EXPECT_EQ(after.front(), before.front());
     EXPECT_EQ(after.back(), before.back());
     EXPECT_LE(cost.path(after, headings), cost.path(before, headings));
