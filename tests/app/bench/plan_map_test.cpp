@@ -57,7 +57,7 @@ TEST_P(OnMap, more_work_gives_faster_paths_and_the_default_nearly_as_fast_ones) 
   double first_s = 0.0;
   double usual_s = 0.0;
   double thorough_s = 0.0;
-  for (const PlanQuery& query : queries_on(map, 8)) {
+  for (const PlanQuery& query : queries_on(map, 40)) {
     const auto seconds = [&](const GridPlanner& planner) {
       return seconds_of(planner.plan(query.start_m, query.goal_m));
     };
