@@ -88,9 +88,9 @@ export class Replay {
     if (this.run) return;
     byId('replay').hidden = byId('replay-plots').hidden = false;
     this.plots ??= new DrivePlots(byId('replay-plots'), (time) => this.settleAt(time));
-    await this.load(chosen);
+    const isShown = await this.load(chosen);
     this.wanted = null;
-    if (wanted === null || this.run?.name !== wanted.run) return;
+    if (!isShown || wanted?.run !== chosen) return;
     if (wanted.at !== null) this.settleAt(wanted.at);
     if (wanted.beside !== null && names.includes(wanted.beside)) await this.loadSecond(wanted.beside);
   }
@@ -127,12 +127,12 @@ export class Replay {
     if (this.run) linkTo({ run: this.run.name, at: this.time, beside: this.second?.name ?? null });
   }
 
-  /** Shows a run from its start; one that is shown already stays at its time. */
-  private async load(name: string): Promise<void> {
+  /** Shows a run from its start; one that is shown already stays at its time. False when another was chosen meanwhile. */
+  private async load(name: string): Promise<boolean> {
     this.asked = name;
     const run = await getRun(name);
     const { scene, words } = await sceneOf(run, this.stage, this.site);
-    if (this.asked !== name) return;
+    if (this.asked !== name) return false;
     const time = this.run?.name === name ? this.time : null;
     this.run = run;
     if (this.second?.name === name) this.second = this.askedBeside = null;
@@ -146,6 +146,7 @@ export class Replay {
     showSummary(run, words);
     this.stage.redraw();
     this.settleAt(time ?? this.start());
+    return true;
   }
 
   private async loadSecond(name: string | null): Promise<void> {
