@@ -30,8 +30,7 @@ Vec2 way(const PathDraft& path, std::size_t from, std::size_t to) {
 /// The first clear one of the changes of points `at` and `at` + 1, cheapest first.
 bool take_best(PathDraft& path, std::size_t at, std::vector<Change>& changes) {
   std::ranges::stable_sort(changes, {}, &Change::cost);
-  const std::size_t from = at > 0 ? at - 1 : 0;
-  const std::size_t to = std::min(at + 2, path.points.size() - 1);
+  const auto [from, to] = path.part_around(at, at + 1);
   for (const Change& change : changes) {
     path.points[at] = change.first;
     path.points[at + 1] = change.second;
@@ -42,14 +41,18 @@ bool take_best(PathDraft& path, std::size_t at, std::vector<Change>& changes) {
 
 }  // namespace
 
+PathDraft::Part PathDraft::part_around(std::size_t first, std::size_t last) const {
+  return {first > 0 ? first - 1 : 0, std::min(last + 1, points.size() - 1)};
+}
+
 EndHeadings PathDraft::headings_around(std::size_t first, std::size_t last) const {
-  return headings_of_part(points, first > 0 ? first - 1 : 0, std::min(last + 1, points.size() - 1), headings);
+  const auto [from, to] = part_around(first, last);
+  return headings_of_part(points, from, to, headings);
 }
 
 double PathDraft::cost_around(std::size_t first, std::size_t last, const EndHeadings& around) {
   work += work_of_cost;
-  const std::size_t from = first > 0 ? first - 1 : 0;
-  const std::size_t to = std::min(last + 1, points.size() - 1);
+  const auto [from, to] = part_around(first, last);
   return cost.path(std::span(points).subspan(from, to - from + 1), around);
 }
 

@@ -15,10 +15,17 @@ struct PathDraft {
             const PathCost& path_cost)
       : points(std::move(clear_points)), headings(end_headings), space(checker), cost(path_cost) {}
 
-  /// Headings of the legs before and after those that change when points from `first` to `last` are moved.
+  /// Its legs change when points from `first` to `last` are moved.
+  struct Part {
+    std::size_t from = 0;
+    std::size_t to = 0;
+  };
+  [[nodiscard]] Part part_around(std::size_t first, std::size_t last) const;
+
+  /// Headings of the legs before and after that part.
   [[nodiscard]] EndHeadings headings_around(std::size_t first, std::size_t last) const;
 
-  /// Cost of what changes then, with the turns from and to these headings.
+  /// Cost of that part, with the turns from and to these headings.
   [[nodiscard]] double cost_around(std::size_t first, std::size_t last, const EndHeadings& around);
 
   /// Are the legs between these points clear? Remembers for each leg what blocked it, as most tries are
