@@ -1,25 +1,6 @@
 #include "maps/travel_time.hpp"
 
-#include <cmath>
-
 namespace lodestar {
-namespace {
-
-double trapezoid_time(double distance, double max_speed, double max_acceleration) {
-  const double ramps = max_speed * max_speed / max_acceleration;
-  return distance < ramps ? 2.0 * std::sqrt(distance / max_acceleration)
-                          : distance / max_speed + max_speed / max_acceleration;
-}
-
-}  // namespace
-
-double MotionLimits::leg_time_s(double length_m) const {
-  return trapezoid_time(length_m, max_forward_mps, max_acceleration_mps2);
-}
-
-double MotionLimits::turn_time_s(double angle_rad) const {
-  return trapezoid_time(std::abs(angle_rad), max_turn_radps, max_turn_acceleration_radps2);
-}
 
 double travel_time_s(const Path& path, std::optional<double> start_heading_rad,
                      std::optional<double> final_heading_rad, const MotionLimits& limits) {

@@ -32,7 +32,11 @@ class PathCost {
  public:
   /// Without limits: length. `costs` may be empty: every cell costs 1. The map and the costs must outlive it.
   PathCost(const OccupancyMap& map, const CellCosts& costs, std::optional<MotionLimits> limits)
-      : map_(map), costs_(costs), limits_(limits) {}
+      : map_(map),
+        costs_(costs),
+        limits_(limits),
+        leg_time_(limits.value_or(MotionLimits{}).leg_time()),
+        turn_time_(limits.value_or(MotionLimits{}).turn_time()) {}
 
   [[nodiscard]] bool counts_turns() const { return limits_.has_value(); }
   [[nodiscard]] bool counts_cells() const { return !costs_.empty(); }
@@ -40,7 +44,7 @@ class PathCost {
   /// Lower bound on the cost of a leg of this many cells, and of any chain of legs between its ends.
   [[nodiscard]] double at_least(double length_cells) const {
     const double length_m = length_cells * map_.resolution_m;
-    return limits_ ? limits_->leg_time_s(length_m) : length_m;
+    return limits_ ? leg_time_.of(length_m) : length_m;
   }
   /// Length in cells of the longest path that can cost no more than this.
   [[nodiscard]] double longest(double cost) const {
@@ -53,7 +57,7 @@ class PathCost {
   [[nodiscard]] double turn(double from_rad, double to_rad) const {
     if (!limits_) return 0.0;
     const double angle_rad = std::abs(to_rad - from_rad);
-    return limits_->turn_time_s(std::min(angle_rad, 2.0 * std::numbers::pi - angle_rad));
+    return turn_time_.of(std::min(angle_rad, 2.0 * std::numbers::pi - angle_rad));
   }
   [[nodiscard]] double path(std::span<const Vec2> points, const EndHeadings& headings) const;
 
@@ -64,6 +68,8 @@ class PathCost {
   const OccupancyMap& map_;
   const CellCosts& costs_;
   std::optional<MotionLimits> limits_;
+  TrapezoidTime leg_time_;
+  TrapezoidTime turn_time_;
 };
 
 }  // namespace lodestar

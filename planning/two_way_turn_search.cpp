@@ -182,7 +182,7 @@ void TwoWayTurnSearch::search_backwards() {
   }
 }
 
-/// Cheap tests come first, since most legs fail one of them.
+/// Cheap tests come first, since most legs fail one of them; a heading costs more than a look at the leg.
 void TwoWayTurnSearch::expand_backwards(std::uint32_t place) {
   const Place& to = places_[place];
   work_ += places_.size();
@@ -196,13 +196,14 @@ void TwoWayTurnSearch::expand_backwards(std::uint32_t place) {
     if (length_cells == 0.0) continue;
     Open open{.cost = to.cost_to_goal + cost_->at_least(length_cells), .place = other, .from = place};
     if (open.cost + from.least_from_start >= limit_ || !may_see(from, to, length_cells)) continue;
+    if (!may_be_clear(other, place)) continue;
     if (cost_->counts_turns()) {
       open.heading_rad = heading_of(way);
       open.cost += turn_at(place, open.heading_rad);
       if (open.cost + from.least_from_start >= limit_) continue;
     }
     open.total = open.cost;
-    if (may_be_clear(other, place)) push(open);
+    push(open);
   }
 }
 
@@ -260,11 +261,12 @@ void TwoWayTurnSearch::expand_forwards(std::uint32_t label) {
     if (length_cells == 0.0) continue;
     Open open{.cost = from.cost + cost_->at_least(length_cells), .place = other, .from = label};
     if (open.cost + to.cost_to_goal >= limit || !may_see(at, to, length_cells)) continue;
+    if (!may_be_clear(from.place, other)) continue;
     if (counts_turns) open.heading_rad = heading_of(way);
     if (counts_turns && (from.place != start || headings_.start_rad))
       open.cost += cost_->turn(from.heading_rad, open.heading_rad);
     open.total = open.cost + to.cost_to_goal + (counts_turns ? turn_at(other, open.heading_rad) : 0.0);
-    if (open.total < limit && may_be_clear(from.place, other) && !is_dominated(open)) push(open);
+    if (open.total < limit && !is_dominated(open)) push(open);
   }
 }
 
