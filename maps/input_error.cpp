@@ -4,18 +4,16 @@
 #include <fmt/format.h>
 #include <string_view>
 
+#include "maps/utf8.hpp"
+
 namespace lodestar {
 namespace {
 
-/// Bytes of the UTF-8 character that begins there; 0 where none does. Control characters, which a terminal
-/// would obey, are none.
+/// Bytes of the character that begins there; 0 where it is no UTF-8, or a control character, which a terminal
+/// would obey.
 std::size_t character_bytes(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
-  if (lead < 0x80U) return lead >= 0x20U && lead != 0x7FU ? 1 : 0;
-  const std::size_t size = lead >= 0xF0U ? 4 : lead >= 0xE0U ? 3 : 2;
-  if (lead < 0xC2U || lead > 0xF4U || text.size() < size) return 0;
-  const auto continues = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; };
-  return std::ranges::all_of(text.substr(1, size - 1), continues) ? size : 0;
+  return lead < 0x20U || lead == 0x7FU ? 0 : utf8_character_bytes(text);
 }
 
 /// What was found, for people: a whole file that is read as one word, or binary data, would fill the

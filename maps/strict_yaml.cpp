@@ -9,6 +9,7 @@
 
 #include "maps/input_error.hpp"
 #include "maps/path_kind.hpp"
+#include "maps/utf8.hpp"
 #include "maps/yaml_documents.hpp"
 
 namespace lodestar {
@@ -47,6 +48,8 @@ void refuse_repeated_keys(const std::filesystem::path& file, const YAML::Node& m
     if (!entry.first.IsScalar()) {
       throw InputError(file, line_of(entry.first), kind_of(entry.first) + " as a key", "a word");
     }
+    if (!is_utf8(entry.first.Scalar()))
+      throw InputError(file, line_of(entry.first), "the key '" + entry.first.Scalar() + "'", "text in UTF-8");
     if (!seen.insert(entry.first.Scalar()).second) {
       throw InputError(file, line_of(entry.first), "a second key '" + entry.first.Scalar() + "'",
                        "each key once");
@@ -140,6 +143,7 @@ bool StrictYaml::boolean(const std::string& key) {
 std::string StrictYaml::text(const std::string& key) {
   const YAML::Node value = node(key);
   if (!value.IsScalar() || value.Scalar().empty()) refuse(key, kind_of(value), "a word");
+  if (!is_utf8(value.Scalar())) refuse(key, kind_of(value), "text in UTF-8");
   return value.Scalar();
 }
 

@@ -24,7 +24,7 @@ class StrictYaml {
   [[nodiscard]] double number(const std::string& key, double low, double high);  ///< in [low, high]
   [[nodiscard]] int integer(const std::string& key, int low, int high);
   [[nodiscard]] bool boolean(const std::string& key);
-  [[nodiscard]] std::string text(const std::string& key);
+  [[nodiscard]] std::string text(const std::string& key);  ///< in UTF-8, not empty
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count);
   /// The same of a value below the key, such as an item of a list.
   [[nodiscard]] std::vector<double> numbers_at(const std::string& key, const YAML::Node& list,

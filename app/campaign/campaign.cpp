@@ -15,6 +15,7 @@
 #include "app/campaign/random_faults.hpp"
 #include "app/campaign/random_obstacles.hpp"
 #include "app/campaign/random_site.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/parallel.hpp"
 #include "app/common/whole_number.hpp"
 #include "control/safety_stop.hpp"
@@ -266,7 +267,7 @@ std::vector<MissionOutcome> run_campaign(const Site& robot_and_cameras, const Ca
       outcome = outcome_of(number, record, mission.site, options.world);
     }
     const std::lock_guard lock(mutex);
-    if (before == known.end()) log << as_json(*outcome).dump() << "\n" << std::flush;
+    if (before == known.end()) log << json_text(as_json(*outcome)) << "\n" << std::flush;
     if (!log) throw InputError(file, 0, "a file that cannot be written", "one that can");
     done(static_cast<double>(++finished) / options.missions);
   });

@@ -6,6 +6,7 @@
 #include "app/commands/bench_all.hpp"
 #include "app/commands/bench_plan.hpp"
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 
 namespace lodestar {
 namespace {
@@ -85,7 +86,7 @@ void print_json(const BenchPaperOptions& options, const MethodFigures& ours, con
         {"rows", position_rows(ours.poses.positions)},
         {"mean_cm_by_papers_method", cm_per_m * method.poses.mean_position_deviation_m()},
         {"rows_by_papers_method", position_rows(method.poses.positions)}}}};
-  fmt::print("{}\n", report.dump(2));
+  fmt::print("{}", json_document(report));
 }
 
 void print_table_1(const IdentificationResult& ours, const IdentificationResult& method) {

@@ -5,6 +5,7 @@
 
 #include "app/bench/localize_report.hpp"
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/progress.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/input_error.hpp"
@@ -43,7 +44,7 @@ ExitCode run(const BenchLocalizeArguments& arguments) {
       bench_localize(options, [&progress](double share) { progress.show(share); });
   for (const std::string& peer : result.left_out)
     fmt::print(stderr, "bench: {} is skipped, this program was built without it\n", peer);
-  const std::string json = bench_localize_json(result).dump(2) + "\n";
+  const std::string json = json_document(bench_localize_json(result));
   if (!folder.empty()) {
     write_file_atomically(folder / "localize.json", json);
     write_file_atomically(folder / "localize.html", bench_localize_html(result));

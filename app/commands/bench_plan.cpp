@@ -10,6 +10,7 @@
 #include "app/bench/plan_site.hpp"
 #include "app/commands/bench_plan_map.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/common/json_text.hpp"
 #include "app/site/site_folder.hpp"
 #include "maps/input_error.hpp"
 #include "maps/median.hpp"
@@ -58,7 +59,7 @@ ExitCode bench_scenario(const BenchPlanArguments& arguments) {
                                       {"optimal", optimal},
                                       {"median_us", ours},
                                       {"plain_astar_median_us", astar}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}", json_document(json));
   }
   fmt::print(stderr,
              "{} of {} queries optimal; median {:.2f} us, plain A* with a binary heap {:.2f} us, {:.1f} x\n",
@@ -101,7 +102,7 @@ ExitCode bench_planners(BenchPlanArguments arguments) {
   if (arguments.planners.empty()) arguments.bench.kinds = all_planner_kinds();
   const SiteBenchResult result = bench_site(open_site(arguments.site), arguments.bench);
   if (arguments.json) {
-    fmt::print("{}\n", as_json(result, arguments.bench.seed).dump(2));
+    fmt::print("{}", json_document(as_json(result, arguments.bench.seed)));
   } else {
     print_table(result, arguments.bench.seed);
   }

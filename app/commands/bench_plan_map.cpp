@@ -6,6 +6,7 @@
 
 #include "app/bench/plan_beside.hpp"
 #include "app/bench/plan_maps.hpp"
+#include "app/common/json_text.hpp"
 #include "maps/map_file.hpp"
 #include "maps/percentile.hpp"
 
@@ -73,7 +74,7 @@ void print_json(const MapBenchResult& result, const Summary& summary, const Occu
                                     {"travel_time_ratio", as_json(summary.travel_time_ratio)},
                                     {"peak_memory_mb", result.peak_memory_mb},
                                     {"answers", answers}};
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}", json_document(json));
 }
 
 void print_table(const MapBenchResult& result, const Summary& summary, const OccupancyMap& map,

@@ -7,6 +7,7 @@
 
 #include "app/bench/survey_bench.hpp"
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/parallel.hpp"
 
 namespace lodestar {
@@ -220,7 +221,7 @@ ExitCode spoiled_survey(const SurveyBenchArguments& arguments) {
     fmt::print("{:14} {:5} {:8} {:17} {:15} {}\n", to_string(kinds[k]), counts[k].logs, counts[k].refused,
                counts[k].said, counts[k].silent, words);
   }
-  if (arguments.json) fmt::print("{}\n", rows.dump(2));
+  if (arguments.json) fmt::print("{}", json_document(rows));
   return silently_wrong == 0 ? done : job_failed;
 }
 
@@ -239,7 +240,7 @@ ExitCode bench_survey(const SurveyBenchArguments& arguments) {
       fmt::print(stderr, "lodestar: {}: {}\n", figures.name, limit);
     is_kept = is_kept && figures.broken.empty();
   }
-  if (arguments.json) fmt::print("{}\n", rows.dump(2));
+  if (arguments.json) fmt::print("{}", json_document(rows));
   return is_kept ? done : job_failed;
 }
 

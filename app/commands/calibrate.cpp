@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/drive/site_frames.hpp"
 #include "app/frames/frame_inputs.hpp"
 #include "app/frames/survey_log_file.hpp"
@@ -57,7 +58,7 @@ ExitCode calibrate_camera_from_images(const CameraArguments& arguments) {
   const CameraCalibration calibration =
       calibrate_camera(set.views, set.width_px, set.height_px, arguments.options);
   fmt::print("{}",
-             arguments.json ? json_report(set, calibration).dump(2) + "\n" : text_report(set, calibration));
+             arguments.json ? json_document(json_report(set, calibration)) : text_report(set, calibration));
   for (const std::string& line : complaints(set, calibration, arguments.options)) {
     fmt::print(stderr, "lodestar: {}\n", line);
   }
@@ -160,7 +161,7 @@ ExitCode calibrate_mount_from_log(const MountArguments& arguments) {
   const MountCalibrationOptions options;
   const MountCalibration calibration = calibrate_mount(set.frames, input.camera, belief_of(robot), options);
   fmt::print("{}",
-             arguments.json ? json_report(set, calibration).dump(2) + "\n" : text_report(set, calibration));
+             arguments.json ? json_document(json_report(set, calibration)) : text_report(set, calibration));
   for (const std::string& line : complaints(set, calibration, options)) {
     fmt::print(stderr, "lodestar: {}\n", line);
   }

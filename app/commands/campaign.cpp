@@ -9,6 +9,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/recorded_run.hpp"
 #include "app/common/interruption.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/progress.hpp"
 #include "app/site/site_folder.hpp"
 #include "maps/atomic_file.hpp"
@@ -54,7 +55,7 @@ ExitCode run_one(const Site& robot_and_cameras, std::uint64_t number, const Camp
   record.repeat = repeat_command(outcome);
   const RunFolderEnd end = recorded.finish(record);
   if (!end.loss.empty()) throw InputError(end.loss);
-  fmt::print("{}\n", as_json(outcome).dump(2));
+  fmt::print("{}", json_document(as_json(outcome)));
   fmt::print(stderr, "run folder: {}\n", recorded.folder().string());
   return verdict({outcome});
 }
@@ -75,7 +76,7 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
                             arguments.output, [&progress](double share) { progress.show(share); });
   }
   const nlohmann::ordered_json report = campaign_json(outcomes);
-  write_file_atomically(fs::path(arguments.output) / "campaign.json", report.dump(2) + "\n");
+  write_file_atomically(fs::path(arguments.output) / "campaign.json", json_document(report));
   write_file_atomically(fs::path(arguments.output) / "campaign.html", campaign_html(outcomes));
   for (const MissionOutcome& outcome : outcomes)
     if (outcome.has_failed() || outcome.is_excused()) print_failure(outcome);

@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/frame_arguments.hpp"
+#include "app/common/json_text.hpp"
 #include "localization/detection/marker_detector.hpp"
 
 namespace lodestar {
@@ -40,7 +41,7 @@ void print_json(const std::string& file, std::span<const DetectedMarker> markers
                                {"y", as_json(marker.y_px)},
                                {"dots", marker.dots.size()}});
   }
-  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(line));
 }
 
 Overlay overlay_of(const SourceFrame& frame, std::span<const DetectedMarker> markers) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/drive/service_findings.hpp"
 #include "app/site/site_folder.hpp"
 
@@ -48,7 +49,7 @@ void print_json(const std::vector<Finding>& findings) {
                       {"found", finding.found},
                       {"remedy", finding.remedy}});
   }
-  fmt::print("{}\n", report.dump(2));
+  fmt::print("{}", json_document(report));
 }
 
 ExitCode doctor_command(const DoctorArguments& arguments) {

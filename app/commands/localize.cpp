@@ -9,6 +9,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/frame_arguments.hpp"
 #include "app/commands/localize_methods.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/rounding.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "maps/input_error.hpp"
@@ -78,7 +79,7 @@ void print_json(const LocalizeRow& row) {
                                     {"sigma_yaw_deg", sigma_json(row, &LocalizeSigmas::yaw_deg)},
                                     {"confidence", row.confidence},
                                     {"dots", row.dots}};
-  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(line));
 }
 
 void print_row(const std::string& format, const LocalizeRow& row) {

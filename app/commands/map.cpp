@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/picture_file.hpp"
 #include "app/navigation/navigation_setup.hpp"
 #include "app/report/figure.hpp"
@@ -87,10 +88,10 @@ ExitCode info(const MapArguments& arguments) {
   const auto summary =
       is_octomap(arguments.file) ? octomap_summary(arguments.file) : grid_summary(arguments.file);
   if (arguments.json) {
-    fmt::print("{}\n", summary.dump(2));
+    fmt::print("{}", json_document(summary));
   } else {
     for (const auto& [key, value] : summary.items()) {
-      fmt::print("{:<16} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+      fmt::print("{:<16} {}\n", key, value.is_string() ? value.get<std::string>() : json_text(value));
     }
   }
   return done;
@@ -183,7 +184,7 @@ ExitCode visibility(const VisibilityArguments& arguments) {
   const VisibilitySummary summary = summarize(result);
   if (!arguments.output.empty()) write_png(arguments.output, draw_visibility(result, registry));
   if (arguments.json) {
-    fmt::print("{}\n", as_json(summary).dump(2));
+    fmt::print("{}", json_document(as_json(summary)));
   } else {
     print_summary(summary);
   }

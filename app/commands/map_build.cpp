@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/progress.hpp"
 #include "app/placement/map_from_runs.hpp"
 #include "maps/map_file.hpp"
@@ -56,7 +57,7 @@ ExitCode build(const BuildArguments& arguments) {
   const MapFromRuns built = map_from_runs(runs, options);
   say(built);
   save_map(built.map, arguments.output, provenance_comment(built));
-  if (arguments.json) fmt::print("{}\n", as_json(built).dump(2));
+  if (arguments.json) fmt::print("{}", json_document(as_json(built)));
   return done;
 }
 

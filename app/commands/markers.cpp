@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/placement/accepted_issues.hpp"
 #include "app/placement/coverage.hpp"
 #include "app/placement/site_floor.hpp"
@@ -65,7 +66,7 @@ ExitCode list(const MarkersArguments& arguments) {
       print_marker(arguments.format, as_json(registry, marker));
     }
   }
-  if (arguments.format == "json") fmt::print("{}\n", all.dump(2));
+  if (arguments.format == "json") fmt::print("{}", json_document(all));
   return done;
 }
 
@@ -83,7 +84,7 @@ void print_json(const MarkerRegistry& registry, const std::vector<RegistryIssue>
                                 {"turned_or_mirrored", as_json(turned_distances(registry))},
                                 {"issues", nlohmann::ordered_json::array()}};
   for (const RegistryIssue& issue : issues) report["issues"].push_back(issue_json(issue, accepted));
-  fmt::print("{}\n", report.dump(2));
+  fmt::print("{}", json_document(report));
 }
 
 void print_distances(const char* how, const DistanceReport& report) {

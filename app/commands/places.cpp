@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/console/document_history.hpp"
 #include "app/placement/lif.hpp"
 #include "app/placement/places_check.hpp"
@@ -29,7 +30,7 @@ void print_json(const Places& places, const std::vector<PlacesIssue>& issues) {
                                 {"speed_zones", places.speed_zones.size()},
                                 {"issues", nlohmann::ordered_json::array()}};
   for (const PlacesIssue& issue : issues) report["issues"].push_back(issue_json(issue));
-  fmt::print("{}\n", report.dump(2));
+  fmt::print("{}", json_document(report));
 }
 
 void print_text(const Site& site, const std::vector<PlacesIssue>& issues) {
@@ -58,7 +59,7 @@ ExitCode export_lif(const PlacesArguments& arguments) {
   const LifHeader header{.project = site.name,
                          .vehicle_type = site.robot.name,
                          .exported_at = fmt::format("{:%Y-%m-%dT%H:%M:%S.00Z}", now)};
-  const std::string text = lif_of(site.places, header).dump(2) + "\n";
+  const std::string text = json_document(lif_of(site.places, header));
   if (arguments.file.empty()) {
     fmt::print("{}", text);
   } else {

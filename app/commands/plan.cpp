@@ -4,6 +4,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/planner_options.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/picture_file.hpp"
 #include "app/common/stopwatch.hpp"
 #include "app/navigation/navigation_setup.hpp"
@@ -138,7 +139,7 @@ ExitCode plan(PlanArguments arguments) {
   const nlohmann::ordered_json summary =
       as_json(timed, arguments.planner, start, goal, arguments.options.limits);
   if (arguments.format == "json") {
-    fmt::print("{}\n", summary.dump(2));
+    fmt::print("{}", json_document(summary));
   } else {
     print_text(timed, summary);
   }

@@ -7,6 +7,7 @@
 
 #include "app/commands/run_summary_json.hpp"
 #include "app/common/interruption.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/progress.hpp"
 #include "app/report/run_folder.hpp"
 #include "app/simulate/run_table.hpp"
@@ -43,12 +44,12 @@ ExitCode replay_many(const Site& site, SimulatedDriveOptions options, const Repe
   nlohmann::ordered_json report = nlohmann::ordered_json::array();
   for (const RunSummary& run : runs) report.push_back(as_json(run));
   if (wanted.json) {
-    fmt::print("{}\n", report.dump(2));
+    fmt::print("{}", json_document(report));
   } else {
     print_run_table(runs, cpu_seconds() - begun_s);
   }
   if (!wanted.output.empty()) {
-    write_file_atomically(fs::path(wanted.output) / "runs.json", report.dump(2) + "\n");
+    write_file_atomically(fs::path(wanted.output) / "runs.json", json_document(report));
   }
   if (runs.size() < static_cast<std::size_t>(wanted.runs)) {
     fmt::print(stderr, "lodestar: interrupted after {} of {} runs\n", runs.size(), wanted.runs);

@@ -22,6 +22,7 @@
 #include "app/commands/ros2_service.hpp"
 #include "app/commands/run_summary_json.hpp"
 #include "app/common/interruption.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/log.hpp"
 #include "app/common/program_data.hpp"
 #include "app/common/progress.hpp"
@@ -156,7 +157,7 @@ ExitCode replay_once(const Site& site, SimulatedDriveOptions options, const Repl
   RunSummary summary = summarize(record);
   if (options.has_people_or_things()) summary.people = record.contact_score;
   if (arguments.json) {
-    fmt::print("{}\n", as_json(summary).dump(2));
+    fmt::print("{}", json_document(as_json(summary)));
   } else {
     print_goals(record);
     fmt::print("seed {}: {} contacts, 95 % of the track within {:.1f} mm of the path; run folder: {}\n",

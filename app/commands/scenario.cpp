@@ -10,6 +10,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/common/interruption.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/parallel.hpp"
 #include "app/common/picture_file.hpp"
 #include "app/report/run_folder.hpp"
@@ -75,7 +76,7 @@ class InOrder {
  private:
   void print(const ScenarioRun& run) const {
     if (!json_) return print_row(run);
-    fmt::print("{}\n", as_json(run).dump());
+    fmt::print("{}\n", json_text(as_json(run)));
     std::fflush(stdout);
   }
 

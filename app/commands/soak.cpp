@@ -7,6 +7,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/common/interruption.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/log.hpp"
 #include "app/common/process_health.hpp"
 #include "app/common/stopwatch.hpp"
@@ -134,9 +135,9 @@ ExitCode soak(const SoakArguments& arguments) {
     result.last = process_health();
     if (result.warm.resident_kb == 0 && watch.seconds() >= warm_share * wanted_s) result.warm = result.last;
     write_file_atomically(fs::path(arguments.output) / "soak.json",
-                          as_json(result, watch.seconds() / seconds_per_minute).dump(2) + "\n");
+                          json_document(as_json(result, watch.seconds() / seconds_per_minute)));
   }
-  fmt::print("{}\n", as_json(result, watch.seconds() / seconds_per_minute).dump(2));
+  fmt::print("{}", json_document(as_json(result, watch.seconds() / seconds_per_minute)));
   if (watch.seconds() < wanted_s) {
     fmt::print(stderr, "lodestar: interrupted after {:.1f} of {:g} minutes\n",
                watch.seconds() / seconds_per_minute, arguments.minutes);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/common/json_text.hpp"
 #include "app/frames/survey_log_file.hpp"
 #include "app/placement/survey_report.hpp"
 #include "app/report/survey_page.hpp"
@@ -119,7 +120,7 @@ ExitCode survey_command(const SurveyArguments& arguments) {
   SurveyOptions options;
   options.most_sigma_m = arguments.max_sigma_mm / mm_per_m;
   const MarkerSurvey survey = survey_markers(logs, camera, survey_belief_of(site.robot), anchors, options);
-  fmt::print("{}", arguments.json ? json_report(survey).dump(2) + "\n" : text_report(survey));
+  fmt::print("{}", arguments.json ? json_document(json_report(survey)) : text_report(survey));
   for (const std::string& line : complaints(survey)) fmt::print(stderr, "lodestar: {}\n", line);
   if (!survey.flaws.empty()) return job_failed;
   if (arguments.output.empty())
@@ -176,7 +177,7 @@ ExitCode check_command(const CheckArguments& arguments) {
            std::ranges::find(arguments.without, proposal.id) != arguments.without.end();
   });
   if (arguments.format == "csv") fmt::print("{}", csv_report(*difference));
-  if (arguments.format == "json") fmt::print("{}\n", json_report(*difference).dump(2));
+  if (arguments.format == "json") fmt::print("{}", json_document(json_report(*difference)));
   if (arguments.format == "text") fmt::print("{}", text_report(*difference));
   if (difference->proposals.empty()) return done;
   if (arguments.apply) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <unistd.h>
 
+#include "app/common/json_text.hpp"
 #include "app/common/log.hpp"
 #include "app/common/wall_clock.hpp"
 #include "maps/input_error.hpp"
@@ -25,7 +26,7 @@ ordered_json as_json(const AuditEntry& entry) {
 }
 
 std::string text_of(const ordered_json& content) {
-  return content.dump(-1, ' ', false, json::error_handler_t::replace);
+  return json_text(content);
 }
 
 }  // namespace

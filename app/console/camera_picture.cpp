@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "app/common/json_text.hpp"
 #include "app/common/rounding.hpp"
 #include "maps/picture.hpp"
 
@@ -39,7 +40,7 @@ std::optional<std::string> CameraPicture::message(const Frame& frame) {
   const std::string jpeg = jpeg_bytes(frame.gray);
   if (jpeg.empty()) return std::nullopt;
 
-  const std::string text = head.dump();
+  const std::string text = json_text(head);
   std::string message;
   for (unsigned shift = 0; shift < 32; shift += 8) {
     message += static_cast<char>((static_cast<std::uint32_t>(text.size()) >> shift) & 0xFFU);

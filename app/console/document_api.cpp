@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/common/json_parse.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/wall_clock.hpp"
 #include "app/common/whole_number.hpp"
 #include "app/console/history_json.hpp"
@@ -28,7 +29,7 @@ constexpr const char* history_path = "/api/markers/history";
 
 /// Names that people give themselves may be no UTF-8.
 HttpResponse document(const ordered_json& content) {
-  HttpResponse response{.body = content.dump(-1, ' ', false, json::error_handler_t::replace)};
+  HttpResponse response{.body = json_text(content)};
   response.etag = etag_of(response.body);
   return response;
 }
@@ -55,8 +56,8 @@ HttpResponse unless_known(const HttpResponse& response, const HttpRequest& reque
 HttpResponse exported(const json& request) {
   const auto format = marker_format_named(request.at("format").get<std::string>());
   if (!format) return refusal(422, "found an unknown format, wanted one of the formats of /api/site");
-  const MarkerRegistry registry = registry_from_json(request.at("registry").dump());
-  return {.body = json{{"text", markers_text(registry, *format)}}.dump()};
+  const MarkerRegistry registry = registry_from_json(json_text(request.at("registry")));
+  return {.body = json_text(json{{"text", markers_text(registry, *format)}})};
 }
 
 HttpResponse imported(const json& request) {
@@ -64,7 +65,7 @@ HttpResponse imported(const json& request) {
   const auto text = request.at("text").get<std::string>();
   const auto format = guess_marker_format(name, text);
   if (!format) return refusal(422, "found a file name that does not tell the format");
-  return {.body = registry_json(parse_markers(text, *format, name)).dump()};
+  return {.body = json_text(registry_json(parse_markers(text, *format, name)))};
 }
 
 std::string today() {
@@ -82,7 +83,7 @@ HttpResponse printed(const json& request, const Site& site) {
   std::optional<MarkerRegistry> registry;
   std::optional<PlaceSheets> places;
   if (request.contains("registry")) {
-    registry = registry_from_json(request["registry"].dump());
+    registry = registry_from_json(json_text(request["registry"]));
     places.emplace(site.map.map, site.name, today(), *paper);
   }
   std::vector<SheetPage> pages;
@@ -186,7 +187,7 @@ HttpResponse DocumentApi::cells() const {
 }
 
 HttpResponse DocumentApi::markers() const {
-  return {.body = registry_json(load_registry(registry_file_)).dump(),
+  return {.body = json_text(registry_json(load_registry(registry_file_))),
           .etag = etag_of(read_document(registry_file_))};
 }
 
@@ -230,16 +231,16 @@ HttpResponse DocumentApi::history(const std::string& target) const {
 HttpResponse DocumentApi::post(const HttpRequest& request) const {
   try {
     if (request.target == "/api/markers/check") {
-      return {.body = coverage_.issues(site_, registry_from_json(request.body), request.cancelled).dump()};
+      return {.body =
+                  json_text(coverage_.issues(site_, registry_from_json(request.body), request.cancelled))};
     }
     if (request.target == "/api/markers/deviations") {
-      return {.body =
-                  coverage_.deviations(site_, registry_from_json(request.body), request.cancelled).dump()};
+      return {.body = json_text(
+                  coverage_.deviations(site_, registry_from_json(request.body), request.cancelled))};
     }
     if (request.target == "/api/markers/plan") {
-      return {.body = json{{"text", installation_csv(registry_from_json(request.body), site_.map.map,
-                                                     site_.name, today())}}
-                          .dump(-1, ' ', false, json::error_handler_t::replace)};
+      return {.body = json_text(json{{"text", installation_csv(registry_from_json(request.body),
+                                                               site_.map.map, site_.name, today())}})};
     }
     const json body = parse_json(request.body);
     if (request.target == "/api/markers/export") return exported(body);

@@ -6,6 +6,7 @@
 
 #include "app/common/base64.hpp"
 #include "app/common/json_parse.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/wall_clock.hpp"
 #include "app/console/document_history.hpp"
 #include "app/placement/hanging.hpp"
@@ -95,7 +96,7 @@ HttpResponse HangingApi::list() const {
                  {"photo", fs::exists(photo_file(marker.id))}});
     markers.push_back(std::move(item));
   }
-  HttpResponse response{.body = markers.dump(-1, ' ', false, json::error_handler_t::replace)};
+  HttpResponse response{.body = json_text(markers)};
   response.etag = etag_of(response.body);
   return response;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/common/json_text.hpp"
 #include "app/common/rounding.hpp"
 #include "maps/input_error.hpp"
 
@@ -110,7 +111,7 @@ ordered_json seen_json(const RobotState& state) {
 }
 
 SocketMessage message_of(const ordered_json& content) {
-  return text_message(content.dump(-1, ' ', false, json::error_handler_t::replace));
+  return text_message(json_text(content));
 }
 
 ordered_json state_json(const RobotState& state) {

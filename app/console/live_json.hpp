@@ -14,21 +14,22 @@ SocketMessage message_of(const nlohmann::ordered_json& content);
 
 nlohmann::ordered_json state_json(const RobotState& state);
 
-/// [[x_m, y_m], ...]
 /// What the scanner sees, in the map where the pose is known: {"type", "cell_m", "cell_yaw_deg", "mapped",
 /// "standing", "person", "hidden", "cells_standing", "cells_moving"}, each of the last six a list of
 /// x, y, x, y, ... in metres.
 nlohmann::ordered_json seen_json(const RobotState& state);
 
+/// [[x_m, y_m], ...]
 nlohmann::ordered_json points_json(const Path& path);
 
 /// Reads [[x_m, y_m], [x_m, y_m, yaw_deg], ...]. Throws InputError for anything else, for an empty list and
 /// for more than 100 goals.
 std::vector<Goal> goals_from_json(const nlohmann::json& goals);
 
-/// {"forward_mps": ..., "turn_degps": ...}. Throws InputError for what is no velocity.
 /// The words of a client about itself, which others read.
 std::string name_from_json(const nlohmann::json& message);
+
+/// {"forward_mps": ..., "turn_degps": ...}. Throws InputError for what is no velocity.
 BodyVelocity velocity_from_json(const nlohmann::json& message);
 
 /// Reads [x_m, y_m, yaw_deg]. Throws InputError for anything else.

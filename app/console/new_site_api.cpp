@@ -8,6 +8,7 @@
 
 #include "app/common/base64.hpp"
 #include "app/common/json_parse.hpp"
+#include "app/common/json_text.hpp"
 #include "app/console/page_file.hpp"
 #include "app/console/run_archive.hpp"
 #include "app/console/run_facts.hpp"
@@ -126,14 +127,13 @@ bool NewSiteApi::uses_files(const HttpRequest& head) {
 HttpResponse NewSiteApi::answer(const HttpRequest& request) {
   if (request.method == "GET" || request.method == "HEAD") {
     if (request.target == "/api/site")
-      return {.body = ordered_json{{"new", true}, {"folder", folder_.filename().string()}}.dump()};
-    if (request.target == "/api/new/runs")
-      return {.body = runs_with_scans().dump(-1, ' ', false, json::error_handler_t::replace)};
+      return {.body = json_text(ordered_json{{"new", true}, {"folder", folder_.filename().string()}})};
+    if (request.target == "/api/new/runs") return {.body = json_text(runs_with_scans())};
     return page_file(request.target).value_or(refusal(404, "found no such document"));
   }
   if (request.method != "PUT") return refusal(405, "found another method");
   try {
-    return {.body = put(request.target, parse_json(request.body)).dump()};
+    return {.body = json_text(put(request.target, parse_json(request.body)))};
   } catch (const InputError& error) {
     return refusal(422, error.what());
   } catch (const json::exception& error) {

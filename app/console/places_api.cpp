@@ -3,6 +3,7 @@
 #include <charconv>
 #include <utility>
 
+#include "app/common/json_text.hpp"
 #include "app/console/history_json.hpp"
 #include "app/console/places_json.hpp"
 #include "app/console/routes.hpp"
@@ -19,11 +20,11 @@ constexpr const char* routes_path = "/api/routes";
 constexpr const char* places_history_path = "/api/places/history";
 
 HttpResponse tagged_document(const ordered_json& content, const std::string& etag) {
-  return {.body = content.dump(-1, ' ', false, ordered_json::error_handler_t::replace), .etag = etag};
+  return {.body = json_text(content), .etag = etag};
 }
 
 HttpResponse refused(const PlacesRefusal& why) {
-  return {.status = 422, .body = refusal_json(why).dump()};
+  return {.status = 422, .body = json_text(refusal_json(why))};
 }
 
 std::variant<Places, PlacesRefusal> sent_places(const HttpRequest& request, const Places& before,
@@ -101,7 +102,7 @@ HttpResponse PlacesApi::check(const HttpRequest& request) const {
   draft.registry = load_registry(site_.registry_file);  // as it is saved now
   ordered_json issues = ordered_json::array();
   for (const PlacesIssue& issue : check_places(draft, &floor_)) issues.push_back(issue_json(issue));
-  return {.body = issues.dump()};
+  return {.body = json_text(issues)};
 }
 
 HttpResponse PlacesApi::history(const std::string& rest) const {

@@ -1,5 +1,6 @@
 #include "app/console/runs_api.hpp"
 
+#include "app/common/json_text.hpp"
 #include "app/common/percent_decoding.hpp"
 #include "app/console/document_history.hpp"
 #include "maps/input_error.hpp"
@@ -14,7 +15,7 @@ constexpr std::string_view runs_path = "/api/runs";
 
 /// Summaries and names may hold bytes that are no UTF-8.
 HttpResponse document(const ordered_json& content) {
-  HttpResponse response{.body = content.dump(-1, ' ', false, json::error_handler_t::replace)};
+  HttpResponse response{.body = json_text(content)};
   response.etag = etag_of(response.body);
   return response;
 }

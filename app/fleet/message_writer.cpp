@@ -5,6 +5,7 @@
 #include <fmt/chrono.h>
 #include <numbers>
 
+#include "app/common/json_text.hpp"
 #include "app/fleet/message_reader.hpp"
 #include "maps/footprint.hpp"
 
@@ -23,7 +24,7 @@ OrderedJson opened(const MessageHeader& header) {
 
 /// What a master sent may come back in a message; a byte that is no UTF-8 is replaced.
 std::string text_of(const OrderedJson& json) {
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return json_text(json);
 }
 
 /// 2.0.0 wants a heading in a node's position, though orders need none: such positions are left out.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/json_parse.hpp"
+#include "app/common/json_text.hpp"
 
 namespace lodestar {
 namespace {
@@ -71,7 +72,7 @@ std::string offered_token(const std::string& body) {
 }
 
 HttpResponse session_of(Role role) {
-  return {.body = nlohmann::json{{"role", to_string(role)}}.dump()};
+  return {.body = json_text(nlohmann::json{{"role", to_string(role)}})};
 }
 
 }  // namespace
@@ -90,8 +91,7 @@ std::string_view to_string(Role role) {
 
 HttpResponse refusal(int status, const std::string& words) {
   using nlohmann::json;
-  return {.status = status,
-          .body = json{{"error", words}}.dump(-1, ' ', false, json::error_handler_t::replace)};
+  return {.status = status, .body = json_text(json{{"error", words}})};
 }
 
 bool AccessRules::asks_for_token() const {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/common/json_text.hpp"
 #include "app/placement/poses.hpp"
 #include "maps/registry_text.hpp"
 
@@ -58,7 +59,7 @@ std::string apriltag_text(const MarkerRegistry& registry) {
             {{"quaternion", {{"W", turn.w()}, {"X", turn.x()}, {"Y", turn.y()}, {"Z", turn.z()}}}}}}}});
   }
   const ordered_json layout{{"tags", tags}, {"field", {{"length", far.x()}, {"width", far.y()}}}};
-  return layout.dump(2) + "\n";
+  return json_document(layout);
 }
 
 std::string fiducial_slam_text(const MarkerRegistry& registry) {
@@ -84,7 +85,7 @@ std::string geojson_text(const MarkerRegistry& registry) {
          {"geometry", {{"type", "Point"}, {"coordinates", {at.x(), at.y(), at.z()}}}}});
   }
   const ordered_json collection{{"type", "FeatureCollection"}, {"features", features}};
-  return collection.dump(2) + "\n";
+  return json_document(collection);
 }
 
 }  // namespace

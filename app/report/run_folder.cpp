@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/common/json_text.hpp"
 #include "app/placement/survey_report.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
@@ -119,7 +120,7 @@ void write_run_folder(const std::filesystem::path& folder, const RunRecord& reco
                       const MarkerRegistry& registry, const Places& places) {
   make_run_folder(folder);
   const std::string picture = png_bytes(draw_experiment(record, map, registry, places));
-  write_file_atomically(folder / "summary.json", summary_of(record).dump(2) + "\n");
+  write_file_atomically(folder / "summary.json", json_document(summary_of(record)));
   write_file_atomically(folder / "map.png", picture);
   write_file_atomically(folder / "estimate.tum", estimate_tum(record));
   write_truth(folder / "truth.tum", record);

@@ -1,5 +1,6 @@
 #include "app/simulate/scenario_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -82,7 +83,7 @@ std::vector<DiscKey> read_keys(StrictYaml& yaml) {
   std::vector<DiscKey> keys;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::vector<double> numbers = yaml.numbers_at(key, list[i], 3);
-    const DiscKey next{from_seconds(std::min(numbers[0], longest_s)), {numbers[1], numbers[2]}};
+    const DiscKey next{from_seconds(std::clamp(numbers[0], 0.0, longest_s)), {numbers[1], numbers[2]}};
     const bool is_in_range =
         numbers[0] >= 0.0 && numbers[0] <= longest_s && next.position_m.cwiseAbs().maxCoeff() <= far_m;
     if (!is_in_range || (!keys.empty() && next.time <= keys.back().time))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "app/common/json_text.hpp"
 #include "app/common/rounding.hpp"
 #include "app/report/run_statistics.hpp"
 #include "app/viewers/foxglove_schemas.hpp"
@@ -34,7 +35,7 @@ enum DriveChannel : std::size_t {
 constexpr Duration message_period = std::chrono::milliseconds(50);  ///< of poses, at most
 
 Message message(DriveChannel channel, Stamp stamp, const MessageJson& json) {
-  return {.channel = channel, .stamp = stamp, .content = json.dump()};
+  return {.channel = channel, .stamp = stamp, .content = json_text(json)};
 }
 
 /// Six decimals are enough for plots.

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "app/common/json_parse.hpp"
+#include "app/common/json_text.hpp"
 #include "app/common/whole_number.hpp"
 
 namespace lodestar {
@@ -92,7 +93,7 @@ class FoxgloveHub::Viewer : public SocketSession {
   void complain(const std::string& words) {
     constexpr int warning = 1;
     const Json status{{"op", "status"}, {"level", warning}, {"message", words}};
-    outbox_.queue(text_message(status.dump(-1, ' ', false, Json::error_handler_t::replace)));
+    outbox_.queue(text_message(json_text(status)));
   }
 
   FoxgloveHub& hub_;
@@ -126,13 +127,12 @@ bool FoxgloveHub::is_heard(std::size_t channel) const {
 }
 
 std::string FoxgloveHub::server_info() const {
-  return Json{{"op", "serverInfo"},
-              {"name", name_},
-              {"capabilities", Json::array()},
-              {"supportedEncodings", {"json"}},
-              {"metadata", Json::object()},
-              {"sessionId", session_}}
-      .dump();
+  return json_text(Json{{"op", "serverInfo"},
+                        {"name", name_},
+                        {"capabilities", Json::array()},
+                        {"supportedEncodings", {"json"}},
+                        {"metadata", Json::object()},
+                        {"sessionId", session_}});
 }
 
 std::string FoxgloveHub::advertisement() const {
@@ -146,7 +146,7 @@ std::string FoxgloveHub::advertisement() const {
                         {"schemaEncoding", "jsonschema"},
                         {"schema", channels_[id].schema}});
   }
-  return Json{{"op", "advertise"}, {"channels", channels}}.dump();
+  return json_text(Json{{"op", "advertise"}, {"channels", channels}});
 }
 
 }  // namespace lodestar

@@ -57,6 +57,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadFile{"unknown_site_key", "site.yaml",
                 "default_camera:", "defualt_camera:", "site.yaml:[0-9]+: found"},
+        BadFile{"site_name_in_latin_1", "site.yaml", "name: lab", "name: B\xFCro",
+                "site.yaml:[0-9]+: found 'B.xfcro', wanted text in UTF-8"},
         BadFile{"site_of_another_format", "site.yaml", "lodestar-site", "lodestar-cite",
                 "site.yaml:1: found 'lodestar-cite'"},
         BadFile{"site_names_a_missing_map", "site.yaml", "map.yaml", "no_map.yaml", "no_map.yaml: found"},

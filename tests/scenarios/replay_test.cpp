@@ -47,6 +47,19 @@ TEST(Replay, drives_from_s_to_e_and_back) {
   }
 }
 
+/// A folder may have any name that the system allows; what was driven is written all the same.
+TEST(Replay, keeps_the_results_of_a_site_whose_folder_is_named_in_latin_1) {
+  const ScratchFolder scratch;
+  const std::string name = "B\xFCro";
+  fs::copy(fs::path(LODESTAR_SOURCE_DIR) / "sites/lab", scratch.path() / name, fs::copy_options::recursive);
+
+  const Ran ran = run_lodestar("replay " + name + " --goal 2.2,5.6 --quiet -o run", scratch.path());
+
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  const auto summary = nlohmann::json::parse(read_text(scratch.path() / "run/summary.json"));
+  EXPECT_THAT(summary.at("repeat").get<std::string>(), HasSubstr("replay B\uFFFDro"));
+}
+
 /// Tiles that hang by a degree. Markers that counted as level put the robot off by 12 to 16 mm.
 TEST(Replay, knows_where_it_is_to_millimetres_under_markers_that_are_not_level) {
   const Site site = lab();
