@@ -60,6 +60,7 @@ void ObstacleMemory::add(const DeskewedScan& scan) {
   for (Seen& seen : seen_) seen.hit_now = false;
   mark_hits(scan, middle);
   mark_legs(scan);
+  note_hits_beside(scan.newest);
   count_free(scan);
   forget(scan.newest, middle);
 }
@@ -68,22 +69,42 @@ void ObstacleMemory::mark_hits(const DeskewedScan& scan, const Place& middle) {
   for (const Ray& ray : scan.rays) {
     if (!ends_at_something(ray)) continue;
     if ((ray.end_m - center_m(middle)).lpNorm<Eigen::Infinity>() > options_.half_extent_m) continue;
-    hit(place_of(ray.end_m), ray.stamp);
+    hit(ray);
   }
 }
 
-void ObstacleMemory::hit(Place place, Stamp stamp) {
+void ObstacleMemory::hit(const Ray& ray) {
+  constexpr int most_hits = 16;  // in the mean: what moves on within the cell is followed
+  const Place place = place_of(ray.end_m);
+  const Stamp stamp = ray.stamp;
   std::int32_t& index = index_[wrapped(place.column, place.row)];
   if (index < 0) {
     index = static_cast<std::int32_t>(seen_.size());
-    seen_.push_back({.place = place, .first_hit = stamp, .last_hit = stamp});
+    seen_.push_back(
+        {.place = place, .mean_m = ray.end_m, .first_hit = stamp, .last_hit = stamp, .hit_beside = stamp});
   }
   Seen& seen = seen_[static_cast<std::size_t>(index)];
-  if (!has_stood(seen) && stamp - seen.last_hit > options_.longest_unseen) seen.first_hit = stamp;
+  if (!has_stood(seen) && is_broken_off(seen, stamp)) seen.first_hit = stamp;
   if (seen.first_hit == stamp) seen.came_at = came_at(place, stamp);
+  seen.hits = std::min(seen.hits + 1, most_hits);
+  seen.mean_m += (ray.end_m - seen.mean_m) / seen.hits;
   seen.last_hit = std::max(seen.last_hit, stamp);
   seen.times_free = 0;
   seen.hit_now = true;
+}
+
+/// Was it missed for too long to be still the same that was hit before?
+bool ObstacleMemory::is_broken_off(const Seen& seen, Stamp now) const {
+  if (!is_leg(seen)) return now - seen.last_hit > options_.longest_unseen;
+  return now - seen.last_hit > options_.longest_unseen_leg || now - seen.hit_beside > options_.longest_unseen;
+}
+
+void ObstacleMemory::note_hits_beside(Stamp now) {
+  for (Seen& seen : seen_) {
+    ask_beside(seen.place, [&](const Seen& beside) {
+      if (beside.hit_now) seen.hit_beside = now;
+    });
+  }
 }
 
 void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
@@ -95,10 +116,11 @@ void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
 }
 
 /// What is hit in the same scan is not free, however many rays pass beside it: a leg is thinner than a cell.
+/// Nor are the cells beside that it is hit in now and then.
 void ObstacleMemory::count_free(const DeskewedScan& scan) {
   RayFan fan(scan);
   for (Seen& seen : seen_) {
-    if (seen.hit_now) continue;
+    if (seen.hit_now || (is_leg(seen) && seen.hit_beside == scan.newest)) continue;
     if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m))
       ++seen.times_free;
   }
@@ -111,7 +133,8 @@ bool ObstacleMemory::was_seen_free(Place place, Stamp before) const {
   const Vec2 place_m = center_m(place);
   return std::ranges::any_of(looks_, [&](const Look& look) {
     return look.stamp < before && (place_m - look.from_m).norm() <= options_.seen_free_within_m &&
-           look.fan.all_pass(place_m, options_.seen_free_beside_m, options_.seen_free_beside_m);
+           look.fan.all_pass(place_m, options_.seen_free_beside_m, options_.seen_free_beside_m,
+                             options_.seen_free_between_m);
   });
 }
 
@@ -212,14 +235,14 @@ std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
 std::vector<Vec2> ObstacleMemory::standing_m(Stamp now) const {
   std::vector<Vec2> points_m;
   for (const Seen& seen : seen_)
-    if (has_stood(seen) && is_remembered(seen, now)) points_m.push_back(center_m(seen.place));
+    if (has_stood(seen) && is_remembered(seen, now)) points_m.push_back(seen.mean_m);
   return points_m;
 }
 
 std::vector<Vec2> ObstacleMemory::standing_legs_m(Stamp now) const {
   std::vector<Vec2> points_m;
   for (const Seen& seen : seen_)
-    if (is_leg(seen) && has_stood(seen) && is_remembered(seen, now)) points_m.push_back(center_m(seen.place));
+    if (is_leg(seen) && has_stood(seen) && is_remembered(seen, now)) points_m.push_back(seen.mean_m);
   return points_m;
 }
 

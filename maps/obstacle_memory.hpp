@@ -35,8 +35,13 @@ struct ObstacleMemoryOptions {
   /// edges come and go, and nobody is near.
   double seen_free_beside_m = 0.15;
   double seen_free_within_m = 4.0;
+  /// And only between two beams that are no farther from it: a degree apart, they are 7 cm apart there.
+  double seen_free_between_m = 0.08;
   Duration longest_unseen =
       std::chrono::milliseconds(350);  ///< while it comes to stand: three scans at 10 Hz
+  /// A thin thing where cells meet is hit in one or another by the noise of the range: each of them may miss
+  /// out for so long while those beside it are hit. Who walks at more than 5 cm/s has left the cell.
+  Duration longest_unseen_leg = std::chrono::seconds(1);
   /// Out of sight, what stood is remembered as long as a detour around it takes (chosen by hand), what moved
   /// as long as someone takes to leave a step's width.
   Duration remembered_standing = std::chrono::seconds(30);
@@ -72,7 +77,8 @@ class ObstacleMemory {
   /// Was what is hit here, or in a cell beside it, seen to come? Else it may be furniture.
   [[nodiscard]] bool has_come(const Vec2& point_m) const;
 
-  /// Centres of the cells in which something stands, also where it has not been seen for a while.
+  /// Where something stands, also where it has not been seen for a while: the mean of what was hit in each
+  /// cell.
   [[nodiscard]] std::vector<Vec2> standing_m(Stamp now) const;
 
   /// The same of legs only.
@@ -89,10 +95,13 @@ class ObstacleMemory {
   };
   struct Seen {
     Place place;
-    Stamp first_hit;  ///< of an unbroken row of hits
+    Vec2 mean_m = Vec2::Zero();  ///< of the newest hits
+    int hits = 0;                ///< in the mean
+    Stamp first_hit;             ///< of an unbroken row of hits
     Stamp last_hit;
     std::uint8_t times_free = 0;  ///< in a row
     bool hit_now = false;
+    Stamp hit_beside;  ///< last, here or in a cell beside
     /// The floor here was seen free just before then, or beside here.
     std::optional<Stamp> came_at;
     std::optional<Stamp> leg_at;  ///< what may be a leg was hit last
@@ -119,8 +128,10 @@ class ObstacleMemory {
   [[nodiscard]] bool any_beside(const Vec2& point_m, const Holds& holds) const;
   [[nodiscard]] bool is_remembered(const Seen& seen, Stamp now) const;
   void mark_hits(const DeskewedScan& scan, const Place& middle);
-  void hit(Place place, Stamp stamp);
+  void hit(const Ray& ray);
   void mark_legs(const DeskewedScan& scan);
+  void note_hits_beside(Stamp now);
+  [[nodiscard]] bool is_broken_off(const Seen& seen, Stamp now) const;
   void count_free(const DeskewedScan& scan);
   void forget(Stamp now, const Place& middle);
 

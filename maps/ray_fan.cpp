@@ -22,15 +22,30 @@ int bin_of(double turn) {
   return std::min(static_cast<int>(turn * (bins / full_turn)), bins - 1);
 }
 
+/// A hit that both rays beside it go past by more than neighbours on one surface differ.
+bool is_alone(const DeskewedScan& scan, std::size_t i) {
+  constexpr double beyond_m = 0.15;
+  const std::size_t count = scan.rays.size();
+  const Ray& ray = scan.rays[i];
+  const double range_m = (ray.end_m - ray.origin_m).norm();
+  const auto goes_past = [&](const Ray& beside) {
+    return beside.echo == Echo::invalid || (beside.end_m - beside.origin_m).norm() > range_m + beyond_m;
+  };
+  return ray.echo == Echo::hit && goes_past(scan.rays[(i + count - 1) % count]) &&
+         goes_past(scan.rays[(i + 1) % count]);
+}
+
 }  // namespace
 
 RayFan::RayFan(const DeskewedScan& scan) {
   lines_.reserve(scan.rays.size());
-  for (const Ray& ray : scan.rays) {
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    const Ray& ray = scan.rays[i];
     const Vec2 way = ray.end_m - ray.origin_m;
     const double length_m = way.norm();
-    if (ray.echo == Echo::invalid || length_m == 0.0) continue;
-    lines_.push_back({ray.origin_m, way / length_m, length_m, turn_of(way)});
+    if (length_m == 0.0) continue;
+    lines_.push_back(
+        {ray.origin_m, way / length_m, length_m, turn_of(way), ray.echo == Echo::invalid, is_alone(scan, i)});
     middle_m_ += ray.origin_m;
   }
   if (!lines_.empty()) middle_m_ /= static_cast<double>(lines_.size());
@@ -42,7 +57,7 @@ RayFan::RayFan(const DeskewedScan& scan) {
   for (std::size_t bin = bins; bin-- > 0;) first_[bin] = std::min(first_[bin], first_[bin + 1]);
 }
 
-/// Asks `more(reach beyond the point)` of each ray that looks past it within `aside_m`, while that says so.
+/// Asks `more(Look)` of each ray that looks past the point within `aside_m`, while that says so.
 template <typename More>
 void RayFan::ask_beside(const Vec2& point_m, double aside_m, const More& more) const {
   const Vec2 to_point = point_m - middle_m_;
@@ -60,28 +75,33 @@ void RayFan::ask_beside(const Vec2& point_m, double aside_m, const More& more) c
       const Line& line = lines_[static_cast<std::size_t>(at)];
       const Vec2 offset = point_m - line.origin_m;
       const double along_m = offset.dot(line.way);
-      if (along_m <= 0.0 || std::abs(cross(line.way, offset)) >= aside_m) continue;
-      if (!more(line.length_m - along_m)) return;
+      const double left_m = cross(line.way, offset);
+      if (along_m <= 0.0 || std::abs(left_m) >= aside_m) continue;
+      if (!more(Look{line, left_m, line.length_m - along_m})) return;
     }
   }
 }
 
 bool RayFan::passes(const Vec2& point_m, double aside_m, double before_end_m) const {
   bool has_passed = false;
-  ask_beside(point_m, aside_m, [&](double beyond_m) {
-    has_passed = beyond_m > before_end_m;
+  ask_beside(point_m, aside_m, [&](const Look& look) {
+    has_passed = !look.line.is_lost && look.beyond_m > before_end_m;
     return !has_passed;
   });
   return has_passed;
 }
 
-bool RayFan::all_pass(const Vec2& point_m, double aside_m, double before_end_m) const {
-  bool have_passed = false;
-  ask_beside(point_m, aside_m, [&](double beyond_m) {
-    have_passed = beyond_m > before_end_m;
-    return have_passed;
+bool RayFan::all_pass(const Vec2& point_m, double aside_m, double before_end_m, double gap_m) const {
+  bool all = true;
+  bool has_left = false;
+  bool has_right = false;
+  ask_beside(point_m, aside_m, [&](const Look& look) {
+    all = !look.line.is_lost && !look.line.is_alone && look.beyond_m > before_end_m;
+    has_left = has_left || (look.aside_m >= 0.0 && look.aside_m <= gap_m);
+    has_right = has_right || (look.aside_m <= 0.0 && look.aside_m >= -gap_m);
+    return all;
   });
-  return have_passed;
+  return all && has_left && has_right;
 }
 
 }  // namespace lodestar

@@ -15,16 +15,26 @@ class RayFan {
   /// Does a ray pass the point within `aside_m` and go on for more than `before_end_m`?
   [[nodiscard]] bool passes(const Vec2& point_m, double aside_m, double before_end_m) const;
 
-  /// Are there rays that look past the point within `aside_m`, and do all of them go on for more than
-  /// `before_end_m`?
-  [[nodiscard]] bool all_pass(const Vec2& point_m, double aside_m, double before_end_m) const;
+  /// Do all rays that look past the point within `aside_m` go on for more than `before_end_m`, with one on
+  /// either side of it within `gap_m`? Not if one of them was lost, or hit alone what is nearer than all
+  /// around: it may have met what is there, with half of its spot (a mixed pixel). And not at the seam of a
+  /// turn, where a robot that turns leaves a gap.
+  [[nodiscard]] bool all_pass(const Vec2& point_m, double aside_m, double before_end_m, double gap_m) const;
 
  private:
   struct Line {
     Vec2 origin_m;
     Vec2 way;  ///< of length 1
     double length_m = 0.0;
-    double turn = 0.0;  ///< pseudo-angle in [0, 4)
+    double turn = 0.0;      ///< pseudo-angle in [0, 4)
+    bool is_lost = false;   ///< an invalid echo: nothing is known but its direction
+    bool is_alone = false;  ///< nearer than both beside it
+  };
+  /// How a ray looks past a point.
+  struct Look {
+    const Line& line;
+    double aside_m = 0.0;   ///< positive: the point is on its left
+    double beyond_m = 0.0;  ///< how far it goes on
   };
 
   template <typename More>

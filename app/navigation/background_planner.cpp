@@ -28,19 +28,19 @@ BackgroundPlanner::Prepared BackgroundPlanner::prepared_on(OccupancyMap map,
 
 /// Waits for its turn, with the obstacles that are planned around.
 BackgroundPlanner::Ground& BackgroundPlanner::next_ground() {
-  if (!next_) next_ = Ground{.map = std::nullopt, .obstacles_in_map = obstacles_in_map_};
+  if (!next_) next_ = Ground{.map = std::nullopt, .obstacles = obstacles_};
   return *next_;
 }
 
 void BackgroundPlanner::use_map(OccupancyMap map) {
   Ground& next = next_ground();
   next.map = std::move(map);
-  next.obstacles_in_map = obstacles_in_map_ = {};
+  next.obstacles = obstacles_ = {};
 }
 
-void BackgroundPlanner::use_obstacles(std::vector<Vec2> occupied_in_map) {
-  obstacles_in_map_ = std::move(occupied_in_map);
-  next_ground().obstacles_in_map = obstacles_in_map_;
+void BackgroundPlanner::use_obstacles(UnmappedObstacles obstacles) {
+  obstacles_ = std::move(obstacles);
+  next_ground().obstacles = obstacles_;
 }
 
 void BackgroundPlanner::use_keep_out(std::vector<KeepOut> keep_out) {
@@ -74,7 +74,7 @@ void BackgroundPlanner::prepare_next(std::span<const Vec2> blind_m) {
                   blind = std::vector<Vec2>(blind_m.begin(), blind_m.end())]() mutable {
     if (!ground.map && ground.has_other_keep_out) ground.map = before.map->map();
     const Prepared prepared = ground.map ? prepared_on(std::move(*ground.map), keep_out) : before;
-    planner_->use_map(prepared.drivable, ground.obstacles_in_map, blind);
+    planner_->use_map(prepared.drivable, std::move(ground.obstacles), blind);
     return prepared;
   };
   next_.reset();

@@ -43,9 +43,8 @@ class BackgroundPlanner {
   /// Plans around these keep-outs instead of those before from some steps on, on the same map.
   void use_keep_out(std::vector<KeepOut> keep_out);
 
-  /// Plans around these points of the map frame from some steps on: what the map lacks. The clearance ahead
-  /// stays that of the map.
-  void use_obstacles(std::vector<Vec2> occupied_in_map);
+  /// Plans around what the map lacks from some steps on. The clearance ahead stays that of the map.
+  void use_obstacles(UnmappedObstacles obstacles);
 
   /// Is the answer to this request on its way?
   [[nodiscard]] bool awaits(const PlanRequest& request) const { return plan_ && plan_->request == request; }
@@ -65,7 +64,7 @@ class BackgroundPlanner {
   struct Ground {
     std::optional<OccupancyMap> map;
     bool has_other_keep_out = false;
-    std::vector<Vec2> obstacles_in_map;
+    UnmappedObstacles obstacles;
   };
   struct Prepared {
     std::shared_ptr<const ObstacleField> map;
@@ -92,7 +91,7 @@ class BackgroundPlanner {
 
   GridPlannerOptions robot_;
   std::vector<KeepOut> keep_out_;
-  std::vector<Vec2> obstacles_in_map_;  ///< as last set, for the newest map
+  UnmappedObstacles obstacles_;  ///< as last set, for the newest map
   PlanArrivalOptions arrival_;
   std::uint64_t step_ = 0;
   Prepared prepared_;

@@ -154,12 +154,12 @@ void Navigation::plan_around_obstacles(const Facts& facts) {
   const Trip* const trip = trip_of(behaviour_.state);
   if (facts.stop || !facts.estimate || trip == nullptr) return;
   if (std::exchange(has_new_goal_, false)) {
-    planner_.use_obstacles(surroundings_->unmapped_m(facts.now, mapped_pose(facts)));
+    planner_.use_obstacles(surroundings_->unmapped(facts.now, mapped_pose(facts)));
     return;
   }
   const Path path = rest_of(trip->drive.path_ahead(), facts.estimate->map_from_base.position_m);
-  if (auto obstacles_m = surroundings_->obstacles_in_the_way(facts.now, mapped_pose(facts), path))
-    planner_.use_obstacles(std::move(*obstacles_m));
+  if (auto obstacles = surroundings_->obstacles_in_the_way(facts.now, mapped_pose(facts), path))
+    planner_.use_obstacles(std::move(*obstacles));
 }
 
 /// The protective field has the last word on what is sent, whatever the behaviour.

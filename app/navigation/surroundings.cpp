@@ -289,7 +289,12 @@ std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& 
   return seen;
 }
 
-std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) const {
+UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped) const {
+  return {unmapped_m(now, mapped, options_.roomy), unmapped_m(now, mapped, options_.tight)};
+}
+
+std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped,
+                                           const RoomAround& room) const {
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
   std::vector<Vec2> points_m;
   if (!map_from_odom) return points_m;
@@ -309,33 +314,33 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped) 
       const Vec2 thing_in_map = *map_from_odom * thing_in_odom;
       if (is_mapped(thing_in_map)) continue;
       points_m.push_back(thing_in_map);
-      append_around(thing_in_map, options_.around_things_m);
+      if (room.things_m > 0.0) append_around(thing_in_map, room.things_m);
     }
     for (const Vec2& leg_in_odom : memory->standing_legs_m(now)) {
       const Vec2 leg_in_map = *map_from_odom * leg_in_odom;
-      if (!is_mapped(leg_in_map)) append_around(leg_in_map, options_.around_legs_m);  // door posts are none
+      if (!is_mapped(leg_in_map)) append_around(leg_in_map, room.legs_m);  // door posts are none
     }
   }
   for (const Vec2& point_in_odom : holding_.points_m(now)) points_m.push_back(*map_from_odom * point_in_odom);
   return points_m;
 }
 
-std::optional<std::vector<Vec2>> Surroundings::obstacles_in_the_way(Stamp now, const MappedPose& mapped,
+std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, const MappedPose& mapped,
                                                                     const Path& path) {
   if (path.waypoints_m.empty() || (last_look_ && now - *last_look_ < options_.between_detours))
     return std::nullopt;
   if (!field_scan_ || looked_at_ == field_scan_->newest) return std::nullopt;
   looked_at_ = field_scan_->newest;
-  std::vector<Vec2> obstacles_m = unmapped_m(now, mapped);
+  std::vector<Vec2> roomy_m = unmapped_m(now, mapped, options_.roomy);
   const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
-  const bool is_blocked = std::ranges::any_of(obstacles_m, [&](const Vec2& point_m) {
+  const bool is_blocked = std::ranges::any_of(roomy_m, [&](const Vec2& point_m) {
     const double from_path_m = distance_to_path_m(path, point_m);
     const double from_robot_m = (path.waypoints_m.front() - point_m).norm();
     return from_path_m < within_m && from_path_m < from_robot_m;
   });
   if (!is_blocked) return std::nullopt;
   last_look_ = now;
-  return obstacles_m;
+  return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, options_.tight)};
 }
 
 }  // namespace lodestar

@@ -7,6 +7,7 @@
 
 #include "app/navigation/holding_points.hpp"
 #include "app/navigation/seen_surroundings.hpp"
+#include "app/navigation/unmapped_obstacles.hpp"
 #include "control/field_release.hpp"
 #include "control/hidden_corners.hpp"
 #include "control/protective_field.hpp"
@@ -30,6 +31,12 @@ struct DepthSourceOptions {
   Duration least_period = std::chrono::milliseconds(90);
 };
 
+/// How far paths keep from what is not on the map, beyond what was hit.
+struct RoomAround {
+  double things_m = 0.0;
+  double legs_m = 0.0;  ///< the body that they carry
+};
+
 /// What a robot with a scanner is, and how it minds what the scanner sees.
 struct SurroundingsOptions {
   ScannerMount mount;
@@ -45,11 +52,11 @@ struct SurroundingsOptions {
   HoldingPointsOptions holding;
   /// A path is looked at no more often than this for what stands in its way.
   Duration between_detours = std::chrono::seconds(1);
-  /// Paths are planned around a body of this radius where legs stand, and with so much more room around what
-  /// else stands, than the field needs: what is behind the side that was seen is not known, and cells of 5 cm
-  /// round it off.
-  double around_legs_m = 0.28;
-  double around_things_m = 0.04;
+  /// More than the field needs: what is behind the side that was seen is not known, and cells of 5 cm round
+  /// it off.
+  RoomAround roomy{.things_m = 0.04, .legs_m = 0.28};
+  /// Where there is no way with so much room: what the field needs (ProtectiveFieldOptions::body_margin_m).
+  RoomAround tight{.things_m = 0.0, .legs_m = 0.22};
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
   double begins_beside_m = 0.06;
   /// What stands so near to a path's disc is in its way, unless the path leads away from it: what a path
@@ -91,13 +98,12 @@ class Surroundings {
   /// What may be sent of the wanted velocity; once a control step.
   Allowed allowed(Stamp now, const std::optional<BodyVelocity>& measured, const BodyVelocity& wanted);
 
-  /// What stands around the robot that the map lacks, or has held it all the same, as points of the map
-  /// frame.
-  [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped) const;
+  /// What stands around the robot that the map lacks, or has held it all the same.
+  [[nodiscard]] UnmappedObstacles unmapped(Stamp now, const MappedPose& mapped) const;
 
   /// The same where something of it stands in the way of a path that begins at the robot, at most once a
   /// second; nothing where the way is clear.
-  std::optional<std::vector<Vec2>> obstacles_in_the_way(Stamp now, const MappedPose& mapped,
+  std::optional<UnmappedObstacles> obstacles_in_the_way(Stamp now, const MappedPose& mapped,
                                                         const Path& path);
 
   /// What the scanner shows, for people to look at; nothing before the first scan.
@@ -119,6 +125,8 @@ class Surroundings {
                                                    const std::optional<Pose2>& map_from_odom,
                                                    const MappedPose& mapped) const;
   [[nodiscard]] std::vector<const ObstacleMemory*> memories() const;
+  [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped,
+                                             const RoomAround& room) const;
   void hold(Stamp now, const std::optional<Pose2>& odom_from_base, const FieldLimit& limit,
             const BodyVelocity& allowed);
 

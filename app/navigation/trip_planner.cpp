@@ -55,6 +55,10 @@ Path straightened(const Path& path, const MarginPlanner& planner) {
   return few;
 }
 
+bool is_failure(const PlanResult& result) {
+  return std::holds_alternative<PlanFailure>(result);
+}
+
 /// One path over all goals in turn. Each leg begins with the heading in which the one before ends.
 PlanResult plan_over(std::span<const Goal> goals, const Pose2& start,
                      const std::optional<double>& final_heading_rad, const MarginPlanner& planner) {
@@ -64,7 +68,7 @@ PlanResult plan_over(std::span<const Goal> goals, const Pose2& start,
   for (const Goal& goal : goals) {
     if (&goal == &goals.back()) headings.goal_rad = final_heading_rad;
     PlanResult leg = plan_leg(goal, from_m, headings, planner);
-    if (std::holds_alternative<PlanFailure>(leg)) return leg;
+    if (is_failure(leg)) return leg;
     if (goals.size() == 1) return leg;
     const std::vector<Vec2>& more_m = std::get<Plan>(leg).path.waypoints_m;
     from_m = more_m.back();
@@ -95,31 +99,43 @@ TripPlanner::TripPlanner(std::shared_ptr<const ObstacleField> field, const TripP
   use_map(std::move(field), {}, {});
 }
 
-void TripPlanner::use_map(std::shared_ptr<const ObstacleField> map, std::span<const Vec2> obstacles_in_map,
+void TripPlanner::use_map(std::shared_ptr<const ObstacleField> map, UnmappedObstacles obstacles,
                           std::span<const Vec2> blind_m) {
   map_ = std::move(map);
-  obstacles_in_map_.assign(obstacles_in_map.begin(), obstacles_in_map.end());
+  obstacles_ = std::move(obstacles);
   plan_around(blind_m);
 }
 
 void TripPlanner::plan_around(std::span<const Vec2> blind_m) {
+  blind_m_.assign(blind_m.begin(), blind_m.end());
+  tight_.reset();
   map_alone_.reset();
-  if (obstacles_in_map_.empty()) {
-    context_.emplace(context_on(map_, blind_m));
-    return;
-  }
-  map_alone_.emplace(context_on(map_, blind_m));
-  context_.emplace(
-      context_on(std::make_shared<const ObstacleField>(overlaid(map_->map(), obstacles_in_map_)), blind_m));
+  context_.emplace(context_around(obstacles_.roomy_m));
+}
+
+PlanningContext TripPlanner::context_around(std::span<const Vec2> obstacles_m) const {
+  if (obstacles_m.empty()) return context_on(map_);
+  return context_on(std::make_shared<const ObstacleField>(overlaid(map_->map(), obstacles_m)));
+}
+
+/// What `plan` finds with room around the obstacles; else close to them; else without them.
+template <typename Plan, typename HasFailed>
+auto TripPlanner::first_of(const Plan& plan, const HasFailed& has_failed) {
+  auto found = plan(context_->planner);
+  if (obstacles_.empty() || !has_failed(found)) return found;
+  if (!tight_) tight_.emplace(context_around(obstacles_.tight_m));
+  found = plan(tight_->planner);
+  if (!has_failed(found)) return found;
+  if (!map_alone_) map_alone_.emplace(context_on(map_));
+  return plan(map_alone_->planner);
 }
 
 /// After the pose was too uncertain, or with blind places, margins are wide. Where no marker was found, the
 /// robot drives again only if every other path is far longer.
-PlanningContext TripPlanner::context_on(std::shared_ptr<const ObstacleField> field,
-                                        std::span<const Vec2> blind_m) const {
+PlanningContext TripPlanner::context_on(std::shared_ptr<const ObstacleField> field) const {
   GridPlannerOptions options = options_.planner;
-  options.avoided.places_m.assign(blind_m.begin(), blind_m.end());
-  const bool is_unsure = prefers_wide_margins_ || !blind_m.empty();
+  options.avoided.places_m = blind_m_;
+  const bool is_unsure = prefers_wide_margins_ || !blind_m_.empty();
   return {std::move(field), options, is_unsure ? Margins::wide : Margins::usual};
 }
 
@@ -171,12 +187,14 @@ TripPlan TripPlanner::another_way(const TripQuery& query) const {
           RouteUpdate{.route = route, .change = RouteChange::more_certain, .failure = std::nullopt}};
 }
 
-TripPlan TripPlanner::to_goal(const TripQuery& query) const {
+TripPlan TripPlanner::to_goal(const TripQuery& query) {
   const std::vector<Goal> goals = goals_of(query);
   const std::optional<double> heading_rad = final_heading(query);
-  PlanResult result = plan_over(goals, query.map_from_base, heading_rad, context_->planner);
-  if (map_alone_ && std::holds_alternative<PlanFailure>(result))
-    result = plan_over(goals, query.map_from_base, heading_rad, map_alone_->planner);
+  const PlanResult result = first_of(
+      [&](const MarginPlanner& planner) {
+        return plan_over(goals, query.map_from_base, heading_rad, planner);
+      },
+      is_failure);
   RouteUpdate update{.route = {{}, heading_rad}, .change = RouteChange::new_goal, .failure = {}};
   if (const auto* failure = std::get_if<PlanFailure>(&result)) {
     update.failure = *failure;
@@ -187,7 +205,7 @@ TripPlan TripPlanner::to_goal(const TripQuery& query) const {
 }
 
 /// From the end of the present path, which the robot reaches with the heading of its last leg.
-TripPlan TripPlanner::extension(const TripQuery& query) const {
+TripPlan TripPlanner::extension(const TripQuery& query) {
   Path path = query.trip.drive.path_ahead();
   const std::size_t count = std::min(query.trip.goals_beyond, query.goals.size());
   const std::span<const Goal> goals = std::span(query.goals).last(count);
@@ -195,9 +213,8 @@ TripPlan TripPlanner::extension(const TripQuery& query) const {
   const Vec2 end_m = path.waypoints_m.back();
   const Pose2 end{end_m, heading_between(path.waypoints_m[path.waypoints_m.size() - 2], end_m)};
   const std::optional<double> heading_rad = end_heading(goals.back());
-  PlanResult result = plan_over(goals, end, heading_rad, context_->planner);
-  if (map_alone_ && std::holds_alternative<PlanFailure>(result))
-    result = plan_over(goals, end, heading_rad, map_alone_->planner);
+  const PlanResult result = first_of(
+      [&](const MarginPlanner& planner) { return plan_over(goals, end, heading_rad, planner); }, is_failure);
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return {PathNotFound{}, std::nullopt};
   const std::vector<Vec2>& tail = plan->path.waypoints_m;
@@ -231,7 +248,7 @@ TripPlan TripPlanner::way_back(const Vec2& place_m, const Trip& trip, const Pose
   return along_way(std::move(path));
 }
 
-RouteUpdate TripPlanner::route_from(const TripQuery& query) const {
+RouteUpdate TripPlanner::route_from(const TripQuery& query) {
   Route route{query.trip.drive.path_ahead(), final_heading(query)};
   const Pose2& pose = query.map_from_base;
   if (query.request.leg_from_here) route.path.waypoints_m.front() = pose.position_m;
@@ -239,9 +256,7 @@ RouteUpdate TripPlanner::route_from(const TripQuery& query) const {
     return updated(route, pose, planner, options_.route,
                    [&] { return plan_over(goals_of(query), pose, route.goal_heading_rad, planner); });
   };
-  RouteUpdate update = update_on(context_->planner);
-  if (map_alone_ && update.failure) update = update_on(map_alone_->planner);
-  return update;
+  return first_of(update_on, [](const RouteUpdate& update) { return update.failure.has_value(); });
 }
 
 PathFound TripPlanner::along(const Route& route) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/navigation/planning_context.hpp"
+#include "app/navigation/unmapped_obstacles.hpp"
 #include "app/site/goal.hpp"
 #include "control/behaviour.hpp"
 #include "planning/route.hpp"
@@ -37,37 +38,42 @@ struct TripPlan {
   std::optional<RouteUpdate> update;  ///< when another path is followed from now on, or none
 };
 
-/// Answers the plan requests of the behaviour, on the present map. Where obstacles that the map lacks leave
-/// no way, the answer is that of the map alone: the robot drives up to them and waits, for they may go away.
+/// Answers the plan requests of the behaviour, on the present map. Where what the map lacks leaves no way
+/// with room, the answer is a tight one; without one it is that of the map alone: the robot drives up to what
+/// is there and waits, for it may go away.
 class TripPlanner {
  public:
   TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options);
 
-  /// Plans on this map from now on, and around what it lacks: points of the map frame.
-  void use_map(std::shared_ptr<const ObstacleField> map, std::span<const Vec2> obstacles_in_map,
+  /// Plans on this map from now on, and around what it lacks.
+  void use_map(std::shared_ptr<const ObstacleField> map, UnmappedObstacles obstacles,
                std::span<const Vec2> blind_m);
 
   TripPlan plan(const TripQuery& query);
 
  private:
-  [[nodiscard]] PlanningContext context_on(std::shared_ptr<const ObstacleField> field,
-                                           std::span<const Vec2> blind_m) const;
+  [[nodiscard]] PlanningContext context_on(std::shared_ptr<const ObstacleField> field) const;
+  [[nodiscard]] PlanningContext context_around(std::span<const Vec2> obstacles_m) const;
   void plan_around(std::span<const Vec2> blind_m);
+  template <typename Plan, typename HasFailed>
+  auto first_of(const Plan& plan, const HasFailed& has_failed);
   [[nodiscard]] TripPlan review(const RouteUpdate& update) const;
   [[nodiscard]] TripPlan replan(const RouteUpdate& update) const;
   [[nodiscard]] TripPlan another_way(const TripQuery& query) const;
-  [[nodiscard]] TripPlan to_goal(const TripQuery& query) const;
-  [[nodiscard]] TripPlan extension(const TripQuery& query) const;
+  [[nodiscard]] TripPlan to_goal(const TripQuery& query);
+  [[nodiscard]] TripPlan extension(const TripQuery& query);
   [[nodiscard]] TripPlan way_back(const Vec2& place_m, const Trip& trip, const Pose2& pose) const;
-  [[nodiscard]] RouteUpdate route_from(const TripQuery& query) const;
+  [[nodiscard]] RouteUpdate route_from(const TripQuery& query);
   [[nodiscard]] PathFound along(const Route& route) const;
 
   TripPlannerOptions options_;
   std::shared_ptr<const ObstacleField> map_;
-  std::vector<Vec2> obstacles_in_map_;
-  std::optional<PlanningContext> map_alone_;  ///< where there are obstacles
-  std::optional<PlanningContext> context_;
-  bool prefers_wide_margins_ = false;  ///< as the planning context was built for
+  UnmappedObstacles obstacles_;
+  std::vector<Vec2> blind_m_;
+  std::optional<PlanningContext> context_;    ///< with room around the obstacles
+  std::optional<PlanningContext> tight_;      ///< with the least; made when it is asked for first
+  std::optional<PlanningContext> map_alone_;  ///< likewise
+  bool prefers_wide_margins_ = false;         ///< as the planning context was built for
 };
 
 }  // namespace lodestar

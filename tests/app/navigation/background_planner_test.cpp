@@ -160,7 +160,7 @@ TEST(BackgroundPlanner, obeys_keep_outs_on_every_map_and_shows_none_of_them) {
     EXPECT_LT(planner.forward_clearance().ahead_m({{8.0, 3.4}, 0.0}, 3.0), 0.6) << round;
     EXPECT_EQ(planner.map().map().cells, map.cells) << "no beam of a scanner ends at a keep-out";
     if (round == 0) planner.use_map(map);
-    if (round == 1) planner.use_obstacles({{3.0, 5.0}});
+    if (round == 1) planner.use_obstacles({.roomy_m = {{3.0, 5.0}}, .tight_m = {{3.0, 5.0}}});
     for (int step = 0; step < 10; ++step) planner.begin_step({});
   }
 }
@@ -180,7 +180,7 @@ TEST(BackgroundPlanner, obeys_keep_outs_that_are_set_later_and_keeps_what_it_kno
   };
   const auto goes_around = [&] { return distance_to_path_m(path_to(near_m).value(), thing_m) > 0.25; };
   ASSERT_FALSE(goes_around());
-  planner.use_obstacles({thing_m});
+  planner.use_obstacles({.roomy_m = {thing_m}, .tight_m = {thing_m}});
   ASSERT_TRUE(path_to(far_m));
   ASSERT_TRUE(goes_around());
 
@@ -193,6 +193,39 @@ TEST(BackgroundPlanner, obeys_keep_outs_that_are_set_later_and_keeps_what_it_kno
   planner.use_keep_out({});
   EXPECT_TRUE(path_to(far_m));
   EXPECT_TRUE(goes_around()) << "the obstacle is forgotten";
+}
+
+/// Points across the way to near_m, with a gap in it.
+std::vector<Vec2> fence_m(double gap_from_y_m, double gap_to_y_m) {
+  std::vector<Vec2> points_m;
+  for (double y_m = 0.0; y_m < 7.5; y_m += 0.05)
+    if (y_m < gap_from_y_m || y_m > gap_to_y_m) points_m.push_back({1.7, y_m});
+  return points_m;
+}
+
+TEST(BackgroundPlanner, leads_close_past_obstacles_where_there_is_no_way_with_room_and_else_up_to_them) {
+  BackgroundPlanner planner(lab().map.map, planner_options(), {});
+  const auto path_around = [&](const UnmappedObstacles& obstacles) {
+    planner.use_obstacles(obstacles);
+    for (int step = 0; step < 10; ++step) planner.begin_step({});
+    planner.ask(query_to(near_m));
+    std::optional<TripPlan> plan;
+    steps_until_taken(planner, plan);
+    return plan->update->route.path;
+  };
+  const auto keeps_off = [](const Path& path, const std::vector<Vec2>& points_m) {
+    return std::ranges::all_of(points_m,
+                               [&](const Vec2& point_m) { return distance_to_path_m(path, point_m) > 0.25; });
+  };
+  const std::vector<Vec2> closed = fence_m(9.0, 9.0);
+  const std::vector<Vec2> narrow = fence_m(5.2, 6.0);
+  const std::vector<Vec2> aside = fence_m(4.4, 5.3);
+  EXPECT_TRUE(keeps_off(path_around({.roomy_m = aside, .tight_m = narrow}), aside)) << "room comes first";
+  const Path tight = path_around({.roomy_m = closed, .tight_m = narrow});
+  EXPECT_TRUE(keeps_off(tight, narrow));
+  EXPECT_FALSE(keeps_off(tight, closed));
+  const Path up_to_it = path_around({.roomy_m = closed, .tight_m = closed});
+  EXPECT_FALSE(keeps_off(up_to_it, closed)) << "they may go away";
 }
 
 /// A robot in the lab that knows where it is and stands.

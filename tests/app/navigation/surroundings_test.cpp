@@ -45,7 +45,9 @@ class SurroundingsTest : public ::testing::Test {
     return {field_, estimate};
   }
 
-  [[nodiscard]] std::vector<Vec2> unmapped_m() const { return surroundings_.unmapped_m(now_, mapped()); }
+  [[nodiscard]] std::vector<Vec2> unmapped_m() const {
+    return surroundings_.unmapped(now_, mapped()).roomy_m;
+  }
 
   Pose2 robot_{{3.0, 3.0}, 0.0};
   ObstacleField field_{hall()};
@@ -95,10 +97,10 @@ TEST_F(SurroundingsTest, finds_in_the_way_what_has_held_it_though_the_map_explai
   EXPECT_GT(held, 30) << "but for the noise of the range";
   EXPECT_FALSE(surroundings_.obstacles_in_the_way(now_, mapped(), away));
   stand(0.1, {frame});
-  const auto found_m = surroundings_.obstacles_in_the_way(now_, mapped(), past);
-  ASSERT_TRUE(found_m.has_value());
-  ASSERT_EQ(found_m->size(), 1U);
-  EXPECT_NEAR((found_m->front() - frame.position_m).norm(), frame.radius_m, 0.02);
+  const auto found = surroundings_.obstacles_in_the_way(now_, mapped(), past);
+  ASSERT_TRUE(found.has_value());
+  ASSERT_EQ(found->roomy_m.size(), 1U);
+  EXPECT_NEAR((found->roomy_m.front() - frame.position_m).norm(), frame.radius_m, 0.02);
 }
 
 }  // namespace
