@@ -84,7 +84,10 @@ void ObstacleMemory::hit(const Ray& ray) {
         {.place = place, .mean_m = ray.end_m, .first_hit = stamp, .last_hit = stamp, .hit_beside = stamp});
   }
   Seen& seen = seen_[static_cast<std::size_t>(index)];
-  if (!has_stood(seen) && is_broken_off(seen, stamp)) seen.first_hit = stamp;
+  if (!has_stood(seen) && is_broken_off(seen, stamp)) {
+    seen.first_hit = stamp;
+    seen.hits = 0;
+  }
   if (seen.first_hit == stamp) seen.came_at = came_at(place, stamp);
   seen.hits = std::min(seen.hits + 1, most_hits);
   seen.mean_m += (ray.end_m - seen.mean_m) / seen.hits;
@@ -129,13 +132,21 @@ void ObstacleMemory::count_free(const DeskewedScan& scan) {
   while (scan.newest - looks_.front().stamp > options_.just_before) looks_.pop_front();
 }
 
+/// In two looks in a row: all beams that meet a thin thing may be mixed pixels, now and then.
 bool ObstacleMemory::was_seen_free(Place place, Stamp before) const {
   const Vec2 place_m = center_m(place);
-  return std::ranges::any_of(looks_, [&](const Look& look) {
+  const auto is_free = [&](const Look& look) {
     return look.stamp < before && (place_m - look.from_m).norm() <= options_.seen_free_within_m &&
            look.fan.all_pass(place_m, options_.seen_free_beside_m, options_.seen_free_beside_m,
                              options_.seen_free_between_m);
-  });
+  };
+  bool was_free = false;
+  for (const Look& look : looks_) {
+    const bool is_free_again = is_free(look);
+    if (was_free && is_free_again) return true;
+    was_free = is_free_again;
+  }
+  return false;
 }
 
 void ObstacleMemory::forget(Stamp now, const Place& middle) {

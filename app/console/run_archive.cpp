@@ -136,8 +136,12 @@ RunArchive::Known& RunArchive::known(const std::string& name) const {
   std::error_code none;
   const fs::file_time_type written = fs::last_write_time(folder / "summary.json", none);
   const auto found = known_.find(name);
-  if (found != known_.end() && found->second.written == written) return found->second;
-  Known fresh{.written = written, .facts = {{"name", name}}, .heat = std::nullopt};
+  if (found != known_.end() && found->second.is_complete && found->second.written == written)
+    return found->second;
+  Known fresh{.written = written,
+              .is_complete = is_complete(folder),
+              .facts = {{"name", name}},
+              .heat = std::nullopt};
   try {
     fresh.facts = facts_of_run(folder);
   } catch (const InputError& error) {

@@ -40,9 +40,10 @@ class RunArchive {
   [[nodiscard]] std::optional<std::string> picture(const std::string& name, const std::string& picture) const;
 
  private:
-  /// Of one run, for as long as its summary stands as it was read.
+  /// Of one run, once it is complete, for as long as its summary stands as it was read.
   struct Known {
     std::filesystem::file_time_type written;
+    bool is_complete = false;
     nlohmann::ordered_json facts;
     std::optional<RunHeat> heat;
   };

@@ -120,12 +120,13 @@ void write_run_folder(const std::filesystem::path& folder, const RunRecord& reco
                       const MarkerRegistry& registry, const Places& places) {
   make_run_folder(folder);
   const std::string picture = png_bytes(draw_experiment(record, map, registry, places));
-  write_file_atomically(folder / "summary.json", json_document(summary_of(record)));
   write_file_atomically(folder / "map.png", picture);
   write_file_atomically(folder / "estimate.tum", estimate_tum(record));
   write_truth(folder / "truth.tum", record);
   write_file_atomically(folder / "steps.csv", steps_csv(record));
   write_file_atomically(folder / "fixes.csv", fixes_csv(record));
+  // Those who wait for it may read what is above.
+  write_file_atomically(folder / "summary.json", json_document(summary_of(record)));
   write_proposals(folder / "proposals.csv", record, registry);
   write_pictures(folder / "pictures", record);
   write_file_atomically(folder / "report.html", report_html(record, picture));

@@ -80,6 +80,15 @@ TEST_F(RunArchiveTest, lists_a_run_without_a_report_but_does_not_open_it) {
   EXPECT_EQ(archive_.list().at(0)["goals"], 2) << "its report has come since";
 }
 
+/// A list that is asked for while a run is being written must not keep it unfinished for good.
+TEST_F(RunArchiveTest, lists_a_run_as_ended_once_its_last_file_is_there) {
+  write("a", sample::run());
+  fs::rename(folder_ / "a/estimate.tum", folder_ / "a/later");
+  EXPECT_TRUE(archive_.list().at(0)["goals"].is_null());
+  fs::rename(folder_ / "a/later", folder_ / "a/estimate.tum");
+  EXPECT_EQ(archive_.list().at(0)["goals"], 2);
+}
+
 TEST_F(RunArchiveTest, a_summary_that_is_none_spoils_its_own_line_only) {
   write("a", sample::run());
   write("b", sample::run());
