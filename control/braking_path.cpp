@@ -67,6 +67,7 @@ BrakingPath::BrakingPath(const BodyVelocity& measured, const BodyVelocity& wante
   const Braked forward(measured.forward_mps, wanted.forward_mps, options.deceleration_mps2, reaction_s);
   const Braked turn(measured.turn_radps, wanted.turn_radps, options.turn_deceleration_radps2, reaction_s);
   speed_mps_ = outline_speed_mps({forward.then(), turn.then()}, shape);
+  is_turn_ = wanted.forward_mps == 0.0;
   const double rest_s = std::max(forward.until_rest_s(), turn.until_rest_s());
   const int count = static_cast<int>(std::ceil(rest_s / step_s));
   steps_.reserve(static_cast<std::size_t>(count));

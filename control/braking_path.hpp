@@ -34,10 +34,14 @@ class BrakingPath {
   /// When braking begins.
   [[nodiscard]] double speed_mps() const { return speed_mps_; }
 
+  /// Is a turn on the spot wanted? Then what it drives is noise.
+  [[nodiscard]] bool is_turn() const { return is_turn_; }
+
  private:
   std::vector<Step> steps_;
   double travel_m_ = 0.0;
   double speed_mps_ = 0.0;
+  bool is_turn_ = false;
 };
 
 /// The greatest speed of the outline's points. A disc that turns keeps its place, but its rim rubs along

@@ -27,7 +27,7 @@ struct ProtectiveFieldOptions {
   /// drive in a gap that leaves 11 cm a side.
   double standing_creep_mps = 0.12;
   /// A body around standing legs: 0.25 m from its middle, 0.2 m from the shins of legs side by side. Nearer
-  /// than that it may touch the robot, which then only moves off.
+  /// than that it may touch the robot, which then comes no nearer.
   double body_m = 0.20;
   double body_margin_m = 0.22;    ///< with the noise of five beams: a robot comes no nearer to legs by itself
   double mapped_margin_m = 0.01;  ///< the way's clearance is planned with elsewhere
@@ -35,6 +35,7 @@ struct ProtectiveFieldOptions {
   /// with the noise of the range the nearest hit along a wall is up to 5 cm ahead, and with that of the
   /// wheels a turn on the spot leads some tenths of a millimetre aside.
   double slack_share = 0.2;
+  double turn_drift_m = 0.002;  ///< by which that noise leads a turn on the spot until it is at rest
   /// Someone may step out from behind what hides them, at the speed at which people walk off (chosen by hand,
   /// half of the greatest). Before they can touch it the robot is down to the contact speed, not to rest.
   double hidden_mps = 1.0;

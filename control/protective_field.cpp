@@ -154,9 +154,8 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   switch (hit.presence) {
     case Presence::legs:
       if (distance_m >= margin) return stays_clear(path, hit, margin);
-      return moves_off(path, hit, distance_m) ||
-             (distance_m >= options_.body_m &&
-              stays_clear(path, hit, std::max(options_.body_m, distance_m - slack_m)));
+      if (distance_m < options_.body_m) return comes_no_nearer(path, hit, distance_m);
+      return stays_clear(path, hit, std::max(options_.body_m, distance_m - slack_m));
     case Presence::standing: {
       const double room_m = least_room_m < margin ? least_room_m - slack_m : margin;
       return stays_clear(path, hit, std::min(distance_m, std::max(options_.least_standing_m, room_m)));
@@ -166,16 +165,10 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   }
 }
 
-/// A disc that turns keeps its distance, but rubs along whoever leans on it.
-bool ProtectiveField::moves_off(const BrakingPath& path, const FieldHit& hit, double distance_m) const {
-  constexpr double least_share = 0.3;  // of its way: straight away, or past what is beside it and behind
-  double before_m = distance_m;
-  for (const BrakingPath::Step& step : path.steps()) {
-    const double after_m = shape_.distance_m(inverse(step.end) * hit.point_in_base);
-    if (after_m < before_m) return false;
-    before_m = after_m;
-  }
-  return before_m - distance_m >= least_share * path.travel_m();
+/// Off, past what is beside it and behind, or on the spot: it came there before that looked like legs, and
+/// must get away. Only a command to drive could bring it nearer step by step, so that has no slack.
+bool ProtectiveField::comes_no_nearer(const BrakingPath& path, const FieldHit& hit, double distance_m) const {
+  return stays_clear(path, hit, distance_m - (path.is_turn() ? options_.turn_drift_m : 0.0));
 }
 
 bool ProtectiveField::stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 
 namespace lodestar {
 namespace {
@@ -60,20 +62,33 @@ bool is_gap(const Thing& from, const Thing& to, const DeskewedScan& scan) {
   return first != last;
 }
 
-/// Do some rays on either side look past it? Of those beside a piece of the wall that is seen between two
-/// things the first may come back from neither: what they graze is seen badly.
-bool is_alone(const Thing& thing, const DeskewedScan& scan) {
-  constexpr double behind_m = 0.1;
+enum class Side : std::uint8_t { before, after };
+
+/// How far behind its edge must a thing's neighbours end, and how wide may what ends nearer be?
+struct Room {
+  double behind_m = 0.0;
+  double sliver_m = 0.0;
+};
+
+/// Do some rays beside it look past it? Of those beside a piece of the wall that is seen between two things
+/// the first may come back from neither: what they graze is seen badly.
+bool is_free(const Thing& thing, Side side, const Room& room, const DeskewedScan& scan) {
   constexpr std::size_t beside = 3;
   const std::size_t count = scan.rays.size();
-  const auto looks_past = [&](std::size_t i, std::size_t edge) {
-    const Ray& ray = scan.rays[i % count];
-    return ray.echo != Echo::invalid && range_m(ray) > range_m(scan.rays[edge]) + behind_m;
+  const std::size_t edge = side == Side::before ? thing.rays.front() : thing.rays.back();
+  const auto ray_beside = [&](std::size_t k) -> const Ray& {
+    return scan.rays[(side == Side::before ? edge + count - k : edge + k) % count];
   };
-  const std::size_t first = thing.rays.front();
-  const std::size_t last = thing.rays.back();
-  for (std::size_t k = 1; k <= beside; ++k)
-    if (!looks_past(first + count - k, first) || !looks_past(last + k, last)) return false;
+  const double edge_m = range_m(scan.rays[edge]);
+  const double between_rays_m = edge_m * 2.0 * std::numbers::pi / static_cast<double>(count);
+  const auto most_slivers = static_cast<std::size_t>(room.sliver_m / between_rays_m);
+  const auto looks_past = [&](const Ray& ray) {
+    return ray.echo != Echo::invalid && range_m(ray) > edge_m + room.behind_m;
+  };
+  std::size_t first = 1;
+  while (first <= most_slivers && !looks_past(ray_beside(first))) ++first;
+  for (std::size_t k = first; k < first + beside; ++k)
+    if (!looks_past(ray_beside(k))) return false;
   return true;
 }
 
@@ -82,16 +97,21 @@ bool is_alone(const Thing& thing, const DeskewedScan& scan) {
 std::vector<std::size_t> rays_at_legs(const DeskewedScan& scan, const LegOptions& options) {
   const std::vector<Thing> things = near_things(scan, options);
   const auto is_thin = [&](const Thing& thing) { return thing.width_m <= options.widest_leg_m; };
+  const auto is_alone = [&](const Thing& thing) {
+    const Room room{options.alone_before_m, options.sliver_m};
+    return is_free(thing, Side::before, room, scan) && is_free(thing, Side::after, room, scan);
+  };
   const auto is_pair = [&](const Thing& a, const Thing& b) {
     return is_thin(a) && is_thin(b) && (a.middle_m - b.middle_m).norm() <= options.farthest_pair_m &&
-           is_gap(a, b, scan);
+           is_gap(a, b, scan) && is_free(a, Side::before, {.behind_m = options.aside_m}, scan) &&
+           is_free(b, Side::after, {.behind_m = options.aside_m}, scan);
   };
   std::vector<std::size_t> rays;
   const auto append = [&](const Thing& thing) {
     rays.insert(rays.end(), thing.rays.begin(), thing.rays.end());
   };
   for (std::size_t i = 0; i < things.size(); ++i) {
-    if (is_thin(things[i]) && is_alone(things[i], scan)) append(things[i]);
+    if (is_thin(things[i]) && is_alone(things[i])) append(things[i]);
     for (const std::size_t after : {1U, 2U}) {  // between them a piece of the wall behind may be seen
       const Thing& other = things[(i + after) % things.size()];
       if (after >= things.size() || !is_pair(things[i], other)) continue;

@@ -15,11 +15,17 @@ struct LegOptions {
   double gap_rad = 0.025;        ///< ... nor those farther apart than beams of half a degree leave them
   double widest_leg_m = 0.18;    ///< with trousers and the noise of the range
   double farthest_pair_m = 0.5;  ///< from middle to middle: standing, or in a stride
+  /// What has nothing beside it so far behind is alone, but for a sliver of the leg that it hides. Of a leg
+  /// that hides less of the other the gap between them opens before who passes can touch the body.
+  double alone_before_m = 0.3;
+  double sliver_m = 0.03;
+  /// Rays that pass on the outer sides of a pair end so far behind: 3 standard deviations of the range.
+  double aside_m = 0.05;
 };
 
 /// The rays that end at what may be someone's legs, or those of a chair: pairs of thin things close to each
 /// other, and thin things alone, as a leg may hide the other. What they carry reaches farther out than they
-/// do.
+/// do. A thin part of a thing that is seen in one piece with others is no leg, nor is what sticks out of it.
 std::vector<std::size_t> rays_at_legs(const DeskewedScan& scan, const LegOptions& options = {});
 
 }  // namespace lodestar

@@ -38,11 +38,11 @@ const ObstacleMemory::Seen* ObstacleMemory::at(Place place) const {
   return seen.place == place ? &seen : nullptr;
 }
 
-/// In the place or in the eight around it.
+/// In the place and in the eight around it, or in more.
 template <typename Ask>
-void ObstacleMemory::ask_beside(Place middle, const Ask& ask) const {
-  for (int row = middle.row - 1; row <= middle.row + 1; ++row)
-    for (int column = middle.column - 1; column <= middle.column + 1; ++column)
+void ObstacleMemory::ask_beside(Place middle, const Ask& ask, int reach) const {
+  for (int row = middle.row - reach; row <= middle.row + reach; ++row)
+    for (int column = middle.column - reach; column <= middle.column + reach; ++column)
       if (const Seen* const seen = at({column, row}); seen != nullptr) ask(*seen);
 }
 
@@ -112,9 +112,13 @@ void ObstacleMemory::note_hits_beside(Stamp now) {
 
 void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
   for (const std::size_t i : rays_at_legs(scan)) {
-    const Place place = place_of(scan.rays[i].end_m);
-    if (const std::int32_t index = index_[wrapped(place.column, place.row)]; index >= 0)
-      seen_[static_cast<std::size_t>(index)].leg_at = scan.rays[i].stamp;
+    const Ray& ray = scan.rays[i];
+    const Place place = place_of(ray.end_m);
+    const std::int32_t index = index_[wrapped(place.column, place.row)];
+    if (index < 0) continue;
+    Seen& seen = seen_[static_cast<std::size_t>(index)];
+    const bool is_near = (ray.end_m - ray.origin_m).norm() < options_.becomes_leg_from_m;
+    if (!is_near || !is_part_of_a_thing(place)) seen.leg_at = ray.stamp;
   }
 }
 
@@ -203,6 +207,19 @@ bool ObstacleMemory::has_come_to(const Vec2& point_m) const {
   const Seen* const seen = at(place_of(point_m));
   return seen != nullptr && seen->came_at &&
          seen->last_hit - *seen->came_at < options_.to_stand_as_a_person - options_.just_before;
+}
+
+/// Has something stood here for so long that is no leg, and has not come? The noise of the range reaches over
+/// two cells.
+bool ObstacleMemory::is_part_of_a_thing(Place place) const {
+  bool has_thing = false;
+  bool may_be_someone = false;
+  const auto ask = [&](const Seen& seen) {
+    may_be_someone = may_be_someone || is_leg(seen) || seen.came_at;
+    has_thing = has_thing || has_stood(seen);
+  };
+  ask_beside(place, ask, 2);
+  return has_thing && !may_be_someone;
 }
 
 bool ObstacleMemory::has_legs(const Vec2& point_m) const {

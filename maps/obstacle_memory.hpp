@@ -29,6 +29,10 @@ struct ObstacleMemoryOptions {
   /// are hit in its cells. Legs, one behind the other or beside a wall, are rarely hidden for as
   /// long.
   Duration not_a_leg_after = std::chrono::seconds(10);
+  /// What has stood as a thing is no leg when it looks like one only from so near: the body that it carries
+  /// would be where the robot is. From the scanner; of a robot of 25 cm, with 22 cm for the body and the
+  /// leg's other side.
+  double becomes_leg_from_m = 0.6;
   Duration between_looks_back = std::chrono::milliseconds(250);
   /// Seen free is a place when nothing is hit within this of it: beams half a degree apart leave 4 cm between
   /// them at 4 m, and wheels turn the odometry frame by up to a degree meanwhile. Farther away a dark thing's
@@ -119,11 +123,12 @@ class ObstacleMemory {
 
   [[nodiscard]] bool is_leg(const Seen& seen) const;
   [[nodiscard]] bool has_stood(const Seen& seen) const;
+  [[nodiscard]] bool is_part_of_a_thing(Place place) const;
   [[nodiscard]] bool has_come_to(const Vec2& point_m) const;
   [[nodiscard]] bool was_seen_free(Place place, Stamp before) const;
   [[nodiscard]] std::optional<Stamp> came_at(Place place, Stamp now) const;
   template <typename Ask>
-  void ask_beside(Place middle, const Ask& ask) const;
+  void ask_beside(Place middle, const Ask& ask, int reach = 1) const;
   template <typename Holds>
   [[nodiscard]] bool any_beside(const Vec2& point_m, const Holds& holds) const;
   [[nodiscard]] bool is_remembered(const Seen& seen, Stamp now) const;

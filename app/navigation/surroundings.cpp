@@ -77,6 +77,13 @@ bool moves(const BodyVelocity& velocity) {
   return std::abs(velocity.forward_mps) >= standing_mps || std::abs(velocity.turn_radps) >= standing_radps;
 }
 
+ObstacleMemoryOptions memory_around(const SurroundingsOptions& options) {
+  constexpr double other_side_m = 0.13;  // of a leg, with the noise of the range
+  ObstacleMemoryOptions memory = options.memory;
+  memory.becomes_leg_from_m = options.shape.outer_radius_m() + options.field.body_margin_m + other_side_m;
+  return memory;
+}
+
 }  // namespace
 
 Surroundings::Surroundings(const SurroundingsOptions& options)
@@ -86,11 +93,11 @@ Surroundings::Surroundings(const SurroundingsOptions& options)
       track_(options.wheels),
       watch_(options.watch),
       contradiction_(options.contradiction),
-      memory_(options.memory),
+      memory_(memory_around(options)),
       release_(options.release),
       holding_(options.holding) {
   if (!options.depth) return;
-  ObstacleMemoryOptions memory = options.memory;
+  ObstacleMemoryOptions memory = memory_around(options);
   memory.seen_free_within_m =
       0.7 * options.depth->mount.range_m;  // farther away its noise lets edges come and go
   above_.emplace(Above{.slab = HeightSlab(options.depth->mount, outline_, options.depth->slab),

@@ -133,11 +133,17 @@ TEST(ProtectiveField, WhatStandsIsNotTouchedByGettingUsedToIt) {
   EXPECT_EQ(disc_field().limit(hits, {}, {-0.1, 0.0}).share, 1.0);
 }
 
-TEST(ProtectiveField, WithLegsInReachOfABodyItOnlyMovesOff) {
-  const std::vector<FieldHit> near{hit(radius_m + 0.15, 0.0, Presence::legs)};
-  EXPECT_EQ(disc_field().limit(near, {}, {0.0, 0.2}).share, 0.0);
-  EXPECT_EQ(disc_field().limit(near, {}, {0.1, 0.0}).share, 0.0);
-  EXPECT_EQ(disc_field().limit(near, {}, {-0.1, 0.0}).share, 1.0);
+/// Where it has come as near to something that looks like legs only from there, it gets away again.
+TEST(ProtectiveField, WithLegsInReachOfABodyItComesNoNearer) {
+  for (const double distance_m : {0.02, 0.15}) {
+    const std::vector<FieldHit> near{hit(radius_m + distance_m, 0.0, Presence::legs)};
+    EXPECT_EQ(disc_field().limit(near, {0.002, 0.1}, {0.0, 0.2}).share, 1.0);
+    EXPECT_LT(disc_field().limit(near, {}, {0.01, 0.1}).share, 0.02);
+    EXPECT_EQ(disc_field().limit(near, {}, {-0.1, 0.0}).share, 1.0);
+  }
+  const Footprint square({{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.3, 0.3}});
+  const std::vector<FieldHit> at_corner{hit(0.28, 0.35, Presence::legs)};
+  EXPECT_LT(ProtectiveField{RobotShape(square)}.limit(at_corner, {}, {0.0, 0.2}).share, 0.3);
   const std::vector<FieldHit> beside{
       hit(0.0, radius_m + ProtectiveFieldOptions{}.body_margin_m + 0.01, Presence::legs)};
   EXPECT_EQ(disc_field().limit(beside, {0.1, 0.0}, {0.1, 0.0}).share, 1.0);

@@ -255,6 +255,41 @@ TEST(Legs, AreThinThings) {
   EXPECT_EQ(seen({Disc{{2.0, 0.0}, 0.3}, Disc{{0.8, 0.45}, 0.4}, Disc{{0.8, -0.45}, 0.4}}), 0U);
 }
 
+/// Three posts that touch each other, and the corner of a heap of them, are seen as one or two thin things
+/// from most sides: what is seen in one piece is no leg.
+TEST(Legs, AreNoPartsOfAThing) {
+  Random random(10);
+  constexpr double post_m = 0.075;
+  int seen_as_legs = 0;
+  int asked = 0;
+  for (int degrees = 0; degrees < 360; degrees += 5) {
+    for (const double range_m : {0.6, 1.0, 1.5, 2.0}) {
+      const Pose2 corner{{range_m, 0.0}, radians(degrees)};
+      std::vector<Disc> posts;
+      for (const Vec2& place : {Vec2(0.0, 0.0), Vec2(2.0 * post_m, 0.0), Vec2(0.0, 2.0 * post_m)})
+        posts.push_back({corner * place, post_m});
+      ++asked;
+      if (!rays_at_legs(scan_of(posts, 0.0, random)).empty()) ++seen_as_legs;
+    }
+  }
+  EXPECT_LT(seen_as_legs, 0.01 * asked) << "of " << asked;
+}
+
+/// A post before another one is a thing. Where the robot has come so near that someone's body would touch it,
+/// it stays one, though it looks like a leg from there.
+TEST(ObstacleMemory, WhatLooksLikeALegOnlyFromCloseByIsNone) {
+  for (const bool is_near : {true, false}) {
+    Random random(11);
+    ObstacleMemory memory;
+    const double at_m = is_near ? 0.5 : 0.8;
+    const Disc post{{at_m, 0.0}, 0.06};
+    for (int scans = 0; scans < 20; ++scans)
+      memory.add(scan_of({post, {{at_m + 0.14, 0.14}, 0.1}}, 0.1 * scans, random));
+    for (int scans = 20; scans < 60; ++scans) memory.add(scan_of({post}, 0.1 * scans, random));
+    EXPECT_EQ(memory.has_legs({at_m - 0.06, 0.0}), !is_near);
+  }
+}
+
 /// Someone walks along a box so closely that their legs are hit where it is hit, too.
 TEST(ObstacleMemory, ABoxIsNoLegForLongerThanTenSecondsAfterOneWasBesideIt) {
   Random random(8);
