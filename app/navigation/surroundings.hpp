@@ -55,8 +55,9 @@ struct SurroundingsOptions {
   /// More than the field needs: what is behind the side that was seen is not known, and cells of 5 cm round
   /// it off.
   RoomAround roomy{.things_m = 0.04, .legs_m = 0.28};
-  /// Where there is no way with so much room: what the field needs (ProtectiveFieldOptions::body_margin_m).
-  RoomAround tight{.things_m = 0.0, .legs_m = 0.22};
+  /// Where there is no way with so much room: as much as the field lets pass
+  /// (ProtectiveFieldOptions::body_m).
+  RoomAround tight{.things_m = 0.0, .legs_m = 0.20};
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
   double begins_beside_m = 0.06;
   /// What stands so near to a path's disc is in its way, unless the path leads away from it: what a path

@@ -55,8 +55,25 @@ Path straightened(const Path& path, const MarginPlanner& planner) {
   return few;
 }
 
-bool is_failure(const PlanResult& result) {
-  return std::holds_alternative<PlanFailure>(result);
+/// Null where there is none.
+const Path* way_of(const PlanResult& result) {
+  const auto* plan = std::get_if<Plan>(&result);
+  return plan == nullptr ? nullptr : &plan->path;
+}
+const Path* way_of(const RouteUpdate& update) {
+  return update.failure ? nullptr : &update.route.path;
+}
+
+/// Is it worth passing close by obstacles instead? That is slower, at the creeping speed of the protective
+/// field, and what was seen badly may block it still. Chosen by hand.
+bool is_long_detour(double length_m, double other_m) {
+  constexpr double share = 1.5;
+  constexpr double more_m = 1.0;
+  return length_m > share * other_m + more_m;
+}
+
+double straight_m(const Path& way) {
+  return way.waypoints_m.empty() ? 0.0 : (way.waypoints_m.back() - way.waypoints_m.front()).norm();
 }
 
 /// One path over all goals in turn. Each leg begins with the heading in which the one before ends.
@@ -68,7 +85,7 @@ PlanResult plan_over(std::span<const Goal> goals, const Pose2& start,
   for (const Goal& goal : goals) {
     if (&goal == &goals.back()) headings.goal_rad = final_heading_rad;
     PlanResult leg = plan_leg(goal, from_m, headings, planner);
-    if (is_failure(leg)) return leg;
+    if (way_of(leg) == nullptr) return leg;
     if (goals.size() == 1) return leg;
     const std::vector<Vec2>& more_m = std::get<Plan>(leg).path.waypoints_m;
     from_m = more_m.back();
@@ -118,14 +135,19 @@ PlanningContext TripPlanner::context_around(std::span<const Vec2> obstacles_m) c
   return context_on(std::make_shared<const ObstacleField>(overlaid(map_->map(), obstacles_m)));
 }
 
-/// What `plan` finds with room around the obstacles; else close to them; else without them.
-template <typename Plan, typename HasFailed>
-auto TripPlanner::first_of(const Plan& plan, const HasFailed& has_failed) {
-  auto found = plan(context_->planner);
-  if (obstacles_.empty() || !has_failed(found)) return found;
+/// What `plan` finds with room around the obstacles; close to them, where that is a long detour or none; else
+/// without them.
+template <typename Plan>
+auto TripPlanner::first_of(const Plan& plan) {
+  auto roomy = plan(context_->planner);
+  const Path* const roomy_way = way_of(roomy);
+  if (obstacles_.empty()) return roomy;
+  if (roomy_way && !is_long_detour(length_m(*roomy_way), straight_m(*roomy_way))) return roomy;
   if (!tight_) tight_.emplace(context_around(obstacles_.tight_m));
-  found = plan(tight_->planner);
-  if (!has_failed(found)) return found;
+  auto tight = plan(tight_->planner);
+  const Path* const tight_way = way_of(tight);
+  if (tight_way && (!roomy_way || is_long_detour(length_m(*roomy_way), length_m(*tight_way)))) return tight;
+  if (roomy_way) return roomy;
   if (!map_alone_) map_alone_.emplace(context_on(map_));
   return plan(map_alone_->planner);
 }
@@ -190,11 +212,9 @@ TripPlan TripPlanner::another_way(const TripQuery& query) const {
 TripPlan TripPlanner::to_goal(const TripQuery& query) {
   const std::vector<Goal> goals = goals_of(query);
   const std::optional<double> heading_rad = final_heading(query);
-  const PlanResult result = first_of(
-      [&](const MarginPlanner& planner) {
-        return plan_over(goals, query.map_from_base, heading_rad, planner);
-      },
-      is_failure);
+  const PlanResult result = first_of([&](const MarginPlanner& planner) {
+    return plan_over(goals, query.map_from_base, heading_rad, planner);
+  });
   RouteUpdate update{.route = {{}, heading_rad}, .change = RouteChange::new_goal, .failure = {}};
   if (const auto* failure = std::get_if<PlanFailure>(&result)) {
     update.failure = *failure;
@@ -213,8 +233,8 @@ TripPlan TripPlanner::extension(const TripQuery& query) {
   const Vec2 end_m = path.waypoints_m.back();
   const Pose2 end{end_m, heading_between(path.waypoints_m[path.waypoints_m.size() - 2], end_m)};
   const std::optional<double> heading_rad = end_heading(goals.back());
-  const PlanResult result = first_of(
-      [&](const MarginPlanner& planner) { return plan_over(goals, end, heading_rad, planner); }, is_failure);
+  const PlanResult result =
+      first_of([&](const MarginPlanner& planner) { return plan_over(goals, end, heading_rad, planner); });
   const auto* plan = std::get_if<Plan>(&result);
   if (plan == nullptr) return {PathNotFound{}, std::nullopt};
   const std::vector<Vec2>& tail = plan->path.waypoints_m;
@@ -256,7 +276,7 @@ RouteUpdate TripPlanner::route_from(const TripQuery& query) {
     return updated(route, pose, planner, options_.route,
                    [&] { return plan_over(goals_of(query), pose, route.goal_heading_rad, planner); });
   };
-  return first_of(update_on, [](const RouteUpdate& update) { return update.failure.has_value(); });
+  return first_of(update_on);
 }
 
 PathFound TripPlanner::along(const Route& route) const {

@@ -55,8 +55,8 @@ class TripPlanner {
   [[nodiscard]] PlanningContext context_on(std::shared_ptr<const ObstacleField> field) const;
   [[nodiscard]] PlanningContext context_around(std::span<const Vec2> obstacles_m) const;
   void plan_around(std::span<const Vec2> blind_m);
-  template <typename Plan, typename HasFailed>
-  auto first_of(const Plan& plan, const HasFailed& has_failed);
+  template <typename Plan>
+  auto first_of(const Plan& plan);
   [[nodiscard]] TripPlan review(const RouteUpdate& update) const;
   [[nodiscard]] TripPlan replan(const RouteUpdate& update) const;
   [[nodiscard]] TripPlan another_way(const TripQuery& query) const;

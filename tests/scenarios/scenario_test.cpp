@@ -165,7 +165,7 @@ TEST(Scenario, says_where_its_file_is_wrong) {
 
 TEST(Scenario, reads_the_examples) {
   const ScratchFolder scratch;
-  for (const char* name : {"crossing-people", "static-clutter", "corridor"}) {
+  for (const char* name : {"crossing-people", "static-clutter", "heaps-of-posts", "corridor"}) {
     // So short a time shows that the files are read, and no more.
     std::string text = read_text(std::string(LODESTAR_SOURCE_DIR) + "/scenarios/" + name + ".yaml");
     const std::size_t at = text.find("time_limit_s: ");
@@ -189,6 +189,15 @@ TEST(Scenario, drives_around_what_stands) {
     EXPECT_EQ(line["contacts_moving"], 0) << line;
     EXPECT_GT(line["least_clearance_m"].get<double>(), 0.0) << line;
   }
+}
+
+/// A robot that takes two of them for legs stands before them for good.
+TEST(Scenario, takes_no_posts_of_a_heap_for_legs) {
+  const std::string file = LODESTAR_SOURCE_DIR "/scenarios/heaps-of-posts.yaml";
+  const ScratchFolder scratch;
+  const Ran ran = run_lodestar("scenario '" + file + "' --json --seeds 4", scratch.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  for (const auto& line : lines_of(ran)) EXPECT_EQ(line["contacts_moving"], 0) << line;
 }
 
 /// They do not see the robot, and run into it where it stands.

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "tests/app/navigation/lab.hpp"
+#include "tests/maps/cast_scan.hpp"
 
 namespace lodestar {
 namespace {
@@ -203,33 +204,46 @@ std::vector<Vec2> fence_m(double gap_from_y_m, double gap_to_y_m) {
   return points_m;
 }
 
+Path path_around(BackgroundPlanner& planner, const UnmappedObstacles& obstacles) {
+  planner.use_obstacles(obstacles);
+  for (int step = 0; step < 10; ++step) planner.begin_step({});
+  planner.ask(query_to(near_m));
+  std::optional<TripPlan> plan;
+  steps_until_taken(planner, plan);
+  return plan->update->route.path;
+}
+
+bool keeps_off(const Path& path, const std::vector<Vec2>& points_m) {
+  return std::ranges::all_of(points_m,
+                             [&](const Vec2& point_m) { return distance_to_path_m(path, point_m) > 0.25; });
+}
+
 TEST(BackgroundPlanner, leads_close_past_obstacles_where_there_is_no_way_with_room_and_else_up_to_them) {
   BackgroundPlanner planner(lab().map.map, planner_options(), {});
-  const auto path_around = [&](const UnmappedObstacles& obstacles) {
-    planner.use_obstacles(obstacles);
-    for (int step = 0; step < 10; ++step) planner.begin_step({});
-    planner.ask(query_to(near_m));
-    std::optional<TripPlan> plan;
-    steps_until_taken(planner, plan);
-    return plan->update->route.path;
-  };
-  const auto keeps_off = [](const Path& path, const std::vector<Vec2>& points_m) {
-    return std::ranges::all_of(points_m,
-                               [&](const Vec2& point_m) { return distance_to_path_m(path, point_m) > 0.25; });
-  };
   const std::vector<Vec2> closed = fence_m(9.0, 9.0);
   const std::vector<Vec2> narrow = fence_m(5.2, 6.0);
   const std::vector<Vec2> aside = fence_m(4.4, 5.3);
-  EXPECT_TRUE(keeps_off(path_around({.roomy_m = aside, .tight_m = narrow}), aside)) << "room comes first";
-  const Path tight = path_around({.roomy_m = closed, .tight_m = narrow});
+  EXPECT_TRUE(keeps_off(path_around(planner, {.roomy_m = aside, .tight_m = narrow}), aside))
+      << "room comes first";
+  const Path tight = path_around(planner, {.roomy_m = closed, .tight_m = narrow});
   EXPECT_TRUE(keeps_off(tight, narrow));
   EXPECT_FALSE(keeps_off(tight, closed));
-  const Path up_to_it = path_around({.roomy_m = closed, .tight_m = closed});
+  const Path up_to_it = path_around(planner, {.roomy_m = closed, .tight_m = closed});
   EXPECT_FALSE(keeps_off(up_to_it, closed)) << "they may go away";
 }
 
+TEST(BackgroundPlanner, leads_close_past_obstacles_before_a_long_detour) {
+  BackgroundPlanner planner(testing::walled_room(10.0, 7.5), planner_options(), {});
+  const std::vector<Vec2> narrow = fence_m(5.2, 6.0);
+  const std::vector<Vec2> far = fence_m(0.4, 1.8);
+  EXPECT_TRUE(keeps_off(path_around(planner, {.roomy_m = far, .tight_m = far}), far));
+  EXPECT_TRUE(keeps_off(path_around(planner, {.roomy_m = far, .tight_m = narrow}), narrow));
+  const std::vector<Vec2> beside = fence_m(4.0, 5.0);
+  EXPECT_TRUE(keeps_off(path_around(planner, {.roomy_m = beside, .tight_m = narrow}), beside));
+}
+
 /// A robot in the lab that knows where it is and stands.
-class PlanAwaited : public testing::Test {
+class PlanAwaited : public ::testing::Test {
  protected:
   void SetUp() override { run(100); }
 
