@@ -77,10 +77,10 @@ bool moves(const BodyVelocity& velocity) {
   return std::abs(velocity.forward_mps) >= standing_mps || std::abs(velocity.turn_radps) >= standing_radps;
 }
 
+/// Of the robot, with 13 cm for a leg's other side and the noise of the range.
 ObstacleMemoryOptions memory_around(const SurroundingsOptions& options) {
-  constexpr double other_side_m = 0.13;  // of a leg, with the noise of the range
   ObstacleMemoryOptions memory = options.memory;
-  memory.becomes_leg_from_m = options.shape.outer_radius_m() + options.field.body_margin_m + other_side_m;
+  memory.becomes_leg_from_m = options.shape.outer_radius_m() + options.field.body_margin_m + 0.13;
   return memory;
 }
 
@@ -98,8 +98,7 @@ Surroundings::Surroundings(const SurroundingsOptions& options)
       holding_(options.holding) {
   if (!options.depth) return;
   ObstacleMemoryOptions memory = memory_around(options);
-  memory.seen_free_within_m =
-      0.7 * options.depth->mount.range_m;  // farther away its noise lets edges come and go
+  memory.seen_free_within_m = 0.7 * options.depth->mount.range_m;  // beyond, noise lets edges come and go
   above_.emplace(Above{.slab = HeightSlab(options.depth->mount, outline_, options.depth->slab),
                        .memory = ObstacleMemory(memory),
                        .waiting = {},
@@ -189,9 +188,8 @@ void Surroundings::hold_against_map(const Scan& scan, const Pose2& map_from_odom
 }
 
 /// When the ray was measured, and deeper than the noise of the range: it touches the robot, or lies over the
-/// scanner.
+/// scanner, wherever that is mounted.
 bool Surroundings::is_within_robot(const Ray& ray) const {
-  // From wherever the scanner is mounted.
   if ((ray.end_m - ray.origin_m).norm() > 2.0 * options_.shape.outer_radius_m()) return false;
   const std::optional<Pose2> odom_from_base = track_.pose_at(ray.stamp);
   return odom_from_base &&
@@ -218,8 +216,7 @@ std::vector<FieldPoint> Surroundings::presences(const DeskewedScan& scan, const 
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     const Ray& ray = scan.rays[i];
     if (!ends_at_something(ray)) continue;
-    const Presence presence = presence_of(i);
-    // What does not move is passed closely.
+    const Presence presence = presence_of(i);  // what does not move is passed closely
     points.push_back({ray.stamp, is_still(presence) ? smoothed_m[i] : ray.end_m, presence});
   }
   return points;

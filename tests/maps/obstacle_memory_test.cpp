@@ -9,39 +9,13 @@
 #include "maps/map_overlay.hpp"
 #include "maps/random.hpp"
 
+#include "tests/maps/disc_scan.hpp"
+
 namespace lodestar {
 namespace {
 
-struct Disc {
-  Vec2 center_m;
-  double radius_m = 0.0;
-};
-
-constexpr double max_range_m = 8.0;
-
-double range_to(const std::vector<Disc>& discs, const Vec2& way) {
-  double range_m = max_range_m;
-  for (const Disc& disc : discs) {
-    const double along_m = disc.center_m.dot(way);
-    const double aside_m = cross(disc.center_m, way);
-    if (along_m > 0.0 && std::abs(aside_m) < disc.radius_m)
-      range_m = std::min(range_m, along_m - std::sqrt(square(disc.radius_m) - square(aside_m)));
-  }
-  return range_m;
-}
-
-/// A scan from the origin of 720 beams, with 1.5 cm of range noise.
-DeskewedScan scan_of(const std::vector<Disc>& discs, double at_s, Random& random) {
-  DeskewedScan scan{.newest = Stamp(from_seconds(at_s)), .rays = {}};
-  for (int i = 0; i < 720; ++i) {
-    const Vec2 way(std::cos(0.5 * radians(i)), std::sin(0.5 * radians(i)));
-    double range_m = range_to(discs, way);
-    const bool is_hit = range_m < max_range_m;
-    if (is_hit) range_m += 0.015 * random.normal();
-    scan.rays.push_back({scan.newest, Vec2::Zero(), range_m * way, is_hit ? Echo::hit : Echo::nothing});
-  }
-  return scan;
-}
+using Disc = testing::ScanDisc;
+using testing::scan_of;
 
 double share_standing(const ObstacleMemory& memory, const DeskewedScan& scan) {
   const std::vector<bool> stands = memory.standing(scan);
@@ -231,48 +205,6 @@ TEST(ObstacleMemory, AThingThatStoodAndSlidesOnHasComeWhereTheFloorWasFree) {
     }
   }
   EXPECT_LE(late, 1) << "of 60 scans";
-}
-
-/// Two posts of 12 cm are legs, also where one hides the other; a box is not, nor a piece of the wall behind
-/// that is seen between two boxes.
-TEST(Legs, AreThinThings) {
-  Random random(7);
-  const auto seen = [&](const std::vector<Disc>& discs) {
-    DeskewedScan scan = scan_of({}, 0.0, random);
-    for (const Disc& disc : discs) {
-      const DeskewedScan other = scan_of({disc}, 0.0, random);
-      for (std::size_t i = 0; i < scan.rays.size(); ++i)
-        if (other.rays[i].end_m.norm() < scan.rays[i].end_m.norm()) scan.rays[i] = other.rays[i];
-    }
-    return rays_at_legs(scan).size();
-  };
-  for (const double x_m : {0.5, 1.0, 1.5, 2.0}) {
-    EXPECT_GE(seen({Disc{{x_m, 0.1}, 0.06}, Disc{{x_m, -0.1}, 0.06}}), 6U) << x_m;
-    EXPECT_EQ(seen({Disc{{x_m, 0.1}, 0.2}}), 0U) << x_m;
-  }
-  for (const double x_m : {0.5, 1.0, 1.5})
-    EXPECT_GE(seen({Disc{{x_m, 0.0}, 0.06}, Disc{{x_m + 0.2, 0.0}, 0.06}}), 3U) << x_m;
-  EXPECT_EQ(seen({Disc{{2.0, 0.0}, 0.3}, Disc{{0.8, 0.45}, 0.4}, Disc{{0.8, -0.45}, 0.4}}), 0U);
-}
-
-/// Three posts that touch each other, and the corner of a heap of them, are seen as one or two thin things
-/// from most sides: what is seen in one piece is no leg.
-TEST(Legs, AreNoPartsOfAThing) {
-  Random random(10);
-  constexpr double post_m = 0.075;
-  int seen_as_legs = 0;
-  int asked = 0;
-  for (int degrees = 0; degrees < 360; degrees += 5) {
-    for (const double range_m : {0.6, 1.0, 1.5, 2.0}) {
-      const Pose2 corner{{range_m, 0.0}, radians(degrees)};
-      std::vector<Disc> posts;
-      for (const Vec2& place : {Vec2(0.0, 0.0), Vec2(2.0 * post_m, 0.0), Vec2(0.0, 2.0 * post_m)})
-        posts.push_back({corner * place, post_m});
-      ++asked;
-      if (!rays_at_legs(scan_of(posts, 0.0, random)).empty()) ++seen_as_legs;
-    }
-  }
-  EXPECT_LT(seen_as_legs, 0.01 * asked) << "of " << asked;
 }
 
 /// A post before another one is a thing. Where the robot has come so near that someone's body would touch it,
