@@ -73,18 +73,17 @@ NavigationStep Navigation::step(const SensorInput& input) {
   // Localize. Travel comes first: a frame was exposed before the newest wheel reading, and the filter
   // corrects the past.
   NavigationStep step;
-  LocalizationState known = known_;
-  for (const WheelTravel& travel : input.base.travel) known.add_travel(travel);
+  for (const WheelTravel& travel : input.base.travel) known_.add_travel(travel);
   for (const Frame& frame : input.frames)
-    if (std::optional<FixAttempt> used = localizer_.see(frame, input.now, known))
+    if (std::optional<FixAttempt> used = localizer_.see(frame, input.now, known_))
       step.fixes.push_back(std::move(*used));
-  step.estimate = known.filter.estimate();
+  step.estimate = known_.filter.estimate();
   if (step.estimate) step.zone_mps = speed_limit(*step.estimate);
 
   // Judge.
   const bool map_changed = planner_.begin_step(behaviour_.places.blind_places_m());
-  Facts facts = judge(input, step, known, map_changed);
-  look_around(input, known.filter, facts);
+  Facts facts = judge(input, step, map_changed);
+  look_around(input, facts);
 
   // Decide.
   const Behaviour about =
@@ -96,9 +95,8 @@ NavigationStep Navigation::step(const SensorInput& input) {
   step.stop = told.stop;
   step.backtracks = told.backtracks;
   protect(input, facts.elapsed, after, step);
-  report(known, input.now, step);
+  report(known_, input.now, step);
 
-  known_ = std::move(known);
   behaviour_ = after.behaviour;
   if (!is_under_way(behaviour_.state)) wish_ = Wish::go_on;
   estimate_ = step.estimate;
@@ -107,10 +105,9 @@ NavigationStep Navigation::step(const SensorInput& input) {
   return step;
 }
 
-Facts Navigation::judge(const SensorInput& input, const NavigationStep& step, const LocalizationState& known,
-                        bool map_changed) const {
+Facts Navigation::judge(const SensorInput& input, const NavigationStep& step, bool map_changed) const {
   const auto reason_within = [&](const SafetyStopOptions& limits) {
-    return with_integrity_alarms(reason_to_stop(input.now, step.estimate, limits), known, input.now);
+    return with_integrity_alarms(reason_to_stop(input.now, step.estimate, limits), known_, input.now);
   };
   Facts facts{.now = input.now,
               .elapsed = last_step_ ? input.now - *last_step_ : Duration::zero(),
@@ -127,7 +124,7 @@ Facts Navigation::judge(const SensorInput& input, const NavigationStep& step, co
                                                                      : std::nullopt,
               .may_look_around = may_look_around_,
               .map_changed = map_changed};
-  judge_room(facts, known.integrity.is_contradicted());
+  judge_room(facts);
   facts.limit = lowered(facts.limit, step.zone_mps);
   facts.limit_on_backtrack = lowered(facts.limit_on_backtrack, step.zone_mps);
   return facts;
@@ -138,8 +135,9 @@ MappedPose Navigation::mapped_pose(const Facts& facts) const {
 }
 
 /// A scanner that cannot be believed is a reason to stop, behind those of the pose.
-void Navigation::look_around(const SensorInput& input, const PoseFilter& filter, Facts& facts) {
+void Navigation::look_around(const SensorInput& input, Facts& facts) {
   if (!surroundings_) return;
+  const PoseFilter& filter = known_.filter;
   surroundings_->use_scales({filter.wheel_scales().x(), filter.wheel_scales().y(), filter.turn_scale()});
   surroundings_->add_packets(input.packets, input.now);
   surroundings_->add(input.base.travel, input.scans, input.depths, input.now, mapped_pose(facts));
@@ -181,9 +179,9 @@ std::optional<SeenSurroundings> Navigation::seen(Stamp now) const {
 
 /// Sets the speed limits, with the safety margin for the pose uncertainty kept; zero where the clearance is
 /// smaller than the margin.
-void Navigation::judge_room(Facts& facts, bool is_contradicted) const {
+void Navigation::judge_room(Facts& facts) const {
   CautionOptions caution = options_.caution;
-  if (is_contradicted) caution.swing_per_m = caution.contradicted_swing_per_m;
+  if (known_.integrity.is_contradicted()) caution.swing_per_m = caution.contradicted_swing_per_m;
   const auto limit_with = [&](const SafetyMargin& spare, const SafetyStopOptions& limits) {
     return safe_speed(planner_.forward_clearance(), *facts.estimate, spare,
                       {options_.drive, caution, limits});

@@ -146,12 +146,11 @@ class Navigation {
 
  private:
   void use_zones(const Zones& zones);
-  [[nodiscard]] Facts judge(const SensorInput& input, const NavigationStep& step,
-                            const LocalizationState& known, bool map_changed) const;
+  [[nodiscard]] Facts judge(const SensorInput& input, const NavigationStep& step, bool map_changed) const;
   std::optional<double> speed_limit(const PoseEstimate& estimate);
-  void judge_room(Facts& facts, bool is_contradicted) const;
+  void judge_room(Facts& facts) const;
   [[nodiscard]] MappedPose mapped_pose(const Facts& facts) const;
-  void look_around(const SensorInput& input, const PoseFilter& filter, Facts& facts);
+  void look_around(const SensorInput& input, Facts& facts);
   void plan_around_obstacles(const Facts& facts);
   void protect(const SensorInput& input, Duration elapsed, Moved& after, NavigationStep& step);
   Behaviour planned(Behaviour behaviour, const std::optional<PoseEstimate>& estimate,
