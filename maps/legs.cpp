@@ -94,32 +94,40 @@ bool is_free(const Thing& thing, Side side, const Room& room, const DeskewedScan
 
 }  // namespace
 
-std::vector<std::size_t> rays_at_legs(const DeskewedScan& scan, const LegOptions& options) {
+RaysAtLegs rays_at_legs(const DeskewedScan& scan, const LegOptions& options) {
   const std::vector<Thing> things = near_things(scan, options);
   const auto is_thin = [&](const Thing& thing) { return thing.width_m <= options.widest_leg_m; };
-  const auto is_alone = [&](const Thing& thing) {
-    const Room room{options.alone_before_m, options.sliver_m};
+  const auto is_alone = [&](const Thing& thing, const Room& room) {
     return is_free(thing, Side::before, room, scan) && is_free(thing, Side::after, room, scan);
   };
   const auto is_pair = [&](const Thing& a, const Thing& b) {
     return is_thin(a) && is_thin(b) && (a.middle_m - b.middle_m).norm() <= options.farthest_pair_m &&
-           is_gap(a, b, scan) && is_free(a, Side::before, {.behind_m = options.aside_m}, scan) &&
+           is_gap(a, b, scan);
+  };
+  const auto is_pair_alone = [&](const Thing& a, const Thing& b) {
+    return is_free(a, Side::before, {.behind_m = options.aside_m}, scan) &&
            is_free(b, Side::after, {.behind_m = options.aside_m}, scan);
   };
-  std::vector<std::size_t> rays;
-  const auto append = [&](const Thing& thing) {
-    rays.insert(rays.end(), thing.rays.begin(), thing.rays.end());
+  RaysAtLegs result;
+  const auto append = [&](const Thing& thing, bool is_likely) {
+    result.possible.insert(result.possible.end(), thing.rays.begin(), thing.rays.end());
+    if (is_likely) result.likely.insert(result.likely.end(), thing.rays.begin(), thing.rays.end());
   };
   for (std::size_t i = 0; i < things.size(); ++i) {
-    if (is_thin(things[i]) && is_alone(things[i])) append(things[i]);
+    const bool is_likely =
+        is_thin(things[i]) && is_alone(things[i], {options.alone_before_m, options.sliver_m});
+    if (is_likely ||
+        (is_thin(things[i]) && is_alone(things[i], {.behind_m = options.perhaps_alone_before_m})))
+      append(things[i], is_likely);
     for (const std::size_t after : {1U, 2U}) {  // between them a piece of the wall behind may be seen
       const Thing& other = things[(i + after) % things.size()];
       if (after >= things.size() || !is_pair(things[i], other)) continue;
-      append(things[i]);
-      append(other);
+      const bool is_likely_pair = is_pair_alone(things[i], other);
+      append(things[i], is_likely_pair);
+      append(other, is_likely_pair);
     }
   }
-  return rays;
+  return result;
 }
 
 }  // namespace lodestar

@@ -19,13 +19,20 @@ struct LegOptions {
   /// that hides less of the other the gap between them opens before who passes can touch the body.
   double alone_before_m = 0.3;
   double sliver_m = 0.03;
+  double perhaps_alone_before_m = 0.1;
   /// Rays that pass on the outer sides of a pair end so far behind: 3 standard deviations of the range.
   double aside_m = 0.05;
 };
 
-/// The rays that end at what may be someone's legs, or those of a chair: pairs of thin things close to each
-/// other, and thin things alone, as a leg may hide the other. What they carry reaches farther out than they
-/// do. A thin part of a thing that is seen in one piece with others is no leg, nor is what sticks out of it.
-std::vector<std::size_t> rays_at_legs(const DeskewedScan& scan, const LegOptions& options = {});
+/// The rays that end at legs, of people or chairs: pairs of thin things close to each other, and thin things
+/// alone, as a leg may hide the other. What they carry reaches farther out than they do.
+struct RaysAtLegs {
+  /// A thin part of a thing that is seen in one piece with others is no leg, nor is what sticks out of it.
+  std::vector<std::size_t> likely;
+  /// All that may be a leg, those above with it: parts of what stands in heaps look like that from most
+  /// sides.
+  std::vector<std::size_t> possible;
+};
+RaysAtLegs rays_at_legs(const DeskewedScan& scan, const LegOptions& options = {});
 
 }  // namespace lodestar

@@ -110,16 +110,22 @@ void ObstacleMemory::note_hits_beside(Stamp now) {
   }
 }
 
+/// What has come is someone if it can be: only what was always there may be a heap of things.
 void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
-  for (const std::size_t i : rays_at_legs(scan)) {
+  const auto mark = [&](std::size_t i, const auto& may_be_leg) {
     const Ray& ray = scan.rays[i];
     const Place place = place_of(ray.end_m);
     const std::int32_t index = index_[wrapped(place.column, place.row)];
-    if (index < 0) continue;
-    Seen& seen = seen_[static_cast<std::size_t>(index)];
-    const bool is_near = (ray.end_m - ray.origin_m).norm() < options_.becomes_leg_from_m;
-    if (!is_near || !is_part_of_a_thing(place)) seen.leg_at = ray.stamp;
-  }
+    if (index >= 0 && may_be_leg(ray, place)) seen_[static_cast<std::size_t>(index)].leg_at = ray.stamp;
+  };
+  const RaysAtLegs legs = rays_at_legs(scan);
+  for (const std::size_t i : legs.likely)
+    mark(i, [&](const Ray& ray, Place place) {
+      const bool is_near = (ray.end_m - ray.origin_m).norm() < options_.becomes_leg_from_m;
+      return !is_near || !is_part_of_a_thing(place);
+    });
+  for (const std::size_t i : legs.possible)
+    mark(i, [&](const Ray& ray, Place) { return has_come(ray.end_m); });
 }
 
 /// What is hit in the same scan is not free, however many rays pass beside it: a leg is thinner than a cell.
@@ -140,9 +146,10 @@ void ObstacleMemory::count_free(const DeskewedScan& scan) {
 bool ObstacleMemory::was_seen_free(Place place, Stamp before) const {
   const Vec2 place_m = center_m(place);
   const auto is_free = [&](const Look& look) {
-    return look.stamp < before && (place_m - look.from_m).norm() <= options_.seen_free_within_m &&
-           look.fan.all_pass(place_m, options_.seen_free_beside_m, options_.seen_free_beside_m,
-                             options_.seen_free_between_m);
+    const double away_m = (place_m - look.from_m).norm();
+    const double beside_m = options_.seen_free_beside_m + options_.seen_free_beside_per_m * away_m;
+    return look.stamp < before && away_m <= options_.seen_free_within_m &&
+           look.fan.all_pass(place_m, beside_m, beside_m, options_.seen_free_between_m);
   };
   bool was_free = false;
   for (const Look& look : looks_) {
@@ -192,7 +199,7 @@ std::optional<Stamp> ObstacleMemory::came_at(Place place, Stamp now) const {
   if (was_seen_free(place, now)) return now;
   std::optional<Stamp> latest;
   ask_beside(place, [&](const Seen& seen) {
-    if (seen.came_at && !has_stood(seen) && is_remembered(seen, now))
+    if (seen.came_at && is_remembered(seen, now))
       latest = std::max(latest.value_or(*seen.came_at), *seen.came_at);
   });
   return latest;

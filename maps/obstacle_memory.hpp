@@ -34,10 +34,12 @@ struct ObstacleMemoryOptions {
   /// leg's other side.
   double becomes_leg_from_m = 0.6;
   Duration between_looks_back = std::chrono::milliseconds(250);
-  /// Seen free is a place when nothing is hit within this of it: beams half a degree apart leave 4 cm between
-  /// them at 4 m, and wheels turn the odometry frame by up to a degree meanwhile. Farther away a dark thing's
-  /// edges come and go, and nobody is near.
-  double seen_free_beside_m = 0.15;
+  /// Seen free is a place when nothing is hit within this of it: 3 standard deviations of the range, and for
+  /// each metre away what the wheels turn the odometry frame by meanwhile (up to a degree) and half of the
+  /// gap between beams half a degree apart. Farther away than that a dark thing's edges come and go, and
+  /// nobody is near.
+  double seen_free_beside_m = 0.05;
+  double seen_free_beside_per_m = 0.025;
   double seen_free_within_m = 4.0;
   /// And only between two beams that are no farther from it: a degree apart, they are 7 cm apart there.
   double seen_free_between_m = 0.08;

@@ -22,7 +22,7 @@ TEST(Legs, AreThinThings) {
       for (std::size_t i = 0; i < scan.rays.size(); ++i)
         if (other.rays[i].end_m.norm() < scan.rays[i].end_m.norm()) scan.rays[i] = other.rays[i];
     }
-    return rays_at_legs(scan).size();
+    return rays_at_legs(scan).likely.size();
   };
   for (const double x_m : {0.5, 1.0, 1.5, 2.0}) {
     EXPECT_GE(seen({Disc{{x_m, 0.1}, 0.06}, Disc{{x_m, -0.1}, 0.06}}), 6U) << x_m;
@@ -47,7 +47,7 @@ TEST(Legs, AreNoPartsOfAThing) {
       for (const Vec2& place : {Vec2(0.0, 0.0), Vec2(2.0 * post_m, 0.0), Vec2(0.0, 2.0 * post_m)})
         posts.push_back({corner * place, post_m});
       ++asked;
-      if (!rays_at_legs(scan_of(posts, 0.0, random)).empty()) ++seen_as_legs;
+      if (!rays_at_legs(scan_of(posts, 0.0, random)).likely.empty()) ++seen_as_legs;
     }
   }
   EXPECT_LT(seen_as_legs, 0.01 * asked) << "of " << asked;

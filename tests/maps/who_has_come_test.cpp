@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <vector>
+
+#include "maps/obstacle_memory.hpp"
+#include "maps/random.hpp"
+
+#include "tests/maps/disc_scan.hpp"
+
+namespace lodestar {
+namespace {
+
+using testing::scan_of;
+using testing::ScanDisc;
+
+constexpr double leg_m = 0.06;
+constexpr double scan_s = 0.1;
+
+/// Where the scanner hits a leg.
+Vec2 near_side(const Vec2& leg_in_odom) {
+  return leg_in_odom - leg_m * leg_in_odom.normalized();
+}
+
+/// Is what is hit of either leg that of someone who has come?
+bool is_someone_who_came(const ObstacleMemory& memory, const std::vector<Vec2>& legs_m) {
+  return std::ranges::any_of(legs_m, [&](const Vec2& leg) { return memory.has_legs(near_side(leg)); }) &&
+         std::ranges::all_of(legs_m, [&](const Vec2& leg) { return memory.has_come(near_side(leg)); });
+}
+
+/// A memory, and someone on two legs before it.
+class Visitor {
+ public:
+  explicit Visitor(unsigned seed) : random_(seed) {}
+
+  /// To there, straight and at constant speed; without a time at once.
+  void go_to(const std::vector<Vec2>& legs_m, double in_s) {
+    const std::vector<Vec2> from_m = legs_m_;
+    const int scans = std::max(static_cast<int>(in_s / scan_s), 1);
+    for (int scan = 1; scan <= scans; ++scan) {
+      for (std::size_t i = 0; i < legs_m.size(); ++i)
+        legs_m_[i] = from_m[i] + (legs_m[i] - from_m[i]) * scan / scans;
+      look();
+    }
+  }
+
+  void stand(double for_s) { go_to(legs_m_, for_s); }
+
+  [[nodiscard]] bool has_come() const { return is_someone_who_came(memory_, legs_m_); }
+
+ private:
+  void look() {
+    memory_.add(scan_of({ScanDisc{legs_m_[0], leg_m}, ScanDisc{legs_m_[1], leg_m}}, at_s_, random_));
+    at_s_ += scan_s;
+  }
+
+  Random random_;
+  ObstacleMemory memory_;
+  double at_s_ = 0.0;
+  std::vector<Vec2> legs_m_{Vec2(2.5, 0.1), Vec2(2.5, -0.1)};
+};
+
+/// With a last step right before a scanner that is mounted 10 cm ahead of the middle of a robot of 25 cm.
+TEST(WhoHasCome, IsKnownAlsoRightBesideTheRobot) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Visitor visitor(seed);
+    visitor.stand(3.0);
+    visitor.go_to({Vec2(1.0, 0.1), Vec2(1.0, -0.1)}, 1.0);
+    visitor.go_to({Vec2(0.24, 0.1), Vec2(0.24, -0.1)}, 0.2);
+    visitor.stand(12.0);
+    EXPECT_TRUE(visitor.has_come()) << seed;
+  }
+}
+
+/// Whoever leans on a robot comes to stand in other cells, long after they came.
+TEST(WhoHasCome, IsStillKnownWhenTheySwayAfterALongTime) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Visitor visitor(seed);
+    visitor.go_to({Vec2(1.0, 0.1), Vec2(1.0, -0.1)}, 1.5);
+    visitor.stand(20.0);
+    visitor.go_to({Vec2(1.3, 0.4), Vec2(1.3, 0.2)}, 150.0);
+    visitor.stand(15.0);
+    EXPECT_TRUE(visitor.has_come()) << seed;
+  }
+}
+
+/// Side by side, but half behind each other: seen in one piece, as parts of a thing are.
+TEST(WhoHasCome, HasLegsAlsoWhereOneHidesAPartOfTheOther) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Visitor visitor(seed);
+    visitor.go_to({Vec2(0.4, 0.0), Vec2(0.6, 0.1)}, 1.5);
+    visitor.stand(25.0);
+    EXPECT_TRUE(visitor.has_come()) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace lodestar
