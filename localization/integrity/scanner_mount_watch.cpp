@@ -2,8 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lodestar {
+namespace {
+
+bool is_wall(const OccupancyMap& map, Cell cell) {
+  return map.contains(cell) && map.at(cell) != OccupancyMap::unknown && !is_drivable(map.at(cell));
+}
+
+/// From the middle of a cell to that of the nearest wall, in cells, at most `most`. To the field what is
+/// unknown, and the end of the map, are obstacles; no beam ends there.
+double cells_to_wall(const ObstacleField& field, Cell cell, double most) {
+  const OccupancyMap& map = field.map();
+  if (!map.contains(cell)) return most;
+  const double least = field.distance_cells(map.index(cell));
+  double nearest = most;
+  const auto ask = [&](int aside, int up) {
+    if (is_wall(map, {cell.column + aside, cell.row + up}))
+      nearest = std::min(nearest, std::hypot(static_cast<double>(aside), static_cast<double>(up)));
+  };
+  // In growing squares, none of whose sides is nearer than `ring`.
+  for (int ring = static_cast<int>(least / std::numbers::sqrt2); ring < nearest; ++ring) {
+    for (int along = -ring; along <= ring; ++along) {
+      ask(along, -ring);
+      ask(along, ring);
+      ask(-ring, along);
+      ask(ring, along);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
 
 void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_scanner,
                             const ObstacleField& field) {
@@ -19,6 +50,7 @@ void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_sc
   std::array<double, 2 * steps + 1> cost{};
   std::array<double, 2 * steps + 1> explained{};
   std::size_t used = 0;
+  const double most_off_cells = options_.most_off_m / map.resolution_m;
   constexpr std::size_t most_used = 120;  // are enough, and bound the time: 3000 look-ups
   const std::size_t stride = std::max<std::size_t>(1, beams / most_used);
   for (std::size_t i = 0; i < beams; i += stride) {
@@ -30,10 +62,8 @@ void ScannerMountWatch::add(const Scan& scan, std::span<const Pose2> map_from_sc
       const double heading_rad = map_from_scanner[i].yaw_rad + beam.angle_rad + turn_rad;
       const Vec2 end =
           map_from_scanner[i].position_m + beam.range_m * Vec2(std::cos(heading_rad), std::sin(heading_rad));
-      const Cell cell = map.cell_at(end);
-      const double off_m =
-          map.contains(cell) ? map.resolution_m * field.distance_cells(map.index(cell)) : 0.0;
-      cost[k] += square(std::min(off_m, options_.most_off_m));
+      const double off_m = map.resolution_m * cells_to_wall(field, map.cell_at(end), most_off_cells);
+      cost[k] += square(off_m);
       explained[k] += off_m <= 1.5 * map.resolution_m ? 1.0 : 0.0;
     }
   }
