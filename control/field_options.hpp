@@ -19,6 +19,9 @@ struct ProtectiveFieldOptions {
   /// m/s^2 a person who had stood half a metre beside a robot that turned on the spot walked into it before
   /// it was at rest.
   double legs_start_mps2 = 3.0;
+  /// And of who came there, and may go at any time: with 3, discs that set off at once at 1.3 m/s touched a
+  /// robot in the last two hundredths of a second before it was at rest.
+  double waiting_start_mps2 = 4.0;
   double standing_margin_m = 0.02;  ///< a good standard deviation of the range (1.5 cm)
   /// However near it is, a robot does not come nearer than this to what stands: twice the noise of five
   /// beams.

@@ -13,7 +13,7 @@ enum class Presence : std::uint8_t {
   mapped,    ///< the map explains it: it does not move
   standing,  ///< not on the map, but it has stood for a second
   legs,      ///< the same, but of someone who has legs, or of a chair: what they carry reaches farther out
-  waiting,   ///< legs of someone who was seen to come there, and may walk on at any time
+  waiting,   ///< someone who was seen to come there, and may go at any time
   person,    ///< anything else
   hidden     ///< nothing was hit here, but someone may be behind
 };

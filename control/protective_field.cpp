@@ -50,14 +50,18 @@ ProtectiveField::ProtectiveField(RobotShape shape, const ProtectiveFieldOptions&
     : shape_(std::move(shape)), options_(options) {}
 
 double ProtectiveField::reach_m(Presence presence, double time_s) const {
+  const auto from_rest_m = [&](double start_mps2) {
+    return std::min(options_.person_mps * time_s, 0.5 * start_mps2 * square(time_s));
+  };
   switch (presence) {
     case Presence::mapped:
       return 0.0;
     case Presence::standing:
-      return std::min(options_.person_mps * time_s, 0.5 * options_.start_mps2 * square(time_s));
+      return from_rest_m(options_.start_mps2);
     case Presence::legs:
+      return from_rest_m(options_.legs_start_mps2);
     case Presence::waiting:
-      return std::min(options_.person_mps * time_s, 0.5 * options_.legs_start_mps2 * square(time_s));
+      return from_rest_m(options_.waiting_start_mps2);
     case Presence::person:
       return options_.person_mps * time_s;
     case Presence::hidden:

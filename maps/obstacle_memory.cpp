@@ -142,20 +142,17 @@ void ObstacleMemory::count_free(const DeskewedScan& scan) {
   while (scan.newest - looks_.front().stamp > options_.just_before) looks_.pop_front();
 }
 
-/// In two looks in a row: all beams that meet a thin thing may be mixed pixels, now and then.
 bool ObstacleMemory::was_seen_free(Place place, Stamp before) const {
   const Vec2 place_m = center_m(place);
-  const auto is_free = [&](const Look& look) {
+  int in_a_row = 0;
+  for (const Look& look : looks_) {
     const double away_m = (place_m - look.from_m).norm();
     const double beside_m = options_.seen_free_beside_m + options_.seen_free_beside_per_m * away_m;
-    return look.stamp < before && away_m <= options_.seen_free_within_m &&
-           look.fan.all_pass(place_m, beside_m, beside_m, options_.seen_free_between_m);
-  };
-  bool was_free = false;
-  for (const Look& look : looks_) {
-    const bool is_free_again = is_free(look);
-    if (was_free && is_free_again) return true;
-    was_free = is_free_again;
+    const bool is_free = look.stamp < before && away_m <= options_.seen_free_within_m &&
+                         look.fan.all_pass(place_m, beside_m, beside_m, options_.seen_free_between_m);
+    in_a_row = is_free ? in_a_row + 1 : 0;
+    if (in_a_row >= (away_m <= options_.seen_free_near_m ? options_.looks_free : options_.looks_free_far))
+      return true;
   }
   return false;
 }
@@ -188,6 +185,10 @@ bool ObstacleMemory::has_stood(const Seen& seen) const {
   if (is_leg(seen)) return hit_for >= options_.to_stand_as_a_person;
   return hit_for >= options_.to_stand &&
          (!seen.came_at || seen.last_hit - *seen.came_at >= options_.to_stand_as_a_person);
+}
+
+bool ObstacleMemory::came_lately(const Seen& seen) const {
+  return seen.came_at && seen.last_hit - *seen.came_at < options_.to_stay;
 }
 
 bool ObstacleMemory::is_remembered(const Seen& seen, Stamp now) const {
@@ -237,6 +238,11 @@ bool ObstacleMemory::has_come(const Vec2& point_m) const {
   return any_beside(point_m, [](const Seen& seen) { return seen.came_at.has_value(); });
 }
 
+bool ObstacleMemory::may_go(const Vec2& point_m) const {
+  return has_come(point_m) &&
+         any_beside(point_m, [&](const Seen& seen) { return is_leg(seen) || came_lately(seen); });
+}
+
 std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
   std::vector<bool> stood(scan.rays.size(), false);  // each by itself
   std::vector<bool> stands(scan.rays.size(), false);
@@ -274,10 +280,11 @@ std::vector<Vec2> ObstacleMemory::standing_m(Stamp now) const {
   return points_m;
 }
 
-std::vector<Vec2> ObstacleMemory::standing_legs_m(Stamp now) const {
+std::vector<Vec2> ObstacleMemory::standing_people_m(Stamp now) const {
   std::vector<Vec2> points_m;
   for (const Seen& seen : seen_)
-    if (is_leg(seen) && has_stood(seen) && is_remembered(seen, now)) points_m.push_back(seen.mean_m);
+    if ((is_leg(seen) || came_lately(seen)) && has_stood(seen) && is_remembered(seen, now))
+      points_m.push_back(seen.mean_m);
   return points_m;
 }
 

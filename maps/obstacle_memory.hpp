@@ -24,6 +24,9 @@ struct ObstacleMemoryOptions {
   /// Where the floor was seen free just before, what is hit has come by itself: someone who has stopped, and
   /// may walk on at once. So may who has legs. Chosen by hand.
   Duration to_stand_as_a_person = std::chrono::seconds(10);
+  /// What has come and shows no legs may be in a coat or a wheelchair, or be a robot, and go as well; what
+  /// has stayed for so long was put there (chosen by hand).
+  Duration to_stay = std::chrono::seconds(60);
   Duration just_before = std::chrono::seconds(3);  ///< in which a person has come, or has passed by
   /// What has not looked like a leg for so long, though it was hit, is none: legs that pass close by a box
   /// are hit in its cells. Legs, one behind the other or beside a wall, are rarely hidden for as
@@ -36,11 +39,15 @@ struct ObstacleMemoryOptions {
   Duration between_looks_back = std::chrono::milliseconds(250);
   /// Seen free is a place when nothing is hit within this of it: 3 standard deviations of the range, and for
   /// each metre away what the wheels turn the odometry frame by meanwhile (up to a degree) and half of the
-  /// gap between beams half a degree apart. Farther away than that a dark thing's edges come and go, and
-  /// nobody is near.
+  /// gap between beams half a degree apart.
   double seen_free_beside_m = 0.05;
   double seen_free_beside_per_m = 0.025;
-  double seen_free_within_m = 4.0;
+  /// In so many looks in a row: all beams that meet a thin thing may be mixed pixels, now and then. Farther
+  /// away two or three meet it, and a dark thing's edges come and go.
+  int looks_free = 2;
+  double seen_free_near_m = 4.0;
+  int looks_free_far = 4;
+  double seen_free_within_m = 8.0;
   /// And only between two beams that are no farther from it: a degree apart, they are 7 cm apart there.
   double seen_free_between_m = 0.08;
   Duration longest_unseen =
@@ -83,12 +90,15 @@ class ObstacleMemory {
   /// Was what is hit here, or in a cell beside it, seen to come? Else it may be furniture.
   [[nodiscard]] bool has_come(const Vec2& point_m) const;
 
+  /// May it go as it came, since it has legs or came lately?
+  [[nodiscard]] bool may_go(const Vec2& point_m) const;
+
   /// Where something stands, also where it has not been seen for a while: the mean of what was hit in each
   /// cell.
   [[nodiscard]] std::vector<Vec2> standing_m(Stamp now) const;
 
-  /// The same of legs only.
-  [[nodiscard]] std::vector<Vec2> standing_legs_m(Stamp now) const;
+  /// The same of legs, and of what has come lately.
+  [[nodiscard]] std::vector<Vec2> standing_people_m(Stamp now) const;
 
   /// Centres of the cells that are hit now or remembered.
   [[nodiscard]] std::vector<Vec2> occupied_m(Stamp now) const;
@@ -125,6 +135,7 @@ class ObstacleMemory {
 
   [[nodiscard]] bool is_leg(const Seen& seen) const;
   [[nodiscard]] bool has_stood(const Seen& seen) const;
+  [[nodiscard]] bool came_lately(const Seen& seen) const;
   [[nodiscard]] bool is_part_of_a_thing(Place place) const;
   [[nodiscard]] bool has_come_to(const Vec2& point_m) const;
   [[nodiscard]] bool was_seen_free(Place place, Stamp before) const;

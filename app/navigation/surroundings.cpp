@@ -209,8 +209,8 @@ std::vector<FieldPoint> Surroundings::presences(const DeskewedScan& scan, const 
     const double range_m = (ray.end_m - ray.origin_m).norm();
     if (explanation && explanation->explains(*map_from_odom * ray.end_m, range_m)) return Presence::mapped;
     if (!stands[i]) return Presence::person;
-    if (!memory.has_legs(ray.end_m)) return Presence::standing;
-    return memory.has_come(ray.end_m) ? Presence::waiting : Presence::legs;
+    if (memory.may_go(ray.end_m)) return Presence::waiting;
+    return memory.has_legs(ray.end_m) ? Presence::legs : Presence::standing;
   };
   const std::vector<Vec2> smoothed_m = smoothed_ends_m(scan);
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
@@ -300,8 +300,8 @@ UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped) co
 std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped,
                                            const RoomAround& room) const {
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
+  if (!map_from_odom) return {};
   std::vector<Vec2> points_m;
-  if (!map_from_odom) return points_m;
   const MapExplanation explanation(mapped.map, mapped.estimate->covariance);
   const Vec2& robot_m = mapped.estimate->map_from_base.position_m;
   const auto is_mapped = [&](const Vec2& point_in_map) {
@@ -320,9 +320,9 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped,
       points_m.push_back(thing_in_map);
       if (room.things_m > 0.0) append_around(thing_in_map, room.things_m);
     }
-    for (const Vec2& leg_in_odom : memory->standing_legs_m(now)) {
-      const Vec2 leg_in_map = *map_from_odom * leg_in_odom;
-      if (!is_mapped(leg_in_map)) append_around(leg_in_map, room.legs_m);  // door posts are none
+    for (const Vec2& someone_in_odom : memory->standing_people_m(now)) {
+      const Vec2 someone_in_map = *map_from_odom * someone_in_odom;
+      if (!is_mapped(someone_in_map)) append_around(someone_in_map, room.legs_m);  // door posts are nobody
     }
   }
   for (const Vec2& point_in_odom : holding_.points_m(now)) points_m.push_back(*map_from_odom * point_in_odom);

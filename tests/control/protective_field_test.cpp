@@ -149,7 +149,8 @@ TEST(ProtectiveField, WithLegsInReachOfABodyItComesNoNearer) {
   EXPECT_EQ(disc_field().limit(beside, {0.1, 0.0}, {0.1, 0.0}).share, 1.0);
 }
 
-/// From rest at 3 m/s^2 they are at the robot before it is at rest, however slowly it creeps or moves off.
+/// From rest they are at the robot before it is at rest, however slowly it creeps or moves off; sooner than
+/// someone who was there before it came.
 TEST(ProtectiveField, BesideLegsThatWereSeenToComeItDoesNotEvenCreep) {
   const double body_m = ProtectiveFieldOptions{}.body_margin_m;
   for (const Presence presence : {Presence::legs, Presence::waiting}) {
@@ -157,6 +158,8 @@ TEST(ProtectiveField, BesideLegsThatWereSeenToComeItDoesNotEvenCreep) {
     const double share = presence == Presence::legs ? 1.0 : 0.0;
     EXPECT_EQ(disc_field().limit(beside, {}, {0.1, 0.0}).share, share);
     EXPECT_EQ(disc_field().limit(beside, {}, {-0.1, 0.0}).share, share);
+    const std::vector<FieldHit> near{hit(0.0, radius_m + body_m + 0.22, presence)};
+    EXPECT_EQ(disc_field().limit(near, {}, {0.1, 0.0}).share < 1.0, presence == Presence::waiting);
     const std::vector<FieldHit> farther{hit(0.0, radius_m + body_m + 0.25, presence)};
     EXPECT_EQ(disc_field().limit(farther, {}, {0.1, 0.0}).share, 1.0);
   }

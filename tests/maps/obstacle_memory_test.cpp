@@ -109,18 +109,18 @@ TEST(ObstacleMemory, WhatComesIntoSightOfAThingThatStandsHasNotCome) {
   }
 }
 
-/// A post that stands 3 m ahead; in so many of twenty scans `spoil` changes what is seen of it. Nobody has
+/// A post that stands ahead; in so many of twenty scans `spoil` changes what is seen of it. Nobody has
 /// come there. Eight scans are longer than two looks back take, three are shorter.
 template <typename Spoil>
-void expect_not_come(double radius_m, int spoilt_scans, const Spoil& spoil) {
+void expect_not_come(double radius_m, int spoilt_scans, const Spoil& spoil, double range_m = 3.0) {
   Random random(7);
-  const Disc post{{3.0, 0.0}, radius_m};
+  const Disc post{{range_m, 0.0}, radius_m};
   ObstacleMemory memory;
   for (int scans = 0; scans < 100; ++scans) {
     DeskewedScan scan = scan_of({post}, 0.1 * scans, random);
     if (scans % 20 >= 4 && scans % 20 < 4 + spoilt_scans) spoil(scan);
     memory.add(scan);
-    EXPECT_FALSE(memory.has_come({3.0 - radius_m, 0.0})) << scans;
+    EXPECT_FALSE(memory.has_come({range_m - radius_m, 0.0})) << scans;
   }
 }
 
@@ -139,6 +139,17 @@ TEST(ObstacleMemory, APostWhoseBeamsAreAllMixedPixelsForALookHasNotCome) {
     for (Ray& ray : scan.rays)
       if (ray.echo == Echo::hit) ray.end_m *= 1.3;
   });
+}
+
+/// Farther away fewer beams meet it, and all of them fall beside it for longer.
+TEST(ObstacleMemory, APostSixMetresAwayThatIsMissedForThreeLooksHasNotCome) {
+  constexpr double range_m = 6.0;
+  const auto look_past = [](DeskewedScan& scan) {
+    for (Ray& ray : scan.rays)
+      if (ray.echo == Echo::hit)
+        ray = {ray.stamp, ray.origin_m, testing::max_range_m * ray.end_m.normalized(), Echo::nothing};
+  };
+  expect_not_come(0.05, 8, look_past, range_m);
 }
 
 /// Hit in one or another of the four by the noise of the range, it never stood, and held the robot for good.

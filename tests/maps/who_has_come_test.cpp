@@ -93,5 +93,51 @@ TEST(WhoHasCome, HasLegsAlsoWhereOneHidesAPartOfTheOther) {
   }
 }
 
+/// A disc of 25 cm that comes from the side at 1 m/s, and stands there after four seconds.
+class Stander {
+ public:
+  Stander(unsigned seed, double range_m) : random_(seed), range_m_(range_m) {}
+
+  void look_until(double end_s) {
+    for (; at_s_ < end_s; at_s_ += scan_s) {
+      const ScanDisc disc{{range_m_, std::min(at_s_, 4.0) - 4.0}, 0.25};
+      memory_.add(scan_of({disc}, at_s_, random_));
+    }
+  }
+
+  [[nodiscard]] Vec2 hit_m() const { return {range_m_ - 0.25, 0.0}; }
+  [[nodiscard]] const ObstacleMemory& memory() const { return memory_; }
+
+ private:
+  Random random_;
+  ObstacleMemory memory_;
+  double range_m_;
+  double at_s_ = 0.0;
+};
+
+/// In a coat, in a wheelchair, or another robot: it may go. What stays was put there.
+TEST(WhoHasCome, MayGoForAMinuteThoughTheyShowNoLegs) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    Stander stander(seed, 2.0);
+    stander.look_until(20.0);
+    EXPECT_TRUE(stander.memory().may_go(stander.hit_m())) << seed;
+    stander.look_until(60.0);
+    EXPECT_TRUE(stander.memory().may_go(stander.hit_m())) << seed;
+    EXPECT_FALSE(stander.memory().standing_people_m(Stamp(from_seconds(60.0))).empty()) << seed;
+    stander.look_until(70.0);
+    EXPECT_FALSE(stander.memory().may_go(stander.hit_m())) << seed;
+    EXPECT_TRUE(stander.memory().standing_people_m(Stamp(from_seconds(70.0))).empty()) << seed;
+  }
+}
+
+/// A robot that drives at 0.6 m/s is with them ten seconds later.
+TEST(WhoHasCome, IsKnownFromSixMetresAway) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    Stander stander(seed, 6.5);
+    stander.look_until(20.0);
+    EXPECT_TRUE(stander.memory().has_come(stander.hit_m())) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -64,6 +64,23 @@ TEST_F(SurroundingsTest, plans_around_a_chair_for_the_body_on_its_legs) {
   for (const Vec2& point_m : around_m) EXPECT_LT((point_m - chair.position_m).norm(), 0.6);
 }
 
+/// Who has come without legs that can be seen may go for a minute; what stays is a thing, and passed closely.
+TEST_F(SurroundingsTest, keeps_clear_of_what_has_come_for_a_minute) {
+  const auto farthest_m = [&](const DiscState& disc) {
+    double farthest = 0.0;
+    for (const Vec2& point_m : unmapped_m())
+      farthest = std::max(farthest, (point_m - disc.position_m).norm() - disc.radius_m);
+    return farthest;
+  };
+  stand(5.0, {});
+  const DiscState visitor{.radius_m = 0.25, .position_m = {3.0, 4.2}};
+  stand(30.0, {visitor});
+  EXPECT_GT(farthest_m(visitor), 0.2);
+  stand(45.0, {visitor});
+  EXPECT_GT(farthest_m(visitor), 0.0);
+  EXPECT_LT(farthest_m(visitor), 0.1);
+}
+
 /// Mission 80042 stood for two minutes before a doorway whose posts it took for someone's legs.
 TEST_F(SurroundingsTest, takes_no_posts_of_the_map_for_legs) {
   stand(15.0, {});
