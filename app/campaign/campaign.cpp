@@ -180,6 +180,12 @@ MissionOutcome outcome_of(std::uint64_t number, const RunRecord& record, const S
   return outcome;
 }
 
+std::string MissionOutcome::what_happened() const {
+  if (is_excused()) return "excused contact, " + excuse;
+  if (!hit_something()) return "silently wrong";
+  return people && people->moving > 0 ? "contact with people or things that the map lacks" : "contact";
+}
+
 nlohmann::ordered_json as_json(const MissionOutcome& outcome) {
   const auto optional = [](const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);

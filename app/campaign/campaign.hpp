@@ -51,6 +51,8 @@ struct MissionOutcome {
   [[nodiscard]] bool is_excused() const { return contacts > 0 && !hit_something(); }
   [[nodiscard]] bool silently_wrong() const { return arrived && error_m > silently_wrong_m; }
   [[nodiscard]] bool has_failed() const { return hit_something() || silently_wrong(); }
+  /// What went wrong, or was excused, in words.
+  [[nodiscard]] std::string what_happened() const;
 };
 
 nlohmann::ordered_json as_json(const MissionOutcome& outcome);

@@ -171,14 +171,13 @@ std::string campaign_html(const std::vector<MissionOutcome>& outcomes) {
     html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(reason), count);
   html += "</table>\n";
   std::string rows;
-  const auto append_row = [&](const MissionOutcome& outcome, const std::string& what) {
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td><code>{}</code></td></tr>\n", escaped(what),
-                        fmt::join(outcome.faults, ", "), repeat_command(outcome));
+  const auto append_row = [&](const MissionOutcome& outcome) {
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td><code>{}</code></td></tr>\n",
+                        escaped(outcome.what_happened()), fmt::join(outcome.faults, ", "),
+                        repeat_command(outcome));
   };
-  for (const MissionOutcome& outcome : those_that(&MissionOutcome::has_failed, outcomes))
-    append_row(outcome, outcome.hit_something() ? "contact" : "silently wrong");
-  for (const MissionOutcome& outcome : those_that(&MissionOutcome::is_excused, outcomes))
-    append_row(outcome, "excused: " + outcome.excuse);
+  for (const MissionOutcome& outcome : those_that(&MissionOutcome::has_failed, outcomes)) append_row(outcome);
+  for (const MissionOutcome& outcome : those_that(&MissionOutcome::is_excused, outcomes)) append_row(outcome);
   if (rows.empty()) return page_html("Lodestar: fault campaign", html);
   html += "<h2>Failures</h2>\n<table><tr><th>What</th><th>Faults</th><th>Repeat with</th></tr>\n";
   return page_html("Lodestar: fault campaign", html + rows + "</table>\n");

@@ -34,10 +34,8 @@ struct CampaignArguments {
 void print_failure(const MissionOutcome& outcome) {
   std::string faults;
   for (const std::string& fault : outcome.faults) faults += (faults.empty() ? "" : ", ") + fault;
-  const std::string what = outcome.is_excused()      ? "excused contact, " + outcome.excuse
-                           : outcome.hit_something() ? "contact"
-                                                     : "silently wrong";
-  fmt::print("{}: {} ({}); repeat with: {}\n", outcome.mission, what, faults, repeat_command(outcome));
+  fmt::print("{}: {} ({}); repeat with: {}\n", outcome.mission, outcome.what_happened(),
+             faults.empty() ? "no fault" : faults, repeat_command(outcome));
 }
 
 ExitCode verdict(const std::vector<MissionOutcome>& outcomes) {
