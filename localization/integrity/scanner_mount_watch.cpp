@@ -17,6 +17,7 @@ double cells_to_wall(const ObstacleField& field, Cell cell, double most) {
   const OccupancyMap& map = field.map();
   if (!map.contains(cell)) return most;
   const double least = field.distance_cells(map.index(cell));
+  if (least >= most) return most;
   double nearest = most;
   const auto ask = [&](int aside, int up) {
     if (is_wall(map, {cell.column + aside, cell.row + up}))
