@@ -12,8 +12,7 @@ bool is_occupied_within(const OccupancyMap& map, const Vec2& point_in_grid, doub
   const Cell high = cell_at(point_in_grid.array() + cells);
   for (int row = std::max(low.row, 0); row <= std::min(high.row, map.rows - 1); ++row) {
     for (int column = std::max(low.column, 0); column <= std::min(high.column, map.columns - 1); ++column) {
-      const std::int8_t value = map.at({column, row});
-      if (value == OccupancyMap::unknown || is_drivable(value)) continue;
+      if (!is_wall(map.at({column, row}))) continue;
       const Vec2 nearest = point_in_grid.cwiseMax(Vec2(column, row)).cwiseMin(Vec2(column + 1, row + 1));
       if ((nearest - point_in_grid).norm() <= cells) return true;
     }

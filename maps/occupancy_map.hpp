@@ -59,4 +59,9 @@ constexpr bool is_drivable(std::int8_t value) {
   return value >= 0 && value < 50;
 }
 
+/// Whether beams end at a cell of this value, as far as the map knows.
+constexpr bool is_wall(std::int8_t value) {
+  return value >= 0 && !is_drivable(value);
+}
+
 }  // namespace lodestar

@@ -44,8 +44,7 @@ double wall_passed_m(const OccupancyMap& map, const Vec2& from_in_map, double he
   double passed_m = 0.0;
   walk_grid((grid_from_map * from_in_map) / map.resolution_m, (grid_from_map * to_in_map) / map.resolution_m,
             [&](Cell cell, double enters, double leaves) {
-              const bool is_wall = map.contains(cell) && map.at(cell) >= 0 && !is_drivable(map.at(cell));
-              if (is_wall) passed_m += (leaves - enters) * way_m;
+              if (map.contains(cell) && is_wall(map.at(cell))) passed_m += (leaves - enters) * way_m;
               return true;
             });
   return passed_m;

@@ -7,10 +7,6 @@
 namespace lodestar {
 namespace {
 
-bool is_wall(const OccupancyMap& map, Cell cell) {
-  return map.contains(cell) && map.at(cell) != OccupancyMap::unknown && !is_drivable(map.at(cell));
-}
-
 /// From the middle of a cell to that of the nearest wall, in cells, at most `most`. To the field what is
 /// unknown, and the end of the map, are obstacles; no beam ends there.
 double cells_to_wall(const ObstacleField& field, Cell cell, double most) {
@@ -20,7 +16,8 @@ double cells_to_wall(const ObstacleField& field, Cell cell, double most) {
   if (least >= most) return most;
   double nearest = most;
   const auto ask = [&](int aside, int up) {
-    if (is_wall(map, {cell.column + aside, cell.row + up}))
+    const Cell beside{cell.column + aside, cell.row + up};
+    if (map.contains(beside) && is_wall(map.at(beside)))
       nearest = std::min(nearest, std::hypot(static_cast<double>(aside), static_cast<double>(up)));
   };
   // In growing squares, none of whose sides is nearer than `ring`.
