@@ -137,9 +137,18 @@ void ObstacleMemory::count_free(const DeskewedScan& scan) {
     if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m))
       ++seen.times_free;
   }
+  remember_look(scan, std::move(fan));
+}
+
+/// A scanner that was blind does not know who came meanwhile: then what it saw before counts as just before.
+void ObstacleMemory::remember_look(const DeskewedScan& scan, RayFan fan) {
+  const auto lost = std::ranges::count(scan.rays, Echo::invalid, &Ray::echo);
+  if (2 * static_cast<std::size_t>(lost) > scan.rays.size()) return;
+  if (last_look_) seeing_ += std::min(scan.newest - *last_look_, options_.longest_unseen);
+  last_look_ = scan.newest;
   if (looks_.empty() || scan.newest - looks_.back().stamp >= options_.between_looks_back)
-    looks_.push_back({scan.newest, scan.rays.back().origin_m, std::move(fan)});
-  while (scan.newest - looks_.front().stamp > options_.just_before) looks_.pop_front();
+    looks_.push_back({scan.newest, seeing_, scan.rays.back().origin_m, std::move(fan)});
+  while (seeing_ - looks_.front().seeing > options_.just_before) looks_.pop_front();
 }
 
 bool ObstacleMemory::was_seen_free(Place place, Stamp before) const {

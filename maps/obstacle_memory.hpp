@@ -129,6 +129,7 @@ class ObstacleMemory {
   /// A scan of a while ago.
   struct Look {
     Stamp stamp;
+    Duration seeing{};  ///< seeing_ then
     Vec2 from_m;
     RayFan fan;
   };
@@ -151,6 +152,7 @@ class ObstacleMemory {
   void note_hits_beside(Stamp now);
   [[nodiscard]] bool is_broken_off(const Seen& seen, Stamp now) const;
   void count_free(const DeskewedScan& scan);
+  void remember_look(const DeskewedScan& scan, RayFan fan);
   void forget(Stamp now, const Place& middle);
 
   ObstacleMemoryOptions options_;
@@ -158,6 +160,8 @@ class ObstacleMemory {
   std::vector<Seen> seen_;
   std::vector<std::int32_t> index_;  ///< of a place, wrapped around, in seen_; none where negative
   std::deque<Look> looks_;
+  std::optional<Stamp> last_look_;
+  Duration seeing_{};  ///< for how long so far: not while the scanner was silent or most beams were lost
 };
 
 }  // namespace lodestar

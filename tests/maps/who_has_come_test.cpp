@@ -93,6 +93,24 @@ TEST(WhoHasCome, HasLegsAlsoWhereOneHidesAPartOfTheOther) {
   }
 }
 
+/// They came while most beams were lost, or while the scanner was silent.
+TEST(WhoHasCome, IsKnownAfterTheScannerWasBlind) {
+  for (const bool is_silent : {false, true}) {
+    Random random(3);
+    ObstacleMemory memory;
+    for (int scans = 0; scans < 200; ++scans) {
+      const bool is_blind = scans >= 30 && scans < 100;
+      if (is_blind && is_silent) continue;
+      const std::vector<ScanDisc> someone{{{0.8, 0.0}, 0.1}};
+      DeskewedScan scan = scan_of(scans < 60 ? std::vector<ScanDisc>() : someone, scan_s * scans, random);
+      for (Ray& ray : scan.rays)
+        if (is_blind && random.uniform() < 0.9) ray.echo = Echo::invalid;
+      memory.add(scan);
+    }
+    EXPECT_TRUE(memory.may_go({0.7, 0.0})) << is_silent;
+  }
+}
+
 /// A disc of 25 cm that comes from the side at 1 m/s, and stands there after four seconds.
 class Stander {
  public:
