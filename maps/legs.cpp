@@ -98,7 +98,8 @@ RaysAtLegs rays_at_legs(const DeskewedScan& scan, const LegOptions& options) {
   const std::vector<Thing> things = near_things(scan, options);
   const auto is_thin = [&](const Thing& thing) { return thing.width_m <= options.widest_leg_m; };
   const auto is_alone = [&](const Thing& thing, const Room& room) {
-    return is_free(thing, Side::before, room, scan) && is_free(thing, Side::after, room, scan);
+    return is_thin(thing) && is_free(thing, Side::before, room, scan) &&
+           is_free(thing, Side::after, room, scan);
   };
   const auto is_pair = [&](const Thing& a, const Thing& b) {
     return is_thin(a) && is_thin(b) && (a.middle_m - b.middle_m).norm() <= options.farthest_pair_m &&
@@ -114,10 +115,8 @@ RaysAtLegs rays_at_legs(const DeskewedScan& scan, const LegOptions& options) {
     if (is_likely) result.likely.insert(result.likely.end(), thing.rays.begin(), thing.rays.end());
   };
   for (std::size_t i = 0; i < things.size(); ++i) {
-    const bool is_likely =
-        is_thin(things[i]) && is_alone(things[i], {options.alone_before_m, options.sliver_m});
-    if (is_likely ||
-        (is_thin(things[i]) && is_alone(things[i], {.behind_m = options.perhaps_alone_before_m})))
+    const bool is_likely = is_alone(things[i], {options.alone_before_m, options.sliver_m});
+    if (is_likely || is_alone(things[i], {.behind_m = options.perhaps_alone_before_m}))
       append(things[i], is_likely);
     for (const std::size_t after : {1U, 2U}) {  // between them a piece of the wall behind may be seen
       const Thing& other = things[(i + after) % things.size()];

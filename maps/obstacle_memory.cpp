@@ -112,20 +112,19 @@ void ObstacleMemory::note_hits_beside(Stamp now) {
 
 /// What has come is someone if it can be: only what was always there may be a heap of things.
 void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
-  const auto mark = [&](std::size_t i, const auto& may_be_leg) {
-    const Ray& ray = scan.rays[i];
+  const auto mark = [&](const Ray& ray) {
     const Place place = place_of(ray.end_m);
     const std::int32_t index = index_[wrapped(place.column, place.row)];
-    if (index >= 0 && may_be_leg(ray, place)) seen_[static_cast<std::size_t>(index)].leg_at = ray.stamp;
+    if (index >= 0) seen_[static_cast<std::size_t>(index)].leg_at = ray.stamp;
   };
   const RaysAtLegs legs = rays_at_legs(scan);
-  for (const std::size_t i : legs.likely)
-    mark(i, [&](const Ray& ray, Place place) {
-      const bool is_near = (ray.end_m - ray.origin_m).norm() < options_.becomes_leg_from_m;
-      return !is_near || !is_part_of_a_thing(place);
-    });
+  for (const std::size_t i : legs.likely) {
+    const Ray& ray = scan.rays[i];
+    const bool is_near = (ray.end_m - ray.origin_m).norm() < options_.becomes_leg_from_m;
+    if (!is_near || !is_part_of_a_thing(place_of(ray.end_m))) mark(ray);
+  }
   for (const std::size_t i : legs.possible)
-    mark(i, [&](const Ray& ray, Place) { return has_come(ray.end_m); });
+    if (has_come(scan.rays[i].end_m)) mark(scan.rays[i]);
 }
 
 /// What is hit in the same scan is not free, however many rays pass beside it: a leg is thinner than a cell.
