@@ -31,6 +31,19 @@ OccupancyMap overlaid(const OccupancyMap& map, std::span<const Vec2> occupied_in
   return result;
 }
 
+OccupancyMap split(const OccupancyMap& map, int parts) {
+  OccupancyMap result{.columns = map.columns * parts,
+                      .rows = map.rows * parts,
+                      .resolution_m = map.resolution_m / parts,
+                      .map_from_grid = map.map_from_grid,
+                      .cells = {}};
+  result.cells.reserve(map.cells.size() * static_cast<std::size_t>(parts) * static_cast<std::size_t>(parts));
+  for (int row = 0; row < result.rows; ++row)
+    for (int column = 0; column < result.columns; ++column)
+      result.cells.push_back(map.at({column / parts, row / parts}));
+  return result;
+}
+
 MapExplanation::MapExplanation(const ObstacleField& field, const Eigen::Matrix3d& covariance,
                                const MapExplanationOptions& options)
     : field_(&field),

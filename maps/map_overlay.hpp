@@ -13,6 +13,9 @@ namespace lodestar {
 /// passed over.
 OccupancyMap overlaid(const OccupancyMap& map, std::span<const Vec2> occupied_in_map);
 
+/// The same map with each cell split into parts by parts of its value.
+OccupancyMap split(const OccupancyMap& map, int parts);
+
 struct MapExplanationOptions {
   double range_sigma_m = 0.015;  ///< of cheap scanners: RPLIDAR A1, LD19 data sheets, 1 to 3 cm
   double sigmas = 3.0;

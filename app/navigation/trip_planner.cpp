@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "maps/map_overlay.hpp"
@@ -132,7 +133,18 @@ void TripPlanner::plan_around(std::span<const Vec2> blind_m) {
 
 PlanningContext TripPlanner::context_around(std::span<const Vec2> obstacles_m) const {
   if (obstacles_m.empty()) return context_on(map_);
-  return context_on(std::make_shared<const ObstacleField>(overlaid(map_->map(), obstacles_m)));
+  const OccupancyMap map = split(map_->map(), parts_of_a_cell());
+  return context_on(std::make_shared<const ObstacleField>(overlaid(map, obstacles_m)));
+}
+
+/// A side of a cell of the map, where obstacles are planned around.
+int TripPlanner::parts_of_a_cell() const {
+  constexpr double rounding = 1e-6;
+  const OccupancyMap& map = map_->map();
+  const double parts = std::ceil(map.resolution_m / options_.obstacle_cell_m - rounding);
+  const double most =
+      std::sqrt(static_cast<double>(options_.most_obstacle_cells) / static_cast<double>(map.cells.size()));
+  return std::max(1, static_cast<int>(std::min(parts, most)));
 }
 
 /// What `plan` finds with room around the obstacles; close to them, where that is a long detour or none; else
