@@ -320,5 +320,16 @@ TEST(Overlaid, MarksTheCellsAndPassesOverWhatIsBeside) {
   EXPECT_EQ(std::ranges::count(map.cells, OccupancyMap::occupied), 81);
 }
 
+TEST(Split, HasTheSameValueEverywhereOnSmallerCells) {
+  OccupancyMap map = one_wall();
+  map.map_from_grid = {{1.0, -2.0}, 0.3};
+  const OccupancyMap finer = split(map, 3);
+  EXPECT_EQ(finer.cells.size(), 9 * map.cells.size());
+  for (double x_m = 0.01; x_m < 4.0; x_m += 0.013) {
+    const Vec2 point_m = map.map_from_grid * Vec2(x_m, 0.5 * x_m);
+    EXPECT_EQ(finer.at(finer.cell_at(point_m)), map.at(map.cell_at(point_m))) << x_m;
+  }
+}
+
 }  // namespace
 }  // namespace lodestar
