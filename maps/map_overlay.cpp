@@ -22,16 +22,16 @@ bool is_occupied_within(const OccupancyMap& map, const Vec2& point_in_grid, doub
 
 }  // namespace
 
-OccupancyMap overlaid(const OccupancyMap& map, std::span<const Vec2> occupied_in_map) {
-  OccupancyMap result = map;
+OccupancyMap overlaid(OccupancyMap map, std::span<const Vec2> occupied_in_map) {
   for (const Vec2& point_in_map : occupied_in_map) {
     const Cell cell = map.cell_at(point_in_map);
-    if (map.contains(cell)) result.cells[map.index(cell)] = OccupancyMap::occupied;
+    if (map.contains(cell)) map.cells[map.index(cell)] = OccupancyMap::occupied;
   }
-  return result;
+  return map;
 }
 
 OccupancyMap split(const OccupancyMap& map, int parts) {
+  if (parts == 1) return map;
   OccupancyMap result{.columns = map.columns * parts,
                       .rows = map.rows * parts,
                       .resolution_m = map.resolution_m / parts,

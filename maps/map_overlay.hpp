@@ -11,7 +11,7 @@ namespace lodestar {
 
 /// The map with the cells occupied that hold one of these points of the map frame; points beside the map are
 /// passed over.
-OccupancyMap overlaid(const OccupancyMap& map, std::span<const Vec2> occupied_in_map);
+OccupancyMap overlaid(OccupancyMap map, std::span<const Vec2> occupied_in_map);
 
 /// The same map with each cell split into parts by parts of its value.
 OccupancyMap split(const OccupancyMap& map, int parts);

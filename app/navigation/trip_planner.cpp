@@ -133,8 +133,8 @@ void TripPlanner::plan_around(std::span<const Vec2> blind_m) {
 
 PlanningContext TripPlanner::context_around(std::span<const Vec2> obstacles_m) const {
   if (obstacles_m.empty()) return context_on(map_);
-  const OccupancyMap map = split(map_->map(), parts_of_a_cell());
-  return context_on(std::make_shared<const ObstacleField>(overlaid(map, obstacles_m)));
+  OccupancyMap map = overlaid(split(map_->map(), parts_of_a_cell()), obstacles_m);
+  return context_on(std::make_shared<const ObstacleField>(std::move(map)));
 }
 
 /// A side of a cell of the map, where obstacles are planned around.

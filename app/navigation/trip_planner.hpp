@@ -20,8 +20,8 @@ struct TripPlannerOptions {
   /// What the map lacks is planned around on cells no larger than this: rounded to cells of 5 cm it closes
   /// gaps in which the robot has room.
   double obstacle_cell_m = 0.025;
-  /// But on the map's own where there would be more than so many: they are prepared anew for each such plan,
-  /// a million in some 20 ms (lodestar bench plan --generated offices-5cm).
+  /// But never on more than so many, or the map's own: they are prepared anew for each such plan, a million
+  /// in some 20 ms (lodestar bench plan --generated offices-5cm).
   std::size_t most_obstacle_cells = 1'000'000;
 };
 

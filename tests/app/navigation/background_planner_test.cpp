@@ -239,7 +239,7 @@ TEST(BackgroundPlanner, leads_close_past_obstacles_before_a_long_detour) {
   EXPECT_FALSE(keeps_off(path_around(planner, {.roomy_m = far, .tight_m = fence_m(5.2, 6.0)}), far));
 }
 
-/// 2 cm and a half more than the robot needs; rounded to the map's cells, 2 cm less.
+/// 3 cm more than the robot needs; rounded to the map's cells, 2 cm less.
 TEST(BackgroundPlanner, leads_through_gaps_that_end_within_cells) {
   BackgroundPlanner planner(testing::walled_room(10.0, 7.5), planner_options(), {});
   std::vector<Vec2> narrow = fence_m(5.2, 5.8);
