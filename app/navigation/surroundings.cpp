@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "app/navigation/scanner_stops.hpp"
 #include "localization/scan/smoothed_ends.hpp"
 #include "localization/scan/veil.hpp"
 
@@ -16,44 +17,6 @@ namespace {
 /// Below this a robot that is slowed by the field counts as standing.
 constexpr double standing_mps = 0.02;
 constexpr double standing_radps = 0.02;
-
-StopReason stop_for(ScannerFault fault) {
-  switch (fault) {
-    case ScannerFault::silent:
-      return StopReason::scanner_silent;
-    case ScannerFault::other_clock:
-      return StopReason::scanner_clock;
-    case ScannerFault::late:
-      return StopReason::scanner_late;
-    case ScannerFault::frozen:
-      return StopReason::scanner_repeats;
-    case ScannerFault::checksums:
-      return StopReason::scanner_damaged;
-    case ScannerFault::motor:
-      return StopReason::scanner_motor;
-    case ScannerFault::dirty:
-      return StopReason::scanner_dirty;
-    case ScannerFault::beams_lost:
-      return StopReason::scanner_blind;
-    case ScannerFault::turned:
-      return StopReason::scanner_turned;
-  }
-  return StopReason::scanner_silent;
-}
-
-StopReason stop_for(FieldReason reason) {
-  switch (reason) {
-    case FieldReason::person_near:
-      return StopReason::person_near;
-    case FieldReason::obstacle_ahead:
-      return StopReason::obstacle_ahead;
-    case FieldReason::hidden_corner:
-      return StopReason::hidden_corner;
-    case FieldReason::no_scan:
-      break;
-  }
-  return StopReason::scanner_silent;
-}
 
 std::array<Vec2, 12> ring(const Vec2& middle_m, double radius_m) {
   std::array<Vec2, 12> points_m;
