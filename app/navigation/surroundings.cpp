@@ -1,7 +1,6 @@
 #include "app/navigation/surroundings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
@@ -18,10 +17,13 @@ namespace {
 constexpr double standing_mps = 0.02;
 constexpr double standing_radps = 0.02;
 
-std::array<Vec2, 12> ring(const Vec2& middle_m, double radius_m) {
-  std::array<Vec2, 12> points_m;
+/// So close that no robot fits between two.
+std::vector<Vec2> ring(const Vec2& middle_m, double radius_m) {
+  constexpr double most_between_m = 0.15;
+  const double count = std::max(12.0, std::ceil(2.0 * std::numbers::pi * radius_m / most_between_m));
+  std::vector<Vec2> points_m(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < points_m.size(); ++i) {
-    const double turn_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / points_m.size();
+    const double turn_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / count;
     points_m[i] = middle_m + radius_m * Vec2(std::cos(turn_rad), std::sin(turn_rad));
   }
   return points_m;
@@ -57,6 +59,7 @@ Surroundings::Surroundings(const SurroundingsOptions& options)
       watch_(options.watch),
       contradiction_(options.contradiction),
       memory_(memory_around(options)),
+      lingering_(options.lingering),
       release_(options.release),
       holding_(options.holding) {
   if (!options.depth) return;
@@ -98,6 +101,7 @@ bool Surroundings::take(const Scan& scan, const MappedPose& mapped) {
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
   field_scan_ =
       FieldScan{.newest = placed->newest, .points = presences(*placed, memory_, map_from_odom, mapped)};
+  lingering_.add(field_scan_->points, placed->newest);
   append(corners_of(*placed, map_from_odom, mapped), field_scan_->points);
   scanned_points_ = field_scan_->points.size();
   if (above_) append(above_->points, field_scan_->points);
@@ -286,6 +290,15 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped,
     for (const Vec2& someone_in_odom : memory->standing_people_m(now)) {
       const Vec2 someone_in_map = *map_from_odom * someone_in_odom;
       if (!is_mapped(someone_in_map)) append_around(someone_in_map, room.legs_m);  // door posts are nobody
+    }
+  }
+  if (room.lingering_m > 0.0) {
+    for (const Vec2& someone_in_odom : lingering_.hits_m(now)) {
+      const Vec2 someone_in_map = *map_from_odom * someone_in_odom;
+      if (is_mapped(someone_in_map)) continue;
+      points_m.push_back(someone_in_map);
+      const double most_m = (someone_in_map - robot_m).norm() - beside_m - options_.leaves_m;
+      if (most_m > 0.0) append_around(someone_in_map, std::min(room.lingering_m, most_m));
     }
   }
   for (const Vec2& point_in_odom : holding_.points_m(now)) points_m.push_back(*map_from_odom * point_in_odom);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/navigation/holding_points.hpp"
+#include "app/navigation/lingering_people.hpp"
 #include "app/navigation/seen_surroundings.hpp"
 #include "app/navigation/unmapped_obstacles.hpp"
 #include "control/field_release.hpp"
@@ -34,7 +35,8 @@ struct DepthSourceOptions {
 /// How far paths keep from what is not on the map, beyond what was hit.
 struct RoomAround {
   double things_m = 0.0;
-  double legs_m = 0.0;  ///< the body that they carry
+  double legs_m = 0.0;       ///< the body that they carry
+  double lingering_m = 0.0;  ///< people who walk, for the field; where it is 0, paths lead up to them
 };
 
 /// What a robot with a scanner is, and how it minds what the scanner sees.
@@ -53,11 +55,13 @@ struct SurroundingsOptions {
   /// A path is looked at no more often than this for what stands in its way.
   Duration between_detours = std::chrono::seconds(1);
   /// More than the field needs: what is behind the side that was seen is not known, and cells of 5 cm round
-  /// it off.
-  RoomAround roomy{.things_m = 0.04, .legs_m = 0.28};
+  /// it off. Before who lingers it stops the robot at 1.05 m, also in a turn.
+  RoomAround roomy{.things_m = 0.04, .legs_m = 0.28, .lingering_m = 1.3};
   /// Where there is no way with so much room: as much as the field lets pass
   /// (ProtectiveFieldOptions::body_m).
-  RoomAround tight{.things_m = 0.0, .legs_m = 0.20};
+  RoomAround tight{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 0.0};
+  LingeringPeopleOptions lingering;
+  double leaves_m = 0.2;  ///< beside the robot, so that a path need not begin with a step back from someone
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
   double begins_beside_m = 0.06;
   /// What stands so near to a path's disc is in its way, unless the path leads away from it: what a path
@@ -139,6 +143,7 @@ class Surroundings {
   ScannerWatch watch_;
   MapContradiction contradiction_;
   ObstacleMemory memory_;
+  LingeringPeople lingering_;
   /// What is above the scan plane, which a scanner's beams pass below and must not clear.
   struct Above {
     HeightSlab slab;

@@ -165,7 +165,8 @@ TEST(Scenario, says_where_its_file_is_wrong) {
 
 TEST(Scenario, reads_the_examples) {
   const ScratchFolder scratch;
-  for (const char* name : {"crossing-people", "static-clutter", "heaps-of-posts", "corridor"}) {
+  for (const char* name :
+       {"crossing-people", "static-clutter", "heaps-of-posts", "people-who-stand-about", "corridor"}) {
     // So short a time shows that the files are read, and no more.
     std::string text = read_text(std::string(LODESTAR_SOURCE_DIR) + "/scenarios/" + name + ".yaml");
     const std::size_t at = text.find("time_limit_s: ");
@@ -177,6 +178,19 @@ TEST(Scenario, reads_the_examples) {
     EXPECT_EQ(ran.exit_code, 1) << name << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("time limit")) << name;
   }
+}
+
+/// A robot that drives up to people who sway may not even turn there.
+TEST(Scenario, drives_around_people_who_stand_and_sway) {
+  const ScratchFolder scratch;
+  const std::string file = LODESTAR_SOURCE_DIR "/scenarios/people-who-stand-about.yaml";
+  const Ran ran = run_lodestar("scenario '" + file + "' --json --seeds 8", scratch.path());
+  int arrived = 0;
+  for (const auto& line : lines_of(ran)) {
+    EXPECT_EQ(line["contacts_moving"], 0) << line;
+    if (line["success"].get<bool>()) ++arrived;
+  }
+  EXPECT_GE(arrived, 6);
 }
 
 /// Of an example, with another seed each; all arrive.

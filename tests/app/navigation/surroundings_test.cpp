@@ -1,5 +1,7 @@
 #include "app/navigation/surroundings.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <memory>
 
@@ -79,6 +81,24 @@ TEST_F(SurroundingsTest, keeps_clear_of_what_has_come_for_a_minute) {
   stand(45.0, {visitor});
   EXPECT_GT(farthest_m(visitor), 0.0);
   EXPECT_LT(farthest_m(visitor), 0.1);
+}
+
+/// Nobody may move within a metre of who walks, and people who talk sway: a robot that drove up to them stood
+/// there for as long as they did. Where no other way leads, it waits for them all the same.
+TEST_F(SurroundingsTest, plans_far_around_someone_who_sways) {
+  const Vec2 place_m(3.0, 5.0);
+  for (int i = 0; i < 80; ++i) {
+    const Vec2 swayed_m = place_m + 0.06 * Vec2(std::sin(1.3 * i), std::cos(2.1 * i));
+    stand(0.5, {{.radius_m = 0.25, .position_m = swayed_m}});
+  }
+  const auto count_beyond_m = [&](const std::vector<Vec2>& points_m, double beyond_m) {
+    return std::ranges::count_if(points_m,
+                                 [&](const Vec2& point_m) { return (point_m - place_m).norm() > beyond_m; });
+  };
+  const UnmappedObstacles around = surroundings_.unmapped(now_, mapped());
+  EXPECT_GT(count_beyond_m(around.roomy_m, 1.2), 10);
+  EXPECT_EQ(count_beyond_m(around.tight_m, 0.6), 0);
+  for (const Vec2& point_m : around.roomy_m) EXPECT_GT((point_m - robot_.position_m).norm(), 0.5);
 }
 
 /// Mission 80042 stood for two minutes before a doorway whose posts it took for someone's legs.
