@@ -13,9 +13,9 @@ struct LingeringPeopleOptions {
   double joins_m = 0.15;         ///< neighbouring hits within this of each other are one piece
   double widest_m = 0.9;         ///< a piece of someone, with a coat and both legs
   double stays_within_m = 0.25;  ///< of its place, by the middle of what is hit: nobody stands still
-  Duration follows_in =
-      std::chrono::seconds(10);  ///< the place follows as the robot sees other sides of them
-  /// Of the scans lately, part of it moved in so many: edges of posts come and go in a few only.
+  /// The place follows, as the robot sees other sides of them.
+  Duration follows_in = std::chrono::seconds(10);
+  /// A part of it has moved in so many of the scans lately: the edges of posts come and go in a few only.
   double walking_share = 0.2;
   Duration lately = std::chrono::seconds(3);
   Duration longest_unseen = std::chrono::milliseconds(1500);

@@ -36,7 +36,7 @@ struct DepthSourceOptions {
 struct RoomAround {
   double things_m = 0.0;
   double legs_m = 0.0;       ///< the body that they carry
-  double lingering_m = 0.0;  ///< people who walk, for the field; where it is 0, paths lead up to them
+  double lingering_m = 0.0;  ///< people who linger; paths lead up to them where it is 0
 };
 
 /// What a robot with a scanner is, and how it minds what the scanner sees.
