@@ -1,7 +1,6 @@
 #include "planning/jump_search.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace lodestar {
@@ -74,10 +73,9 @@ JumpSearch<Jumps>::JumpSearch(const Jumps& jumps)
   if (!has_all) indices_.resize(nodes_.size());
 }
 
-/// In the hash table, nodes of earlier searches count as free.
+/// Nodes of earlier searches count as free.
 template <typename Jumps>
-typename JumpSearch<Jumps>::Node& JumpSearch<Jumps>::node_of(std::uint32_t index) {
-  if (indices_.empty()) return nodes_[index];
+typename JumpSearch<Jumps>::Node& JumpSearch<Jumps>::node_in_table(std::uint32_t index) {
   std::size_t at = spread(index, nodes_.size());
   while (nodes_[at].visit >= visit_ && indices_[at] != index) at = (at + 1) & (nodes_.size() - 1);
   if (nodes_[at].visit < visit_) {
@@ -87,20 +85,16 @@ typename JumpSearch<Jumps>::Node& JumpSearch<Jumps>::node_of(std::uint32_t index
   return nodes_[at];
 }
 
-/// The same; its length is beyond any when the present search has not reached it.
 template <typename Jumps>
-typename JumpSearch<Jumps>::Node& JumpSearch<Jumps>::node_to_reach(std::uint32_t index) {
-  if (node_of(index).visit < visit_) {
-    make_room();
-    node_of(index) = {.length = std::numeric_limits<StepLength>::max(), .visit = visit_};
-  }
-  return node_of(index);
+typename JumpSearch<Jumps>::Node& JumpSearch<Jumps>::add_to_table(std::uint32_t index) {
+  make_room();
+  return node_in_table(index) = {.length = std::numeric_limits<StepLength>::max(), .visit = visit_};
 }
 
-/// Doubles a hash table that becomes half full with one node more.
+/// Doubles the hash table when it becomes half full with one node more.
 template <typename Jumps>
 void JumpSearch<Jumps>::make_room() {
-  if (indices_.empty() || 2 * ++reached_ <= nodes_.size()) return;
+  if (2 * ++reached_ <= nodes_.size()) return;
   const std::vector<Node> nodes = std::move(nodes_);
   const std::vector<std::uint32_t> indices = std::move(indices_);
   nodes_.assign(2 * nodes.size(), Node{});

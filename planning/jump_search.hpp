@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,9 +45,19 @@ class JumpSearch {
     return static_cast<std::uint32_t>(cell.row) * static_cast<std::uint32_t>(jumps_.columns()) +
            static_cast<std::uint32_t>(cell.column);
   }
-  /// The cell's node; one that no search has reached when the present search has not.
-  Node& node_of(std::uint32_t index);
-  Node& node_to_reach(std::uint32_t index);
+  /// The cell's node; one that no search has reached when the present search has not. Called for every cell
+  /// that a jump leads to: what a small map needs is inlined there.
+  Node& node_of(std::uint32_t index) { return indices_.empty() ? nodes_[index] : node_in_table(index); }
+  /// The same; its length is beyond any when the present search has not reached it.
+  Node& node_to_reach(std::uint32_t index) {
+    Node& node = node_of(index);
+    if (node.visit >= visit_) return node;
+    if (!indices_.empty()) return add_to_table(index);
+    node.length = std::numeric_limits<StepLength>::max();
+    return node;
+  }
+  Node& node_in_table(std::uint32_t index);
+  Node& add_to_table(std::uint32_t index);
   void make_room();
   [[nodiscard]] Cell cell_at(std::uint32_t index) const {
     const auto columns = static_cast<std::uint32_t>(jumps_.columns());
