@@ -7,6 +7,7 @@
 namespace lodestar {
 
 double wrap_angle(double angle_rad) {
+  if (std::abs(angle_rad) < std::numbers::pi) return angle_rad;  // as nearly all are
   const double wrapped = std::remainder(angle_rad, 2.0 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
 }

@@ -94,18 +94,19 @@ void Surroundings::add(std::span<const WheelTravel> travel, std::span<const Scan
 
 /// False while the wheel readings of the scan's time are missing.
 bool Surroundings::take(const Scan& scan, const MappedPose& mapped) {
-  std::optional<DeskewedScan> placed = deskewed(scan, options_.mount, track_, outline_, own_parts_);
-  if (!placed) return false;
-  placed = without_veils(std::move(*placed));
-  memory_.add(*placed);
+  const std::optional<std::vector<Pose2>> odom_from_base = poses_during(scan, track_);
+  if (!odom_from_base) return false;
+  const DeskewedScan placed =
+      without_veils(deskewed(scan, options_.mount, *odom_from_base, outline_, own_parts_));
+  memory_.add(placed);
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
   field_scan_ =
-      FieldScan{.newest = placed->newest, .points = presences(*placed, memory_, map_from_odom, mapped)};
-  lingering_.add(field_scan_->points, placed->newest);
-  append(corners_of(*placed, map_from_odom, mapped), field_scan_->points);
+      FieldScan{.newest = placed.newest, .points = presences(placed, memory_, map_from_odom, mapped)};
+  lingering_.add(field_scan_->points, placed.newest);
+  append(corners_of(placed, map_from_odom, mapped), field_scan_->points);
   scanned_points_ = field_scan_->points.size();
   if (above_) append(above_->points, field_scan_->points);
-  if (map_from_odom) hold_against_map(scan, *map_from_odom, mapped);
+  if (map_from_odom) hold_against_map(scan, *odom_from_base, *map_from_odom, mapped);
   return true;
 }
 
@@ -139,14 +140,12 @@ std::optional<Pose2> Surroundings::map_from_odom(const MappedPose& mapped) const
   return mapped.estimate->map_from_base * inverse(*odom_from_base);
 }
 
-void Surroundings::hold_against_map(const Scan& scan, const Pose2& map_from_odom, const MappedPose& mapped) {
+void Surroundings::hold_against_map(const Scan& scan, std::span<const Pose2> odom_from_base,
+                                    const Pose2& map_from_odom, const MappedPose& mapped) {
   std::vector<Pose2> map_from_scanner;
-  map_from_scanner.reserve(scan.beams.size());
-  for (const Beam& beam : scan.beams) {
-    const std::optional<Pose2> odom_from_base = track_.pose_at(beam.stamp);
-    if (!odom_from_base) return;
-    map_from_scanner.push_back(map_from_odom * *odom_from_base * options_.mount.base_from_scanner);
-  }
+  map_from_scanner.reserve(odom_from_base.size());
+  for (const Pose2& pose : odom_from_base)
+    map_from_scanner.push_back(map_from_odom * pose * options_.mount.base_from_scanner);
   watch_.add_trusted(scan, map_from_scanner, mapped.map);
   const Eigen::Matrix3d& covariance = mapped.estimate->covariance;
   contradiction_.update(scan, map_from_scanner, mapped.map.map(),

@@ -121,7 +121,8 @@ class Surroundings {
   bool take(const Scan& scan, const MappedPose& mapped);
   bool take(const DepthImage& image, const MappedPose& mapped);
   [[nodiscard]] std::optional<Pose2> map_from_odom(const MappedPose& mapped) const;
-  void hold_against_map(const Scan& scan, const Pose2& map_from_odom, const MappedPose& mapped);
+  void hold_against_map(const Scan& scan, std::span<const Pose2> odom_from_base, const Pose2& map_from_odom,
+                        const MappedPose& mapped);
   [[nodiscard]] bool is_within_robot(const Ray& ray) const;
   [[nodiscard]] std::vector<FieldPoint> presences(const DeskewedScan& scan, const ObstacleMemory& memory,
                                                   const std::optional<Pose2>& map_from_odom,

@@ -30,18 +30,31 @@ Vec2 end_in_base(const Beam& beam, const Scan& scan, const ScannerMount& mount) 
   return mount.base_from_scanner * Vec2(length_m(beam, scan) * way);
 }
 
-std::optional<DeskewedScan> deskewed(const Scan& scan, const ScannerMount& mount, const WheelTrack& track,
-                                     const OwnOutline& own, const OwnParts& parts) {
+std::optional<std::vector<Pose2>> poses_during(const Scan& scan, const WheelTrack& track) {
   if (scan.beams.empty()) return std::nullopt;
+  std::vector<Pose2> odom_from_base;
+  odom_from_base.reserve(scan.beams.size());
+  for (const Beam& beam : scan.beams) {
+    const std::optional<Pose2> pose = track.pose_at(beam.stamp);
+    if (!pose) return std::nullopt;
+    odom_from_base.push_back(*pose);
+  }
+  return odom_from_base;
+}
+
+DeskewedScan deskewed(const Scan& scan, const ScannerMount& mount, std::span<const Pose2> odom_from_base,
+                      const OwnOutline& own, const OwnParts& parts) {
   DeskewedScan result{.newest = scan.beams.front().stamp, .rays = {}};
   result.rays.reserve(scan.beams.size());
-  for (const Beam& beam : scan.beams) {
-    const std::optional<Pose2> odom_from_base = track.pose_at(beam.stamp);
-    if (!odom_from_base) return std::nullopt;
+  for (std::size_t i = 0; i < scan.beams.size(); ++i) {
+    const Beam& beam = scan.beams[i];
     const Vec2 end = end_in_base(beam, scan, mount);
     result.newest = std::max(result.newest, beam.stamp);
-    const Ray ray{beam.stamp, *odom_from_base * mount.base_from_scanner.position_m, *odom_from_base * end,
-                  beam.echo};
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(odom_from_base[i].yaw_rad).toRotationMatrix();
+    const auto in_odom = [&](const Vec2& point) -> Vec2 {
+      return odom_from_base[i].position_m + turn * point;
+    };
+    const Ray ray{beam.stamp, in_odom(mount.base_from_scanner.position_m), in_odom(end), beam.echo};
     if (ends_at_something(ray) && own.holds(end) && parts.has(beam.angle_rad)) continue;
     result.rays.push_back(ray);
   }

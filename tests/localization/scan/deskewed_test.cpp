@@ -81,12 +81,14 @@ TEST(Deskewed, AWallIsStraightWhileTheRobotTurns) {
         (3.0 - odom_from_scanner.position_m.x()) / std::cos(odom_from_scanner.yaw_rad + angle_rad);
     scan.beams.push_back({at(s), angle_rad, range_m, 1.0F, Echo::hit});
   }
-  const std::optional<DeskewedScan> still = deskewed(scan, mount, track_of(velocity, 0.6), own, OwnParts());
-  ASSERT_TRUE(still);
-  ASSERT_EQ(still->rays.size(), 100U);
-  for (const Ray& ray : still->rays) EXPECT_NEAR(ray.end_m.x(), 3.0, 0.001);
-  EXPECT_EQ(still->newest, at(0.599));
-  EXPECT_FALSE(deskewed(scan, mount, track_of(velocity, 0.5), own, OwnParts()));  // the wheels are silent
+  const std::optional<std::vector<Pose2>> poses = poses_during(scan, track_of(velocity, 0.6));
+  ASSERT_TRUE(poses);
+  const DeskewedScan still = deskewed(scan, mount, *poses, own, OwnParts());
+  ASSERT_EQ(still.rays.size(), 100U);
+  for (const Ray& ray : still.rays) EXPECT_NEAR(ray.end_m.x(), 3.0, 0.001);
+  EXPECT_EQ(still.newest, at(0.599));
+  EXPECT_FALSE(poses_during(scan, track_of(velocity, 0.5)));  // the wheels are silent
+  EXPECT_FALSE(poses_during({}, track_of(velocity, 0.6)));
 }
 
 TEST(Deskewed, LeavesOutTheRobotItselfAndNothingElse) {
@@ -99,12 +101,12 @@ TEST(Deskewed, LeavesOutTheRobotItselfAndNothingElse) {
   scan.beams.push_back({at(0.0), -0.3, 0.0, 0.0F, Echo::nothing});
   OwnParts parts;
   for (int i = 0; i < 10; ++i) parts.add(scan, mount, own);
-  const std::optional<DeskewedScan> seen = deskewed(scan, mount, track_of({0.5, 1.0}, 0.1), own, parts);
-  ASSERT_TRUE(seen);
-  ASSERT_EQ(seen->rays.size(), 4U);
-  EXPECT_NEAR((seen->rays[0].end_m - Vec2(-0.30, 0.02)).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((seen->rays[2].end_m - Vec2(0.45, 0.02)).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((seen->rays[3].end_m - seen->rays[3].origin_m).norm(), 12.0, 1e-9);
+  const std::vector<Pose2> poses = poses_during(scan, track_of({0.5, 1.0}, 0.1)).value();
+  const DeskewedScan seen = deskewed(scan, mount, poses, own, parts);
+  ASSERT_EQ(seen.rays.size(), 4U);
+  EXPECT_NEAR((seen.rays[0].end_m - Vec2(-0.30, 0.02)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((seen.rays[2].end_m - Vec2(0.45, 0.02)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((seen.rays[3].end_m - seen.rays[3].origin_m).norm(), 12.0, 1e-9);
 }
 
 /// Within the outline, but where the robot has no part of its own; and where a part has been taken off.
@@ -116,7 +118,8 @@ TEST(Deskewed, KeepsWhoTouchesTheRobot) {
     return Scan{.beams = std::move(beams), .min_range_m = 0.02, .max_range_m = 12.0};
   };
   const auto count = [&](const Scan& scan, const OwnParts& parts) {
-    return deskewed(scan, mount, track_of({0.5, 1.0}, 0.1), own, parts).value().rays.size();
+    const std::vector<Pose2> poses = poses_during(scan, track_of({0.5, 1.0}, 0.1)).value();
+    return deskewed(scan, mount, poses, own, parts).rays.size();
   };
   OwnParts parts;
   EXPECT_EQ(count(scan_of({post}), parts), 1U) << "before it has learned, everything is somebody";
