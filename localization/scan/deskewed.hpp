@@ -18,7 +18,8 @@ std::optional<std::vector<Pose2>> poses_during(const Scan& scan, const WheelTrac
 
 /// The scan in the odometry frame, each beam from where the robot was when it was measured. Without those
 /// that hit the robot itself, by geometry, in the directions of its own parts: a scanner's least range says
-/// nothing about the robot around it, and who touches the robot is within its outline too.
+/// nothing about the robot around it, and who touches the robot is within its outline too. `odom_from_base`
+/// is what poses_during says of this scan.
 DeskewedScan deskewed(const Scan& scan, const ScannerMount& mount, std::span<const Pose2> odom_from_base,
                       const OwnOutline& own, const OwnParts& parts);
 
