@@ -50,11 +50,8 @@ DeskewedScan deskewed(const Scan& scan, const ScannerMount& mount, std::span<con
     const Beam& beam = scan.beams[i];
     const Vec2 end = end_in_base(beam, scan, mount);
     result.newest = std::max(result.newest, beam.stamp);
-    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(odom_from_base[i].yaw_rad).toRotationMatrix();
-    const auto in_odom = [&](const Vec2& point) -> Vec2 {
-      return odom_from_base[i].position_m + turn * point;
-    };
-    const Ray ray{beam.stamp, in_odom(mount.base_from_scanner.position_m), in_odom(end), beam.echo};
+    const Ray ray{beam.stamp, odom_from_base[i] * mount.base_from_scanner.position_m, odom_from_base[i] * end,
+                  beam.echo};
     if (ends_at_something(ray) && own.holds(end) && parts.has(beam.angle_rad)) continue;
     result.rays.push_back(ray);
   }
