@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "app/navigation/path_obstacles.hpp"
 #include "app/navigation/scanner_stops.hpp"
 #include "localization/scan/smoothed_ends.hpp"
 #include "localization/scan/veil.hpp"
@@ -16,18 +16,6 @@ namespace {
 /// Below this a robot that is slowed by the field counts as standing.
 constexpr double standing_mps = 0.02;
 constexpr double standing_radps = 0.02;
-
-/// So close that no robot fits between two.
-std::vector<Vec2> ring(const Vec2& middle_m, double radius_m) {
-  constexpr double most_between_m = 0.15;
-  const double count = std::max(12.0, std::ceil(2.0 * std::numbers::pi * radius_m / most_between_m));
-  std::vector<Vec2> points_m(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
-    const double turn_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / count;
-    points_m[i] = middle_m + radius_m * Vec2(std::cos(turn_rad), std::sin(turn_rad));
-  }
-  return points_m;
-}
 
 void append(const std::vector<FieldPoint>& points, std::vector<FieldPoint>& to) {
   to.insert(to.end(), points.begin(), points.end());
@@ -227,11 +215,13 @@ Surroundings::Allowed Surroundings::allowed(Stamp now, const std::optional<BodyV
 
 void Surroundings::hold(Stamp now, const std::optional<Pose2>& odom_from_base, const FieldLimit& limit,
                         const BodyVelocity& allowed) {
-  if (moves(allowed)) holding_.release();
-  const bool is_held =
-      odom_from_base && limit.nearest && is_still(limit.nearest->presence) && !moves(allowed);
-  holding_.update(
-      now, is_held ? std::optional<Vec2>(*odom_from_base * limit.nearest->point_in_base) : std::nullopt);
+  if (!odom_from_base) return;
+  holding_.stand_at(*odom_from_base);
+  if (!limit.nearest || moves(allowed)) return;
+  const Vec2 hit_in_odom = *odom_from_base * limit.nearest->point_in_base;
+  if (is_still(limit.nearest->presence)) holding_.add({.position_m = hit_in_odom, .may_go = false}, now);
+  if (limit.nearest->presence == Presence::waiting)
+    holding_.add({.position_m = hit_in_odom, .may_go = true}, now);
 }
 
 std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& mapped) const {
@@ -259,58 +249,46 @@ std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& 
   return seen;
 }
 
-UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped) const {
-  return {unmapped_m(now, mapped, options_.roomy), unmapped_m(now, mapped, options_.tight)};
+UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped,
+                                         std::span<const Vec2> goals_in_map) const {
+  return {unmapped_m(now, mapped, goals_in_map, options_.roomy),
+          unmapped_m(now, mapped, goals_in_map, options_.tight)};
 }
 
 std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped,
-                                           const RoomAround& room) const {
+                                           std::span<const Vec2> goals_in_map, const RoomAround& room) const {
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
   if (!map_from_odom) return {};
-  std::vector<Vec2> points_m;
   const MapExplanation explanation(mapped.map, mapped.estimate->covariance);
-  const Vec2& robot_m = mapped.estimate->map_from_base.position_m;
-  const auto is_mapped = [&](const Vec2& point_in_map) {
-    return explanation.explains(point_in_map, (point_in_map - robot_m).norm());
-  };
-  const double beside_m = options_.shape.outer_radius_m() + options_.begins_beside_m;
-  const auto append_around = [&](const Vec2& middle_in_map, double radius_m) {
-    for (const Vec2& point_in_map : ring(middle_in_map, radius_m))
-      if ((point_in_map - robot_m).norm() > beside_m && !is_mapped(point_in_map))
-        points_m.push_back(point_in_map);
-  };
+  PathObstacles obstacles(explanation, *map_from_odom,
+                          {.robot_m = mapped.estimate->map_from_base.position_m,
+                           .goals_m = goals_in_map,
+                           .room_m = options_.shape.outer_radius_m() + options_.begins_beside_m});
   for (const ObstacleMemory* memory : memories()) {
-    for (const Vec2& thing_in_odom : memory->standing_m(now)) {
-      const Vec2 thing_in_map = *map_from_odom * thing_in_odom;
-      if (is_mapped(thing_in_map)) continue;
-      points_m.push_back(thing_in_map);
-      if (room.things_m > 0.0) append_around(thing_in_map, room.things_m);
-    }
-    for (const Vec2& someone_in_odom : memory->standing_people_m(now)) {
-      const Vec2 someone_in_map = *map_from_odom * someone_in_odom;
-      if (!is_mapped(someone_in_map)) append_around(someone_in_map, room.legs_m);  // door posts are nobody
-    }
+    for (const Vec2& thing_m : memory->standing_m(now)) obstacles.add(thing_m, room.things_m);
+    for (const Vec2& someone_m : memory->standing_people_m(now)) obstacles.add(someone_m, room.legs_m);
   }
-  if (room.lingering_m > 0.0) {
-    for (const Vec2& someone_in_odom : lingering_.hits_m(now)) {
-      const Vec2 someone_in_map = *map_from_odom * someone_in_odom;
-      if (is_mapped(someone_in_map)) continue;
-      points_m.push_back(someone_in_map);
-      const double most_m = (someone_in_map - robot_m).norm() - beside_m - options_.leaves_m;
-      if (most_m > 0.0) append_around(someone_in_map, std::min(room.lingering_m, most_m));
-    }
-  }
-  for (const Vec2& point_in_odom : holding_.points_m(now)) points_m.push_back(*map_from_odom * point_in_odom);
-  return points_m;
+  const auto before_goals_m = [&](const Vec2& hit_m, double radius_m) {
+    return std::min(radius_m, obstacles.room_before_goals_m(hit_m));
+  };
+  if (room.lingering_m > 0.0)
+    for (const Vec2& hit_m : lingering_.hits_m(now))
+      obstacles.add(hit_m, std::min(before_goals_m(hit_m, room.lingering_m),
+                                    obstacles.room_before_robot_m(hit_m) - options_.leaves_m));
+  for (const HoldingPoint& point : holding_.points(now))
+    obstacles.add_also_if_mapped(point.position_m,
+                                 point.may_go ? before_goals_m(point.position_m, room.waiting_m) : 0.0);
+  return obstacles.points_m();
 }
 
 std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, const MappedPose& mapped,
-                                                                    const Path& path) {
+                                                                    const Path& path,
+                                                                    std::span<const Vec2> goals_in_map) {
   if (path.waypoints_m.empty() || (last_look_ && now - *last_look_ < options_.between_detours))
     return std::nullopt;
   if (!field_scan_ || looked_at_ == field_scan_->newest) return std::nullopt;
   looked_at_ = field_scan_->newest;
-  std::vector<Vec2> roomy_m = unmapped_m(now, mapped, options_.roomy);
+  std::vector<Vec2> roomy_m = unmapped_m(now, mapped, goals_in_map, options_.roomy);
   const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
   const bool is_blocked = std::ranges::any_of(roomy_m, [&](const Vec2& point_m) {
     const double from_path_m = distance_to_path_m(path, point_m);
@@ -319,7 +297,7 @@ std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, c
   });
   if (!is_blocked) return std::nullopt;
   last_look_ = now;
-  return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, options_.tight)};
+  return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, goals_in_map, options_.tight)};
 }
 
 }  // namespace lodestar

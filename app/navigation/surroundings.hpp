@@ -37,6 +37,7 @@ struct RoomAround {
   double things_m = 0.0;
   double legs_m = 0.0;       ///< the body that they carry
   double lingering_m = 0.0;  ///< people who linger; paths lead up to them where it is 0
+  double waiting_m = 0.0;    ///< who has come, may go and holds the robot; likewise
 };
 
 /// What a robot with a scanner is, and how it minds what the scanner sees.
@@ -55,11 +56,11 @@ struct SurroundingsOptions {
   /// A path is looked at no more often than this for what stands in its way.
   Duration between_detours = std::chrono::seconds(1);
   /// More than the field needs: what is behind the side that was seen is not known, and cells of 5 cm round
-  /// it off. Before who lingers it stops the robot at 1.05 m, also in a turn.
-  RoomAround roomy{.things_m = 0.04, .legs_m = 0.28, .lingering_m = 1.3};
+  /// it off. Before who lingers it stops the robot at 1.05 m, also in a turn; before who may go at 0.57 m.
+  RoomAround roomy{.things_m = 0.04, .legs_m = 0.28, .lingering_m = 1.3, .waiting_m = 0.6};
   /// Where there is no way with so much room: as much as the field lets pass
   /// (ProtectiveFieldOptions::body_m).
-  RoomAround tight{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 0.0};
+  RoomAround tight{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 0.0, .waiting_m = 0.0};
   LingeringPeopleOptions lingering;
   double leaves_m = 0.2;  ///< beside the robot, so that a path need not begin with a step back from someone
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
@@ -103,13 +104,15 @@ class Surroundings {
   /// What may be sent of the wanted velocity; once a control step.
   Allowed allowed(Stamp now, const std::optional<BodyVelocity>& measured, const BodyVelocity& wanted);
 
-  /// What stands around the robot that the map lacks, or has held it all the same.
-  [[nodiscard]] UnmappedObstacles unmapped(Stamp now, const MappedPose& mapped) const;
+  /// What stands around the robot that the map lacks, or has held it all the same, with room for paths to the
+  /// goals.
+  [[nodiscard]] UnmappedObstacles unmapped(Stamp now, const MappedPose& mapped,
+                                           std::span<const Vec2> goals_in_map) const;
 
   /// The same where something of it stands in the way of a path that begins at the robot, at most once a
   /// second; nothing where the way is clear.
-  std::optional<UnmappedObstacles> obstacles_in_the_way(Stamp now, const MappedPose& mapped,
-                                                        const Path& path);
+  std::optional<UnmappedObstacles> obstacles_in_the_way(Stamp now, const MappedPose& mapped, const Path& path,
+                                                        std::span<const Vec2> goals_in_map);
 
   /// What the scanner shows, for people to look at; nothing before the first scan.
   [[nodiscard]] std::optional<SeenSurroundings> seen(Stamp now, const MappedPose& mapped) const;
@@ -132,6 +135,7 @@ class Surroundings {
                                                    const MappedPose& mapped) const;
   [[nodiscard]] std::vector<const ObstacleMemory*> memories() const;
   [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped,
+                                             std::span<const Vec2> goals_in_map,
                                              const RoomAround& room) const;
   void hold(Stamp now, const std::optional<Pose2>& odom_from_base, const FieldLimit& limit,
             const BodyVelocity& allowed);
