@@ -10,7 +10,7 @@ namespace {
 /// How far the scanner sees along the ray; nothing where it does not know.
 std::optional<double> seen_m(const Ray& ray) {
   if (ray.echo == Echo::invalid) return std::nullopt;
-  return (ray.end_m - ray.origin_m).norm();
+  return range_m(ray);
 }
 
 /// The scan as a ring: its last beam is beside its first. A gap between neighbours is not looked across.

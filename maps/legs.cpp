@@ -14,10 +14,6 @@ struct Thing {
   double width_m = 0.0;
 };
 
-double range_m(const Ray& ray) {
-  return (ray.end_m - ray.origin_m).norm();
-}
-
 Thing measured(Thing thing, const DeskewedScan& scan) {
   const Vec2& first_m = scan.rays[thing.rays.front()].end_m;
   const Vec2& last_m = scan.rays[thing.rays.back()].end_m;

@@ -120,7 +120,7 @@ void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
   const RaysAtLegs legs = rays_at_legs(scan);
   for (const std::size_t i : legs.likely) {
     const Ray& ray = scan.rays[i];
-    const bool is_near = (ray.end_m - ray.origin_m).norm() < options_.becomes_leg_from_m;
+    const bool is_near = range_m(ray) < options_.becomes_leg_from_m;
     if (!is_near || !is_part_of_a_thing(place_of(ray.end_m))) mark(ray);
   }
   for (const std::size_t i : legs.possible)

@@ -27,9 +27,8 @@ bool is_alone(const DeskewedScan& scan, std::size_t i) {
   constexpr double beyond_m = 0.15;
   const std::size_t count = scan.rays.size();
   const Ray& ray = scan.rays[i];
-  const double range_m = (ray.end_m - ray.origin_m).norm();
   const auto goes_past = [&](const Ray& beside) {
-    return beside.echo == Echo::invalid || (beside.end_m - beside.origin_m).norm() > range_m + beyond_m;
+    return beside.echo == Echo::invalid || range_m(beside) > range_m(ray) + beyond_m;
   };
   return ray.echo == Echo::hit && goes_past(scan.rays[(i + count - 1) % count]) &&
          goes_past(scan.rays[(i + 1) % count]);

@@ -23,6 +23,11 @@ inline bool ends_at_something(const Ray& ray) {
   return ray.echo == Echo::hit || ray.echo == Echo::too_near;
 }
 
+/// How far its end is from the scanner, at something or not.
+inline double range_m(const Ray& ray) {
+  return (ray.end_m - ray.origin_m).norm();
+}
+
 /// A scan freed of the robot's motion during the turn: all rays in one frame that does not move with the
 /// robot, the odometry frame. In the order in which they were measured; beams that hit the robot itself are
 /// left out.

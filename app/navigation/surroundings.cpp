@@ -144,7 +144,7 @@ void Surroundings::hold_against_map(const Scan& scan, std::span<const Pose2> odo
 /// When the ray was measured, and deeper than the noise of the range: it touches the robot, or lies over the
 /// scanner, wherever that is mounted.
 bool Surroundings::is_within_robot(const Ray& ray) const {
-  if ((ray.end_m - ray.origin_m).norm() > 2.0 * options_.shape.outer_radius_m()) return false;
+  if (range_m(ray) > 2.0 * options_.shape.outer_radius_m()) return false;
   const std::optional<Pose2> odom_from_base = track_.pose_at(ray.stamp);
   return odom_from_base &&
          options_.shape.distance_m(inverse(*odom_from_base) * ray.end_m) < -outline_.margin_m;
@@ -160,8 +160,8 @@ std::vector<FieldPoint> Surroundings::presences(const DeskewedScan& scan, const 
   const auto presence_of = [&](std::size_t i) {
     const Ray& ray = scan.rays[i];
     if (is_within_robot(ray)) return Presence::person;  // nothing can stand there
-    const double range_m = (ray.end_m - ray.origin_m).norm();
-    if (explanation && explanation->explains(*map_from_odom * ray.end_m, range_m)) return Presence::mapped;
+    if (explanation && explanation->explains(*map_from_odom * ray.end_m, range_m(ray)))
+      return Presence::mapped;
     if (!stands[i]) return Presence::person;
     if (memory.may_go(ray.end_m)) return Presence::waiting;
     return memory.has_legs(ray.end_m) ? Presence::legs : Presence::standing;

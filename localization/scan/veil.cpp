@@ -27,7 +27,7 @@ DeskewedScan without_veils(DeskewedScan scan, const VeilOptions& options) {
       return ends_at_something(beside) && (beside.end_m - ray.end_m).norm() <= options.joins_m;
     };
     if (joins(before) || joins(after)) continue;
-    const double across_m = (ray.end_m - ray.origin_m).norm() * 0.5 * between_rad(before, after);
+    const double across_m = range_m(ray) * 0.5 * between_rad(before, after);
     if (across_m * options.least_beams <= options.least_width_m) veils.push_back(i);
   }
   for (const std::size_t i : veils) scan.rays[i].echo = Echo::invalid;
