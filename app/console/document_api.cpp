@@ -2,11 +2,13 @@
 
 #include <charconv>
 #include <fmt/format.h>
+#include <utility>
 
 #include "app/common/json_parse.hpp"
 #include "app/common/json_text.hpp"
 #include "app/common/wall_clock.hpp"
 #include "app/common/whole_number.hpp"
+#include "app/console/etag.hpp"
 #include "app/console/history_json.hpp"
 #include "app/console/map_json.hpp"
 #include "app/console/page_file.hpp"
@@ -26,13 +28,6 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr const char* history_path = "/api/markers/history";
-
-/// Names that people give themselves may be no UTF-8.
-HttpResponse document(const ordered_json& content) {
-  HttpResponse response{.body = json_text(content)};
-  response.etag = etag_of(response.body);
-  return response;
-}
 
 ordered_json robot_json(const Robot& robot) {
   ordered_json outline;  // null for a disc
@@ -130,7 +125,7 @@ HttpResponse DocumentApi::answer(const HttpRequest& request) const {
   if (target == "/api/map/heights") response = heights();
   if (target == "/api/markers") response = markers();
   if (target.starts_with(history_path)) response = history(target);
-  if (target == "/api/log") response = document(audit_.newest());
+  if (target == "/api/log") response = json_document(audit_.newest());
   if (!response) response = runs_.answer(request);
   if (!response) return refusal(404, "found no such document");
   return unless_known(*response, request);
@@ -152,20 +147,20 @@ HttpResponse DocumentApi::site_document() const {
   }
   ordered_json actions = ordered_json::array();
   for (const ActionHook& hook : site_.actions) actions.push_back(hook.type);
-  return document({{"name", site_.name},
-                   {"actions", actions},
-                   {"robot", robot_json(site_.robot)},
-                   {"start", pose_json(site_.start)},
-                   {"goals", goals},
-                   {"routes", routes_json(coverage_.floor().routes)},
-                   {"coverage", coverage_json(site_, coverage_.floor())},
-                   {"formats", marker_format_names()}});
+  return json_document({{"name", site_.name},
+                        {"actions", actions},
+                        {"robot", robot_json(site_.robot)},
+                        {"start", pose_json(site_.start)},
+                        {"goals", goals},
+                        {"routes", routes_json(coverage_.floor().routes)},
+                        {"coverage", coverage_json(site_, coverage_.floor())},
+                        {"formats", marker_format_names()}});
 }
 
 HttpResponse DocumentApi::map() const {
   ordered_json map = map_json(site_.map.map);
   map["heights"] = heights_json(coverage_.floor().heights);
-  return document(map);
+  return json_document(map);
 }
 
 std::optional<HttpResponse> DocumentApi::heights() const {
@@ -175,15 +170,12 @@ std::optional<HttpResponse> DocumentApi::heights() const {
   for (const std::uint32_t bits : heights->cells)
     for (unsigned byte = 0; byte < sizeof bits; ++byte)
       response.body += static_cast<char>((bits >> (8U * byte)) & 0xFFU);
-  response.etag = etag_of(response.body);
-  return response;
+  return with_etag(std::move(response));
 }
 
 HttpResponse DocumentApi::cells() const {
   const std::vector<std::int8_t>& cells = site_.map.map.cells;
-  HttpResponse response{.content_type = "application/octet-stream", .body = {cells.begin(), cells.end()}};
-  response.etag = etag_of(response.body);
-  return response;
+  return with_etag({.content_type = "application/octet-stream", .body = {cells.begin(), cells.end()}});
 }
 
 HttpResponse DocumentApi::markers() const {
@@ -218,14 +210,14 @@ HttpResponse DocumentApi::save_markers(const HttpRequest& request) const {
 
 HttpResponse DocumentApi::history(const std::string& target) const {
   const std::string rest = target.substr(std::string(history_path).size());
-  if (rest.empty()) return document(history_json(history_, audit_, "markers"));
+  if (rest.empty()) return json_document(history_json(history_, audit_, "markers"));
   int number = 0;
   const char* const end = rest.data() + rest.size();
   const auto [stop, error] = std::from_chars(rest.data() + 1, end, number);
   if (rest.front() != '/' || error != std::errc() || stop != end) return refusal(404, "found no such state");
   const std::optional<std::string> text = history_.text(number);
   if (!text) return refusal(404, "found no such state");
-  return document(registry_json(parse_markers(*text, MarkerFormat::lodestar, "history")));
+  return json_document(registry_json(parse_markers(*text, MarkerFormat::lodestar, "history")));
 }
 
 HttpResponse DocumentApi::post(const HttpRequest& request) const {

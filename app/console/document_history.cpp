@@ -15,27 +15,6 @@ namespace lodestar {
 
 namespace fs = std::filesystem;
 
-std::string etag_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3U;
-  }
-  return fmt::format("\"{:016x}\"", hash);
-}
-
-bool has_etag(const std::string& tags, const std::string& etag) {
-  return tags == "*" || tags.find(etag) != std::string::npos;
-}
-
-std::optional<HttpResponse> conflict_with(const std::string& present, const std::string& if_match) {
-  if (if_match.empty()) return refusal(428, "found no If-Match, wanted the tag that was read");
-  if (has_etag(if_match, etag_of(present))) return std::nullopt;
-  HttpResponse conflict = refusal(412, "another user saved since it was read");
-  conflict.etag = etag_of(present);
-  return conflict;
-}
-
 std::string read_document(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file, 0, "no file that can be read", "one");

@@ -6,18 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/net/http.hpp"
-
 namespace lodestar {
-
-/// ETag of a document: 64-bit FNV-1a of its text, in quotation marks as HTTP requires.
-std::string etag_of(std::string_view text);
-
-/// Is this tag among those of an If-Match or If-None-Match? "*" stands for all.
-bool has_etag(const std::string& tags, const std::string& etag);
-
-/// The refusal to save over the text `present` when the client has not read it; nothing when it has.
-std::optional<HttpResponse> conflict_with(const std::string& present, const std::string& if_match);
 
 /// The whole file. Throws InputError when it cannot be read.
 std::string read_document(const std::filesystem::path& file);

@@ -6,9 +6,9 @@
 
 #include "app/common/base64.hpp"
 #include "app/common/json_parse.hpp"
-#include "app/common/json_text.hpp"
 #include "app/common/wall_clock.hpp"
 #include "app/console/document_history.hpp"
+#include "app/console/etag.hpp"
 #include "app/placement/hanging.hpp"
 #include "app/placement/installation.hpp"
 #include "app/placement/registry_check.hpp"
@@ -96,9 +96,7 @@ HttpResponse HangingApi::list() const {
                  {"photo", fs::exists(photo_file(marker.id))}});
     markers.push_back(std::move(item));
   }
-  HttpResponse response{.body = json_text(markers)};
-  response.etag = etag_of(response.body);
-  return response;
+  return json_document(markers);
 }
 
 HttpResponse HangingApi::set(int id, const HttpRequest& request) const {
@@ -131,9 +129,7 @@ HttpResponse HangingApi::keep_photo(int id, const HttpRequest& request) const {
 
 HttpResponse HangingApi::photo(int id) const {
   if (!fs::exists(photo_file(id))) return refusal(404, "found no such photo");
-  HttpResponse response{.content_type = "image/jpeg", .body = read_document(photo_file(id))};
-  response.etag = etag_of(response.body);
-  return response;
+  return with_etag({.content_type = "image/jpeg", .body = read_document(photo_file(id))});
 }
 
 fs::path HangingApi::photo_file(int id) const {

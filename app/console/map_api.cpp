@@ -6,7 +6,7 @@
 
 #include "app/common/base64.hpp"
 #include "app/common/json_parse.hpp"
-#include "app/console/document_history.hpp"
+#include "app/console/etag.hpp"
 #include "app/console/history_json.hpp"
 #include "maps/input_error.hpp"
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/common/json_text.hpp"
+#include "app/console/etag.hpp"
 #include "app/console/history_json.hpp"
 #include "app/console/places_json.hpp"
 #include "app/console/routes.hpp"

@@ -1,8 +1,7 @@
 #include "app/console/runs_api.hpp"
 
-#include "app/common/json_text.hpp"
 #include "app/common/percent_decoding.hpp"
-#include "app/console/document_history.hpp"
+#include "app/console/etag.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -13,16 +12,9 @@ using nlohmann::ordered_json;
 
 constexpr std::string_view runs_path = "/api/runs";
 
-/// Summaries and names may hold bytes that are no UTF-8.
-HttpResponse document(const ordered_json& content) {
-  HttpResponse response{.body = json_text(content)};
-  response.etag = etag_of(response.body);
-  return response;
-}
-
 HttpResponse bytes(const std::optional<std::string>& body, const char* type) {
   if (!body) return refusal(404, "found no such document");
-  return {.content_type = type, .body = *body, .etag = etag_of(*body)};
+  return with_etag({.content_type = type, .body = *body});
 }
 
 }  // namespace
@@ -31,10 +23,10 @@ std::optional<HttpResponse> RunsApi::answer(const HttpRequest& request) const {
   if (request.method != "GET" && request.method != "HEAD") return std::nullopt;
   std::string_view rest = request.target;
   try {
-    if (rest == "/api/heat") return document(runs_.heat(site_));
+    if (rest == "/api/heat") return json_document(runs_.heat(site_));
     if (!rest.starts_with(runs_path)) return std::nullopt;
     rest.remove_prefix(runs_path.size());
-    if (rest.empty()) return document(runs_.list());
+    if (rest.empty()) return json_document(runs_.list());
     if (rest.front() != '/') return std::nullopt;
     return one(rest.substr(1));
   } catch (const InputError& error) {
@@ -56,7 +48,7 @@ HttpResponse RunsApi::one(std::string_view rest) const {
   if (picture != std::string_view::npos)
     return bytes(runs_.picture(*name, std::string(rest.substr(picture + pictures.size()))), "image/jpeg");
   const std::optional<ordered_json> run = runs_.run(*name);
-  return run ? document(*run) : refusal(404, "found no such run");
+  return run ? json_document(*run) : refusal(404, "found no such run");
 }
 
 }  // namespace lodestar
