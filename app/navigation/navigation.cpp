@@ -151,14 +151,13 @@ void Navigation::look_around(const SensorInput& input, Facts& facts) {
 void Navigation::plan_around_obstacles(const Facts& facts) {
   const Trip* const trip = trip_of(behaviour_.state);
   if (facts.stop || !facts.estimate || trip == nullptr) return;
-  std::vector<Vec2> goals_m;
-  for (const Goal& goal : goals_.ahead()) goals_m.push_back(goal.position_m);
   if (std::exchange(has_new_goal_, false)) {
-    planner_.use_obstacles(surroundings_->unmapped(facts.now, mapped_pose(facts), goals_m));
+    planner_.use_obstacles(surroundings_->unmapped(facts.now, mapped_pose(facts), goals_.ahead()));
     return;
   }
   const Path path = rest_of(trip->drive.path_ahead(), facts.estimate->map_from_base.position_m);
-  if (auto obstacles = surroundings_->obstacles_in_the_way(facts.now, mapped_pose(facts), path, goals_m))
+  if (auto obstacles =
+          surroundings_->obstacles_in_the_way(facts.now, mapped_pose(facts), path, goals_.ahead()))
     planner_.use_obstacles(std::move(*obstacles));
 }
 

@@ -45,7 +45,7 @@ double PathObstacles::room_before_robot_m(const Vec2& hit_in_odom) const {
 double PathObstacles::room_before_goals_m(const Vec2& hit_in_odom) const {
   const Vec2 hit_in_map = map_from_odom_ * hit_in_odom;
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const Vec2& goal_m : ends_.goals_m) nearest_m = std::min(nearest_m, (hit_in_map - goal_m).norm());
+  for (const Goal& goal : ends_.goals) nearest_m = std::min(nearest_m, (hit_in_map - goal.position_m).norm());
   return nearest_m - ends_.room_m;
 }
 

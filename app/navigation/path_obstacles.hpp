@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "app/site/goal.hpp"
 #include "maps/geometry.hpp"
 #include "maps/map_overlay.hpp"
 
@@ -11,7 +12,7 @@ namespace lodestar {
 /// Where paths begin and what they lead to, in the map frame. Rings around people leave room there.
 struct PathEnds {
   Vec2 robot_m;
-  std::span<const Vec2> goals_m;
+  std::span<const Goal> goals;
   double room_m = 0.0;  ///< that the robot needs around its middle
 };
 

@@ -250,19 +250,18 @@ std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& 
 }
 
 UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped,
-                                         std::span<const Vec2> goals_in_map) const {
-  return {unmapped_m(now, mapped, goals_in_map, options_.roomy),
-          unmapped_m(now, mapped, goals_in_map, options_.tight)};
+                                         std::span<const Goal> goals) const {
+  return {unmapped_m(now, mapped, goals, options_.roomy), unmapped_m(now, mapped, goals, options_.tight)};
 }
 
-std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped,
-                                           std::span<const Vec2> goals_in_map, const RoomAround& room) const {
+std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped, std::span<const Goal> goals,
+                                           const RoomAround& room) const {
   const std::optional<Pose2> map_from_odom = this->map_from_odom(mapped);
   if (!map_from_odom) return {};
   const MapExplanation explanation(mapped.map, mapped.estimate->covariance);
   PathObstacles obstacles(explanation, *map_from_odom,
                           {.robot_m = mapped.estimate->map_from_base.position_m,
-                           .goals_m = goals_in_map,
+                           .goals = goals,
                            .room_m = options_.shape.outer_radius_m() + options_.begins_beside_m});
   for (const ObstacleMemory* memory : memories()) {
     for (const Vec2& thing_m : memory->standing_m(now)) obstacles.add(thing_m, room.things_m);
@@ -283,12 +282,12 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped,
 
 std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, const MappedPose& mapped,
                                                                     const Path& path,
-                                                                    std::span<const Vec2> goals_in_map) {
+                                                                    std::span<const Goal> goals) {
   if (path.waypoints_m.empty() || (last_look_ && now - *last_look_ < options_.between_detours))
     return std::nullopt;
   if (!field_scan_ || looked_at_ == field_scan_->newest) return std::nullopt;
   looked_at_ = field_scan_->newest;
-  std::vector<Vec2> roomy_m = unmapped_m(now, mapped, goals_in_map, options_.roomy);
+  std::vector<Vec2> roomy_m = unmapped_m(now, mapped, goals, options_.roomy);
   const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
   const bool is_blocked = std::ranges::any_of(roomy_m, [&](const Vec2& point_m) {
     const double from_path_m = distance_to_path_m(path, point_m);
@@ -297,7 +296,7 @@ std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, c
   });
   if (!is_blocked) return std::nullopt;
   last_look_ = now;
-  return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, goals_in_map, options_.tight)};
+  return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, goals, options_.tight)};
 }
 
 }  // namespace lodestar

@@ -9,6 +9,7 @@
 #include "app/navigation/lingering_people.hpp"
 #include "app/navigation/seen_surroundings.hpp"
 #include "app/navigation/unmapped_obstacles.hpp"
+#include "app/site/goal.hpp"
 #include "control/field_release.hpp"
 #include "control/hidden_corners.hpp"
 #include "control/protective_field.hpp"
@@ -107,12 +108,12 @@ class Surroundings {
   /// What stands around the robot that the map lacks, or has held it all the same, with room for paths to the
   /// goals.
   [[nodiscard]] UnmappedObstacles unmapped(Stamp now, const MappedPose& mapped,
-                                           std::span<const Vec2> goals_in_map) const;
+                                           std::span<const Goal> goals) const;
 
   /// The same where something of it stands in the way of a path that begins at the robot, at most once a
   /// second; nothing where the way is clear.
   std::optional<UnmappedObstacles> obstacles_in_the_way(Stamp now, const MappedPose& mapped, const Path& path,
-                                                        std::span<const Vec2> goals_in_map);
+                                                        std::span<const Goal> goals);
 
   /// What the scanner shows, for people to look at; nothing before the first scan.
   [[nodiscard]] std::optional<SeenSurroundings> seen(Stamp now, const MappedPose& mapped) const;
@@ -134,8 +135,7 @@ class Surroundings {
                                                    const std::optional<Pose2>& map_from_odom,
                                                    const MappedPose& mapped) const;
   [[nodiscard]] std::vector<const ObstacleMemory*> memories() const;
-  [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped,
-                                             std::span<const Vec2> goals_in_map,
+  [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped, std::span<const Goal> goals,
                                              const RoomAround& room) const;
   void hold(Stamp now, const std::optional<Pose2>& odom_from_base, const FieldLimit& limit,
             const BodyVelocity& allowed);

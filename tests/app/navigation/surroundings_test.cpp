@@ -110,10 +110,10 @@ TEST_F(SurroundingsTest, plans_far_around_someone_who_sways) {
 /// Else no way with room led to a goal near them, and the one without led past everybody else as closely.
 TEST_F(SurroundingsTest, leaves_room_at_a_goal_near_someone_who_sways) {
   const Vec2 place_m(3.0, 5.0);
-  const Vec2 goal_m = place_m + Vec2(1.0, 0.0);
+  const Goal goal{.position_m = place_m + Vec2(1.0, 0.0)};
   sway_at(place_m);
-  const UnmappedObstacles around = surroundings_.unmapped(now_, mapped(), {&goal_m, 1});
-  for (const Vec2& point_m : around.roomy_m) EXPECT_GT((point_m - goal_m).norm(), 0.3);
+  const UnmappedObstacles around = surroundings_.unmapped(now_, mapped(), {&goal, 1});
+  for (const Vec2& point_m : around.roomy_m) EXPECT_GT((point_m - goal.position_m).norm(), 0.3);
   EXPECT_GT(count_beyond(0.6, place_m, around.roomy_m), 10);
 }
 
