@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "maps/occupancy_map.hpp"
 
@@ -128,12 +129,13 @@ void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
 }
 
 /// What is hit in the same scan is not free, however many rays pass beside it: a leg is thinner than a cell.
-/// Nor are the cells beside that it is hit in now and then.
+/// Nor are the cells beside that it is hit in now and then, nor is a wall that the rays graze.
 void ObstacleMemory::count_free(const DeskewedScan& scan) {
   RayFan fan(scan);
   for (Seen& seen : seen_) {
     if (seen.hit_now || (is_leg(seen) && seen.hit_beside == scan.newest)) continue;
-    if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m))
+    if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m) &&
+        !fan.graze(seen.mean_m, options_.cell_m, options_.kept_before_end_m))
       ++seen.times_free;
   }
   remember_look(scan, std::move(fan));
@@ -251,34 +253,69 @@ bool ObstacleMemory::may_go(const Vec2& point_m) const {
          any_beside(point_m, [&](const Seen& seen) { return is_leg(seen) || came_lately(seen); });
 }
 
-std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
-  std::vector<bool> stood(scan.rays.size(), false);  // each by itself
-  std::vector<bool> stands(scan.rays.size(), false);
-  std::vector<std::size_t> thing;
-  const auto end_thing = [&] {
-    const auto still = std::ranges::count_if(thing, [&](std::size_t i) { return stood[i]; });
-    const bool is_still =
-        static_cast<double>(still) >= options_.standing_share * static_cast<double>(thing.size());
-    for (const std::size_t i : thing) {
-      const Vec2& end_m = scan.rays[i].end_m;
-      const bool shows = !has_come_to(end_m) && std::ranges::any_of(thing, [&](std::size_t k) {
-        return stood[k] && (scan.rays[k].end_m - end_m).norm() <= options_.shows_m;
-      });
-      stands[i] = is_still && (stood[i] || shows);
-    }
-    thing.clear();
-  };
+std::vector<ObstacleMemory::Thing> ObstacleMemory::things_in(const DeskewedScan& scan) const {
+  std::vector<Thing> things;
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     const Ray& ray = scan.rays[i];
     if (!ends_at_something(ray)) continue;
     const bool joins =
-        thing.empty() || (ray.end_m - scan.rays[thing.back()].end_m).norm() <= options_.joins_m;
-    if (!joins) end_thing();
-    stood[i] = stands_at(ray.end_m, scan.newest);
-    thing.push_back(i);
+        !things.empty() && (ray.end_m - scan.rays[things.back().back()].end_m).norm() <= options_.joins_m;
+    if (!joins) things.emplace_back();
+    things.back().push_back(i);
   }
-  end_thing();
+  return things;
+}
+
+bool ObstacleMemory::is_good_part(std::size_t rays, const Thing& of) const {
+  return static_cast<double>(rays) >= options_.standing_share * static_cast<double>(of.size());
+}
+
+std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
+  const std::vector<Thing> things = things_in(scan);
+  std::vector<bool> stands(scan.rays.size(), false);
+  for (const Thing& thing : things) stand_where_hit(scan, thing, stands);
+  GrazedSurface to_left;
+  for (const Thing& thing : things) stand_along(scan, thing, to_left, stands);
+  GrazedSurface to_right;
+  for (std::size_t i = things.size(); i-- > 0;)
+    stand_along(scan, Thing(things[i].rbegin(), things[i].rend()), to_right, stands);
   return stands;
+}
+
+void ObstacleMemory::stand_where_hit(const DeskewedScan& scan, const Thing& thing,
+                                     std::vector<bool>& stands) const {
+  Thing stood;  // each by itself
+  for (const std::size_t i : thing)
+    if (stands_at(scan.rays[i].end_m, scan.newest)) stood.push_back(i);
+  if (!is_good_part(stood.size(), thing)) return;
+  for (const std::size_t i : stood) stands[i] = true;
+  for (const std::size_t i : thing) {
+    const Vec2& end_m = scan.rays[i].end_m;
+    stands[i] = stands[i] || (!has_come_to(end_m) && std::ranges::any_of(stood, [&](std::size_t k) {
+                  return (scan.rays[k].end_m - end_m).norm() <= options_.shows_m;
+                }));
+  }
+}
+
+/// Along a wall that they graze rays end far apart, and in other cells in each scan. Where what stands leads
+/// on, away from the scanner, it stands too, unless someone has come there.
+void ObstacleMemory::stand_along(const DeskewedScan& scan, const Thing& thing, GrazedSurface& surface,
+                                 std::vector<bool>& stands) const {
+  Thing led_to;
+  std::size_t standing = 0;
+  for (const std::size_t i : thing) {
+    const Ray& ray = scan.rays[i];
+    const bool leads = !stands[i] && surface.leads_to(ray) && !has_come_to(ray.end_m);
+    if (leads) led_to.push_back(i);
+    if (stands[i] || leads) {
+      ++standing;
+      surface.add(ray.end_m);
+    } else {
+      surface.end();
+    }
+  }
+  if (!is_good_part(standing, thing) || !are_grazing(scan, led_to)) return surface.end();
+  for (const std::size_t i : led_to) stands[i] = true;
 }
 
 std::vector<Vec2> ObstacleMemory::standing_m(Stamp now) const {

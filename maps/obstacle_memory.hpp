@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
 
 #include "maps/geometry.hpp"
+#include "maps/grazed_surface.hpp"
 #include "maps/legs.hpp"
 #include "maps/ray_fan.hpp"
 #include "maps/scan_rays.hpp"
@@ -141,6 +143,13 @@ class ObstacleMemory {
   [[nodiscard]] bool has_come_to(const Vec2& point_m) const;
   [[nodiscard]] bool was_seen_free(Place place, Stamp before) const;
   [[nodiscard]] std::optional<Stamp> came_at(Place place, Stamp now) const;
+  /// Rays side by side that hit one piece.
+  using Thing = std::vector<std::size_t>;
+  [[nodiscard]] std::vector<Thing> things_in(const DeskewedScan& scan) const;
+  [[nodiscard]] bool is_good_part(std::size_t rays, const Thing& of) const;
+  void stand_where_hit(const DeskewedScan& scan, const Thing& thing, std::vector<bool>& stands) const;
+  void stand_along(const DeskewedScan& scan, const Thing& thing, GrazedSurface& surface,
+                   std::vector<bool>& stands) const;
   template <typename Ask>
   void ask_beside(Place middle, const Ask& ask, int reach = 1) const;
   template <typename Holds>

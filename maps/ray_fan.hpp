@@ -15,6 +15,11 @@ class RayFan {
   /// Does a ray pass the point within `aside_m` and go on for more than `before_end_m`?
   [[nodiscard]] bool passes(const Vec2& point_m, double aside_m, double before_end_m) const;
 
+  /// Is the point on a surface that the rays beside it graze? The nearest on either side, within `aside_m`,
+  /// meet it at a small angle, and between their ends, or up to `along_m` before or behind, it leads through
+  /// there.
+  [[nodiscard]] bool graze(const Vec2& point_m, double aside_m, double along_m) const;
+
   /// Do all rays that look past the point within `aside_m` go on for more than `before_end_m`, with one on
   /// either side of it within `gap_m`? Not if one of them was lost, or hit alone what is nearer than all
   /// around: it may have met what is there, with half of its spot (a mixed pixel). And not at the seam of a
@@ -29,6 +34,8 @@ class RayFan {
     double turn = 0.0;      ///< pseudo-angle in [0, 4)
     bool is_lost = false;   ///< an invalid echo: nothing is known but its direction
     bool is_alone = false;  ///< nearer than both beside it
+
+    [[nodiscard]] Vec2 end_m() const { return origin_m + length_m * way; }
   };
   /// How a ray looks past a point.
   struct Look {

@@ -44,6 +44,21 @@ TEST_F(RayFanTest, SaysWhatARayPasses) {
   EXPECT_FALSE(RayFan(scan_).passes(-place_m_, 0.01, kept_m)) << "where no ray looks";
 }
 
+/// A wall 10 cm to the left of beam 0: beam 8 ends 1.43 m away, beam 7 1.64 m, and so on.
+TEST_F(RayFanTest, GrazesAWallBesideIt) {
+  constexpr double wall_m = 0.1;
+  for (int beam = 1; beam <= 90; ++beam) end_at(beam, wall_m / std::sin(radians(0.5 * beam)));
+  const auto grazes = [&](double x_m, double y_m) { return RayFan(scan_).graze({x_m, y_m}, 0.05, kept_m); };
+  EXPECT_TRUE(grazes(1.4, wall_m));
+  EXPECT_TRUE(grazes(1.4, wall_m - 0.01));
+  EXPECT_FALSE(grazes(1.4, wall_m - 0.04)) << "in front of it";
+  EXPECT_FALSE(grazes(0.2, wall_m)) << "at more than ten degrees";
+  EXPECT_FALSE(grazes(4.9, wall_m)) << "where one ray ends more than 80 cm behind the other";
+  end_at(8, 1.4, Echo::invalid);
+  EXPECT_TRUE(grazes(1.4, wall_m)) << "as those beside the lost one show";
+  EXPECT_FALSE(RayFan(scan_).graze({-3.0, 0.0}, 0.05, kept_m)) << "a wall that is met at a right angle";
+}
+
 TEST_F(RayFanTest, IsPassedByAllWhereNothingIs) {
   EXPECT_TRUE(all_pass(place_m_));
   for (int beam = 0; beam < 720; ++beam) EXPECT_TRUE(all_pass(ray_at(beam, 3.0, Echo::hit).end_m)) << beam;
