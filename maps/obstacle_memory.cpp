@@ -81,8 +81,12 @@ void ObstacleMemory::hit(const Ray& ray) {
   std::int32_t& index = index_[wrapped(place.column, place.row)];
   if (index < 0) {
     index = static_cast<std::int32_t>(seen_.size());
-    seen_.push_back(
-        {.place = place, .mean_m = ray.end_m, .first_hit = stamp, .last_hit = stamp, .hit_beside = stamp});
+    seen_.push_back({.place = place,
+                     .mean_m = ray.end_m,
+                     .first_hit = stamp,
+                     .last_hit = stamp,
+                     .hit_beside = stamp,
+                     .judged_at = stamp});
   }
   Seen& seen = seen_[static_cast<std::size_t>(index)];
   if (!has_stood(seen) && is_broken_off(seen, stamp)) {
@@ -93,6 +97,7 @@ void ObstacleMemory::hit(const Ray& ray) {
   seen.hits = std::min(seen.hits + 1, most_hits);
   seen.mean_m += (ray.end_m - seen.mean_m) / seen.hits;
   seen.last_hit = std::max(seen.last_hit, stamp);
+  if (range_m(ray) <= LegOptions{}.within_m) seen.judged_at = stamp;
   seen.times_free = 0;
   seen.hit_now = true;
 }
@@ -187,7 +192,7 @@ void ObstacleMemory::forget(Stamp now, const Place& middle) {
 }
 
 bool ObstacleMemory::is_leg(const Seen& seen) const {
-  return seen.leg_at && seen.last_hit - *seen.leg_at < options_.not_a_leg_after;
+  return seen.leg_at && seen.judged_at - *seen.leg_at < options_.not_a_leg_after;
 }
 
 bool ObstacleMemory::has_stood(const Seen& seen) const {

@@ -30,9 +30,9 @@ struct ObstacleMemoryOptions {
   /// has stayed for so long was put there (chosen by hand).
   Duration to_stay = std::chrono::seconds(60);
   Duration just_before = std::chrono::seconds(3);  ///< in which a person has come, or has passed by
-  /// What has not looked like a leg for so long, though it was hit, is none: legs that pass close by a box
-  /// are hit in its cells. Legs, one behind the other or beside a wall, are rarely hidden for as
-  /// long.
+  /// What has not looked like a leg for so long, though it was hit from where legs can be told
+  /// (LegOptions::within_m), is none: legs that pass close by a box are hit in its cells. Legs, one behind
+  /// the other or beside a wall, are rarely hidden for as long.
   Duration not_a_leg_after = std::chrono::seconds(10);
   /// What has stood as a thing is no leg when it looks like one only from so near: the body that it carries
   /// would be where the robot is. From the scanner; of a robot of 25 cm, with 22 cm for the body and the
@@ -123,6 +123,7 @@ class ObstacleMemory {
     /// The floor here was seen free just before then, or beside here.
     std::optional<Stamp> came_at;
     std::optional<Stamp> leg_at;  ///< what may be a leg was hit last
+    Stamp judged_at;              ///< hit last from where legs can be told
   };
 
   [[nodiscard]] Place place_of(const Vec2& point_m) const;

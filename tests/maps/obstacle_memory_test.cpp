@@ -278,6 +278,27 @@ TEST(ObstacleMemory, LegsThatStandStayLegs) {
   }
 }
 
+/// From farther away than legs can be told, what was one stays one while it is hit.
+TEST(ObstacleMemory, ALegStaysOneSeenFromFarAway) {
+  Random random(21);
+  ObstacleMemory memory;
+  const auto look_from = [&](double scanner_x_m, double at_s) {
+    const Vec2 scanner_m(scanner_x_m, 0.0);
+    DeskewedScan scan = scan_of({{Vec2(6.0, 0.0) - scanner_m, 0.06}}, at_s, random);
+    for (Ray& ray : scan.rays) {
+      ray.origin_m += scanner_m;
+      ray.end_m += scanner_m;
+    }
+    memory.add(scan);
+  };
+  for (int scans = 0; scans < 130; ++scans) look_from(4.0, 0.1 * scans);
+  ASSERT_TRUE(memory.has_legs({5.94, 0.0}));
+  for (int scans = 130; scans < 600; ++scans) {  // cells that are not hit any more are forgotten
+    look_from(1.0, 0.1 * scans);
+    ASSERT_TRUE(memory.has_legs({5.94, 0.0})) << scans;
+  }
+}
+
 TEST(ObstacleMemory, OutOfSightWhatMovedIsForgottenBeforeWhatStood) {
   Random random(4);
   ObstacleMemory memory;
