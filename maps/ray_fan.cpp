@@ -1,7 +1,6 @@
 #include "maps/ray_fan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lodestar {
@@ -91,31 +90,35 @@ bool RayFan::passes(const Vec2& point_m, double aside_m, double before_end_m) co
   return has_passed;
 }
 
+std::array<const RayFan::Line*, 2> RayFan::nearest_beside(const Vec2& point_m, double aside_m) const {
+  std::array<const Line*, 2> nearest{};
+  std::array<double, 2> nearest_m{aside_m, aside_m};
+  ask_beside(point_m, aside_m, [&](const Look& look) {
+    const std::size_t side = look.aside_m < 0.0 ? 0 : 1;
+    if (look.line.is_lost || std::abs(look.aside_m) >= nearest_m[side]) return true;
+    nearest_m[side] = std::abs(look.aside_m);
+    nearest[side] = &look.line;
+    return true;
+  });
+  return nearest;
+}
+
 bool RayFan::graze(const Vec2& point_m, double aside_m, double along_m) const {
   constexpr double joins_m = 0.8;         // ends farther apart are of different things
   constexpr double least_cosine = 0.985;  // 10 degrees: at more, each cell of a surface is hit in each scan
   // 3 standard deviations of the range, and half a degree by which the odometry frame has turned since.
   constexpr double off_m = 0.015;
   constexpr double off_per_m = 0.01;
-  std::array<const Line*, 2> beside{};
-  std::array<double, 2> nearest_m{aside_m, aside_m};
-  ask_beside(point_m, aside_m, [&](const Look& look) {
-    const std::size_t side = look.aside_m < 0.0 ? 0 : 1;
-    if (look.line.is_lost || std::abs(look.aside_m) >= nearest_m[side]) return true;
-    nearest_m[side] = std::abs(look.aside_m);
-    beside[side] = &look.line;
-    return true;
-  });
-  if (beside[0] == nullptr || beside[1] == nullptr) return false;
-  const Vec2 from_m = beside[0]->end_m();
-  const Vec2 surface = beside[1]->end_m() - from_m;
+  const auto [left, right] = nearest_beside(point_m, aside_m);
+  if (left == nullptr || right == nullptr) return false;
+  const Vec2 surface = right->end_m() - left->end_m();
   const double length_m = surface.norm();
   if (length_m == 0.0 || length_m > joins_m) return false;
   const Vec2 way = surface / length_m;
-  const double at_m = way.dot(point_m - from_m);
-  return std::abs(way.dot(beside[0]->way)) >= least_cosine && at_m >= -along_m &&
-         at_m <= length_m + along_m &&
-         std::abs(cross(way, point_m - from_m)) <= off_m + off_per_m * beside[0]->length_m;
+  const Vec2 offset = point_m - left->end_m();
+  const double at_m = way.dot(offset);
+  return std::abs(way.dot(left->way)) >= least_cosine && at_m >= -along_m && at_m <= length_m + along_m &&
+         std::abs(cross(way, offset)) <= off_m + off_per_m * left->length_m;
 }
 
 bool RayFan::all_pass(const Vec2& point_m, double aside_m, double before_end_m, double gap_m) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -44,6 +45,8 @@ class RayFan {
     double beyond_m = 0.0;  ///< how far it goes on
   };
 
+  /// That were not lost: with the point on their right, and on their left; null where there is none.
+  [[nodiscard]] std::array<const Line*, 2> nearest_beside(const Vec2& point_m, double aside_m) const;
   template <typename More>
   void ask_beside(const Vec2& point_m, double aside_m, const More& more) const;
 

@@ -37,21 +37,22 @@ struct Counted {
   int standing = 0;
 };
 
-/// From 1.1 to 1.7 m away, after legs would stand too.
-template <typename Look>
-Counted count_on_row(const Look& look) {
+constexpr int scans_to_stand = 130;  ///< also as legs
+
+/// Of the hits that `are_asked_for`, in the scans after those that it takes to stand.
+template <typename Look, typename Asked>
+Counted count_standing(int scans, const Look& look, const Asked& are_asked_for) {
   Counted counted;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
     Random random(seed);
     ObstacleMemory memory;
-    for (int scans = 0; scans < 200; ++scans) {
-      const DeskewedScan scan = look(0.1 * scans, random);
+    for (int scan_number = 0; scan_number < scans; ++scan_number) {
+      const DeskewedScan scan = look(scan_number, random);
       memory.add(scan);
-      if (scans < 130) continue;
+      if (scan_number < scans_to_stand) continue;
       const std::vector<bool> stands = memory.standing(scan);
       for (std::size_t i = 0; i < stands.size(); ++i) {
-        const double away_m = range_m(scan.rays[i]);
-        if (!ends_at_something(scan.rays[i]) || away_m < 1.1 || away_m > 1.7) continue;
+        if (!ends_at_something(scan.rays[i]) || !are_asked_for(scan.rays[i])) continue;
         ++counted.hits;
         counted.standing += stands[i] ? 1 : 0;
       }
@@ -60,13 +61,17 @@ Counted count_on_row(const Look& look) {
   return counted;
 }
 
+bool is_over_a_metre_away(const Ray& ray) {
+  return range_m(ray) >= 1.1 && range_m(ray) <= 1.7;
+}
+
 /// As a robot sees it that stands in a gap of it: each ray passes close by what the one beside it hits. It
 /// took parts of the row for people, a metre away, and neither drove on nor turned.
 TEST(GrazedSurface, StandsThoughRaysPassCloseBy) {
   for (const double aside_m : {0.09, 0.13}) {
     const std::vector<ScanDisc> row = row_beside(aside_m);
-    const Counted counted =
-        count_on_row([&](double at_s, Random& random) { return scan_of(row, at_s, random); });
+    const auto look = [&](int scan, Random& random) { return scan_of(row, 0.1 * scan, random); };
+    const Counted counted = count_standing(200, look, is_over_a_metre_away);
     EXPECT_GT(counted.standing, 0.99 * counted.hits)
         << "of " << counted.hits << ", " << aside_m << " m aside";
   }
@@ -75,34 +80,22 @@ TEST(GrazedSurface, StandsThoughRaysPassCloseBy) {
 TEST(GrazedSurface, StandsThoughRaysHitItNowHereNowThere) {
   for (const double aside_m : {0.05, 0.07}) {
     const std::vector<ScanDisc> row = row_beside(aside_m);
-    const Counted counted =
-        count_on_row([&](double at_s, Random& random) { return turned_scan(row, at_s, random); });
+    const auto look = [&](int scan, Random& random) { return turned_scan(row, 0.1 * scan, random); };
+    const Counted counted = count_standing(200, look, is_over_a_metre_away);
     EXPECT_GT(counted.standing, 0.9 * counted.hits) << "of " << counted.hits << ", " << aside_m << " m aside";
   }
 }
 
 /// Who walks out from behind the end of a wall beside the robot, across its line.
 TEST(GrazedSurface, IsNotWhoWalksOutBehindItsEnd) {
-  int hits = 0;
-  int standing = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
-    Random random(seed);
-    ObstacleMemory memory;
-    for (int scans = 0; scans < 150; ++scans) {
-      std::vector<ScanDisc> discs = row_beside(0.07, 8);  // to a metre
-      const Vec2 walker_m(0.5 - 0.05 * (scans - 135), 1.3);
-      if (scans >= 130) discs.push_back({walker_m, 0.15});
-      const DeskewedScan scan = turned_scan(discs, 0.1 * scans, random);
-      memory.add(scan);
-      if (scans < 130) continue;
-      const std::vector<bool> stands = memory.standing(scan);
-      for (std::size_t i = 0; i < stands.size(); ++i) {
-        const bool hits_them = ends_at_something(scan.rays[i]) && scan.rays[i].end_m.y() > 1.1;
-        hits += hits_them ? 1 : 0;
-        standing += hits_them && stands[i] ? 1 : 0;
-      }
-    }
-  }
+  const auto look = [](int scan, Random& random) {
+    std::vector<ScanDisc> discs = row_beside(0.07, 8);  // to a metre
+    const Vec2 walker_m(0.5 - 0.05 * (scan - 135), 1.3);
+    if (scan >= scans_to_stand) discs.push_back({walker_m, 0.15});
+    return turned_scan(discs, 0.1 * scan, random);
+  };
+  const auto hits_them = [](const Ray& ray) { return ray.end_m.y() > 1.1; };
+  const auto [hits, standing] = count_standing(150, look, hits_them);
   EXPECT_GT(hits, 100);
   EXPECT_LE(standing, 0.02 * hits);
 }
