@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "maps/occupancy_map.hpp"
+#include "maps/smoothed_ends.hpp"
 
 namespace lodestar {
 namespace {
@@ -67,26 +68,23 @@ void ObstacleMemory::add(const DeskewedScan& scan) {
 }
 
 void ObstacleMemory::mark_hits(const DeskewedScan& scan, const Place& middle) {
-  for (const Ray& ray : scan.rays) {
-    if (!ends_at_something(ray)) continue;
-    if ((ray.end_m - center_m(middle)).lpNorm<Eigen::Infinity>() > options_.half_extent_m) continue;
-    hit(ray);
+  const std::vector<Vec2> surface_m = smoothed_ends_m(scan);
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    const Ray& ray = scan.rays[i];
+    const double from_middle_m = (ray.end_m - center_m(middle)).lpNorm<Eigen::Infinity>();
+    if (ends_at_something(ray) && from_middle_m <= options_.half_extent_m) hit(ray, surface_m[i]);
   }
 }
 
-void ObstacleMemory::hit(const Ray& ray) {
+void ObstacleMemory::hit(const Ray& ray, const Vec2& surface_m) {
   constexpr int most_hits = 16;  // in the mean: what moves on within the cell is followed
   const Place place = place_of(ray.end_m);
   const Stamp stamp = ray.stamp;
   std::int32_t& index = index_[wrapped(place.column, place.row)];
   if (index < 0) {
     index = static_cast<std::int32_t>(seen_.size());
-    seen_.push_back({.place = place,
-                     .mean_m = ray.end_m,
-                     .first_hit = stamp,
-                     .last_hit = stamp,
-                     .hit_beside = stamp,
-                     .judged_at = stamp});
+    seen_.push_back(
+        {.place = place, .first_hit = stamp, .last_hit = stamp, .hit_beside = stamp, .judged_at = stamp});
   }
   Seen& seen = seen_[static_cast<std::size_t>(index)];
   if (!has_stood(seen) && is_broken_off(seen, stamp)) {
@@ -96,6 +94,7 @@ void ObstacleMemory::hit(const Ray& ray) {
   if (seen.first_hit == stamp) seen.came_at = came_at(place, stamp);
   seen.hits = std::min(seen.hits + 1, most_hits);
   seen.mean_m += (ray.end_m - seen.mean_m) / seen.hits;
+  seen.surface_m += (surface_m - seen.surface_m) / seen.hits;
   seen.last_hit = std::max(seen.last_hit, stamp);
   if (range_m(ray) <= LegOptions{}.within_m) seen.judged_at = stamp;
   seen.times_free = 0;
@@ -326,7 +325,7 @@ void ObstacleMemory::stand_along(const DeskewedScan& scan, const Thing& thing, G
 std::vector<Vec2> ObstacleMemory::standing_m(Stamp now) const {
   std::vector<Vec2> points_m;
   for (const Seen& seen : seen_)
-    if (has_stood(seen) && is_remembered(seen, now)) points_m.push_back(seen.mean_m);
+    if (has_stood(seen) && is_remembered(seen, now)) points_m.push_back(seen.surface_m);
   return points_m;
 }
 
@@ -334,7 +333,7 @@ std::vector<Vec2> ObstacleMemory::standing_people_m(Stamp now) const {
   std::vector<Vec2> points_m;
   for (const Seen& seen : seen_)
     if ((is_leg(seen) || came_lately(seen)) && has_stood(seen) && is_remembered(seen, now))
-      points_m.push_back(seen.mean_m);
+      points_m.push_back(seen.surface_m);
   return points_m;
 }
 

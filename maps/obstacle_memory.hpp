@@ -114,8 +114,11 @@ class ObstacleMemory {
   struct Seen {
     Place place;
     Vec2 mean_m = Vec2::Zero();  ///< of the newest hits
-    int hits = 0;                ///< in the mean
-    Stamp first_hit;             ///< of an unbroken row of hits
+    /// The same, each hit smoothed along the surface: a cell in front of it, that noise alone hits, would
+    /// narrow a gap.
+    Vec2 surface_m = Vec2::Zero();
+    int hits = 0;     ///< in the mean
+    Stamp first_hit;  ///< of an unbroken row of hits
     Stamp last_hit;
     std::uint8_t times_free = 0;  ///< in a row
     bool hit_now = false;
@@ -157,7 +160,7 @@ class ObstacleMemory {
   [[nodiscard]] bool any_beside(const Vec2& point_m, const Holds& holds) const;
   [[nodiscard]] bool is_remembered(const Seen& seen, Stamp now) const;
   void mark_hits(const DeskewedScan& scan, const Place& middle);
-  void hit(const Ray& ray);
+  void hit(const Ray& ray, const Vec2& surface_m);
   void mark_legs(const DeskewedScan& scan);
   void note_hits_beside(Stamp now);
   [[nodiscard]] bool is_broken_off(const Seen& seen, Stamp now) const;

@@ -7,8 +7,8 @@
 
 #include "app/navigation/path_obstacles.hpp"
 #include "app/navigation/scanner_stops.hpp"
-#include "localization/scan/smoothed_ends.hpp"
 #include "localization/scan/veil.hpp"
+#include "maps/smoothed_ends.hpp"
 
 namespace lodestar {
 namespace {
@@ -49,7 +49,8 @@ Surroundings::Surroundings(const SurroundingsOptions& options)
       memory_(memory_around(options)),
       lingering_(options.lingering),
       release_(options.release),
-      holding_(options.holding) {
+      holding_(options.holding),
+      detours_(options.detours) {
   if (!options.depth) return;
   ObstacleMemoryOptions memory = memory_around(options);
   memory.seen_free_within_m = 0.7 * options.depth->mount.range_m;  // beyond, noise lets edges come and go
@@ -283,19 +284,18 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped, 
 std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, const MappedPose& mapped,
                                                                     const Path& path,
                                                                     std::span<const Goal> goals) {
-  if (path.waypoints_m.empty() || (last_look_ && now - *last_look_ < options_.between_detours))
-    return std::nullopt;
+  if (path.waypoints_m.empty() || !detours_.may_change(now)) return std::nullopt;
   if (!field_scan_ || looked_at_ == field_scan_->newest) return std::nullopt;
   looked_at_ = field_scan_->newest;
   std::vector<Vec2> roomy_m = unmapped_m(now, mapped, goals, options_.roomy);
+  const Vec2& robot_m = path.waypoints_m.front();
   const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
   const bool is_blocked = std::ranges::any_of(roomy_m, [&](const Vec2& point_m) {
     const double from_path_m = distance_to_path_m(path, point_m);
-    const double from_robot_m = (path.waypoints_m.front() - point_m).norm();
-    return from_path_m < within_m && from_path_m < from_robot_m;
+    return from_path_m < within_m && from_path_m < (robot_m - point_m).norm();
   });
   if (!is_blocked) return std::nullopt;
-  last_look_ = now;
+  detours_.changed(now, robot_m);
   return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, goals, options_.tight)};
 }
 

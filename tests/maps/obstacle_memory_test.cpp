@@ -298,6 +298,27 @@ TEST(ObstacleMemory, ALegStaysOneSeenFromFarAway) {
   }
 }
 
+/// A point in front of it narrows a gap: cells there are hit by the noise of the range alone.
+TEST(ObstacleMemory, WhatStandsIsWhereItsSurfaceIs) {
+  for (const double post_m : {0.075, 0.2}) {
+    int points = 0;
+    int in_front = 0;
+    for (int seed = 0; seed < 20; ++seed) {
+      Random random(100 + seed);
+      const Vec2 middle_m(1.0, 0.3 + 0.003 * seed);
+      ObstacleMemory memory;
+      for (int scans = 0; scans < 300; ++scans)
+        memory.add(scan_of({Disc{middle_m, post_m}}, 0.1 * scans, random));
+      for (const Vec2& point_m : memory.standing_m(Stamp(from_seconds(29.9)))) {
+        ++points;
+        if ((point_m - middle_m).norm() > post_m + 0.015) ++in_front;
+      }
+    }
+    EXPECT_GE(points, 40);
+    EXPECT_LE(in_front, 0.02 * points) << post_m;
+  }
+}
+
 TEST(ObstacleMemory, OutOfSightWhatMovedIsForgottenBeforeWhatStood) {
   Random random(4);
   ObstacleMemory memory;

@@ -1,4 +1,4 @@
-#include "localization/scan/smoothed_ends.hpp"
+#include "maps/smoothed_ends.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
