@@ -158,7 +158,9 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   switch (hit.presence) {
     case Presence::legs:
       if (distance_m >= margin) return stays_clear(path, hit, margin);
-      if (distance_m < options_.body_m) return comes_no_nearer(path, hit, distance_m);
+      // It came there before that looked like legs, and must get away: off, past what is beside it and
+      // behind, or on the spot. Only a command to drive could bring it nearer step by step: without slack.
+      if (distance_m < options_.body_m) return stays_clear(path, hit, distance_m);
       return stays_clear(path, hit, std::max(options_.body_m, distance_m - slack_m));
     case Presence::standing: {
       const double room_m = least_room_m < margin ? least_room_m - slack_m : margin;
@@ -169,16 +171,12 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   }
 }
 
-/// Off, past what is beside it and behind, or on the spot: it came there before that looked like legs, and
-/// must get away. Only a command to drive could bring it nearer step by step, so that has no slack.
-bool ProtectiveField::comes_no_nearer(const BrakingPath& path, const FieldHit& hit, double distance_m) const {
-  return stays_clear(path, hit, distance_m - (path.is_turn() ? options_.turn_drift_m : 0.0));
-}
-
+/// A disc that turns on the spot comes no nearer to anything, but for the noise of its wheels.
 bool ProtectiveField::stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const {
   constexpr double rounding_m = 1e-9;
+  const double drift_m = path.is_turn() && shape_.is_disc() ? options_.turn_drift_m : 0.0;
   return std::ranges::all_of(path.steps(), [&](const BrakingPath::Step& step) {
-    return shape_.distance_m(inverse(step.end) * hit.point_in_base) >= room_m - rounding_m;
+    return shape_.distance_m(inverse(step.end) * hit.point_in_base) >= room_m - drift_m - rounding_m;
   });
 }
 

@@ -55,7 +55,6 @@ class ProtectiveField {
   [[nodiscard]] bool is_safe(const BrakingPath& path, const FieldHit& hit, double distance_m,
                              double least_room_m) const;
   [[nodiscard]] bool stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const;
-  [[nodiscard]] bool comes_no_nearer(const BrakingPath& path, const FieldHit& hit, double distance_m) const;
   [[nodiscard]] bool rests_in_time(const BrakingPath& path, const FieldHit& hit) const;
   [[nodiscard]] double within_m(const BodyVelocity& measured, const BodyVelocity& wanted) const;
 

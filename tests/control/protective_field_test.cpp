@@ -171,7 +171,7 @@ TEST(ProtectiveField, BesideWhatItHasComeUpToItTurnsOnTheSpot) {
   const ProtectiveFieldOptions options;
   for (const auto& [presence, distance_m] : {std::pair(Presence::legs, options.body_margin_m),
                                              std::pair(Presence::standing, options.standing_margin_m)}) {
-    for (const double noise_m : {-0.009, -0.002, 0.003}) {
+    for (const double noise_m : {-0.012, -0.009, -0.002, 0.0001, 0.003}) {
       for (const double rolls_mps : {-0.002, 0.0, 0.002}) {
         const std::vector<FieldHit> hits{hit(radius_m + distance_m + noise_m, 0.0, presence)};
         EXPECT_EQ(disc_field().limit(hits, {rolls_mps, 0.1}, {0.0, 0.1}).share, 1.0)
