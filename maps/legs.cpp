@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <numbers>
 
+#include "maps/scan_pieces.hpp"
+
 namespace lodestar {
 namespace {
 
 struct Thing {
-  std::vector<std::size_t> rays;
+  ScanPiece rays;
   Vec2 middle_m = Vec2::Zero();
   double width_m = 0.0;
 };
@@ -25,23 +27,18 @@ Thing measured(Thing thing, const DeskewedScan& scan) {
 /// What is near, split where neighbouring hits lie too far apart for one leg. A turn may begin in the middle
 /// of a thing.
 std::vector<Thing> near_things(const DeskewedScan& scan, const LegOptions& options) {
-  const auto joins = [&](std::size_t before, std::size_t ray) {
-    const double gap_m = std::max(options.least_gap_m, options.gap_rad * range_m(scan.rays[ray]));
-    return (scan.rays[ray].end_m - scan.rays[before].end_m).norm() <= gap_m;
+  const auto is_near = [&](const Ray& ray) { return range_m(ray) <= options.within_m; };
+  const auto joins = [&](const Ray& before, const Ray& ray) {
+    const double gap_m = std::max(options.least_gap_m, options.gap_rad * range_m(ray));
+    return (ray.end_m - before.end_m).norm() <= gap_m;
   };
-  std::vector<std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    const Ray& ray = scan.rays[i];
-    if (!ends_at_something(ray) || range_m(ray) > options.within_m) continue;
-    if (groups.empty() || !joins(groups.back().back(), i)) groups.emplace_back();
-    groups.back().push_back(i);
-  }
-  if (groups.size() > 1 && joins(groups.back().back(), groups.front().front())) {
-    groups.back().insert(groups.back().end(), groups.front().begin(), groups.front().end());
-    groups.erase(groups.begin());
+  std::vector<ScanPiece> pieces = pieces_of(scan, is_near, joins);
+  if (pieces.size() > 1 && joins(scan.rays[pieces.back().back()], scan.rays[pieces.front().front()])) {
+    pieces.back().insert(pieces.back().end(), pieces.front().begin(), pieces.front().end());
+    pieces.erase(pieces.begin());
   }
   std::vector<Thing> things;
-  for (std::vector<std::size_t>& rays : groups) things.push_back(measured({.rays = std::move(rays)}, scan));
+  for (ScanPiece& rays : pieces) things.push_back(measured({.rays = std::move(rays)}, scan));
   return things;
 }
 

@@ -90,12 +90,17 @@ void ObstacleMemory::hit(const Ray& ray, const Vec2& surface_m) {
   if (!has_stood(seen) && is_broken_off(seen, stamp)) {
     seen.first_hit = stamp;
     seen.hits = 0;
+    seen.came_at.reset();
+    seen.has_come = false;
   }
-  if (seen.first_hit == stamp) seen.came_at = came_at(place, stamp);
+  if (seen.hits == 0 && was_seen_free(place, stamp)) seen.came_at = stamp;
+  if (!seen.came_at && !has_stood(seen)) seen.came_at = came_beside_at(place, stamp);
   seen.hits = std::min(seen.hits + 1, most_hits);
   seen.mean_m += (ray.end_m - seen.mean_m) / seen.hits;
   seen.surface_m += (surface_m - seen.surface_m) / seen.hits;
   seen.last_hit = std::max(seen.last_hit, stamp);
+  const double to_come = std::max<double>(options_.hits_to_come, options_.hits_to_come_m / range_m(ray));
+  seen.has_come = seen.has_come || (seen.came_at && seen.hits >= std::min<double>(to_come, most_hits));
   if (range_m(ray) <= LegOptions{}.within_m) seen.judged_at = stamp;
   seen.times_free = 0;
   seen.hit_now = true;
@@ -202,7 +207,7 @@ bool ObstacleMemory::has_stood(const Seen& seen) const {
 }
 
 bool ObstacleMemory::came_lately(const Seen& seen) const {
-  return seen.came_at && seen.last_hit - *seen.came_at < options_.to_stay;
+  return seen.has_come && seen.last_hit - *seen.came_at < options_.to_stay;
 }
 
 bool ObstacleMemory::is_remembered(const Seen& seen, Stamp now) const {
@@ -210,11 +215,10 @@ bool ObstacleMemory::is_remembered(const Seen& seen, Stamp now) const {
 }
 
 /// Who stands and sways a little, or is pushed along, has come when the cells beside did.
-std::optional<Stamp> ObstacleMemory::came_at(Place place, Stamp now) const {
-  if (was_seen_free(place, now)) return now;
+std::optional<Stamp> ObstacleMemory::came_beside_at(Place place, Stamp now) const {
   std::optional<Stamp> latest;
   ask_beside(place, [&](const Seen& seen) {
-    if (seen.came_at && is_remembered(seen, now))
+    if (seen.has_come && is_remembered(seen, now))
       latest = std::max(latest.value_or(*seen.came_at), *seen.came_at);
   });
   return latest;
@@ -237,7 +241,7 @@ bool ObstacleMemory::is_part_of_a_thing(Place place) const {
   bool has_thing = false;
   bool may_be_someone = false;
   const auto ask = [&](const Seen& seen) {
-    may_be_someone = may_be_someone || is_leg(seen) || seen.came_at;
+    may_be_someone = may_be_someone || is_leg(seen) || seen.has_come;
     has_thing = has_thing || has_stood(seen);
   };
   ask_beside(place, ask, 2);
@@ -249,7 +253,7 @@ bool ObstacleMemory::has_legs(const Vec2& point_m) const {
 }
 
 bool ObstacleMemory::has_come(const Vec2& point_m) const {
-  return any_beside(point_m, [](const Seen& seen) { return seen.came_at.has_value(); });
+  return any_beside(point_m, [](const Seen& seen) { return seen.has_come; });
 }
 
 bool ObstacleMemory::may_go(const Vec2& point_m) const {
@@ -257,38 +261,28 @@ bool ObstacleMemory::may_go(const Vec2& point_m) const {
          any_beside(point_m, [&](const Seen& seen) { return is_leg(seen) || came_lately(seen); });
 }
 
-std::vector<ObstacleMemory::Thing> ObstacleMemory::things_in(const DeskewedScan& scan) const {
-  std::vector<Thing> things;
-  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    const Ray& ray = scan.rays[i];
-    if (!ends_at_something(ray)) continue;
-    const bool joins =
-        !things.empty() && (ray.end_m - scan.rays[things.back().back()].end_m).norm() <= options_.joins_m;
-    if (!joins) things.emplace_back();
-    things.back().push_back(i);
-  }
-  return things;
-}
-
-bool ObstacleMemory::is_good_part(std::size_t rays, const Thing& of) const {
+bool ObstacleMemory::is_good_part(std::size_t rays, const ScanPiece& of) const {
   return static_cast<double>(rays) >= options_.standing_share * static_cast<double>(of.size());
 }
 
 std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
-  const std::vector<Thing> things = things_in(scan);
+  const auto joins = [&](const Ray& before, const Ray& ray) {
+    return (ray.end_m - before.end_m).norm() <= options_.joins_m;
+  };
+  const std::vector<ScanPiece> things = pieces_of(scan, ends_at_something, joins);
   std::vector<bool> stands(scan.rays.size(), false);
-  for (const Thing& thing : things) stand_where_hit(scan, thing, stands);
+  for (const ScanPiece& thing : things) stand_where_hit(scan, thing, stands);
   GrazedSurface to_left;
-  for (const Thing& thing : things) stand_along(scan, thing, to_left, stands);
+  for (const ScanPiece& thing : things) stand_along(scan, thing, to_left, stands);
   GrazedSurface to_right;
   for (std::size_t i = things.size(); i-- > 0;)
-    stand_along(scan, Thing(things[i].rbegin(), things[i].rend()), to_right, stands);
+    stand_along(scan, ScanPiece(things[i].rbegin(), things[i].rend()), to_right, stands);
   return stands;
 }
 
-void ObstacleMemory::stand_where_hit(const DeskewedScan& scan, const Thing& thing,
+void ObstacleMemory::stand_where_hit(const DeskewedScan& scan, const ScanPiece& thing,
                                      std::vector<bool>& stands) const {
-  Thing stood;  // each by itself
+  ScanPiece stood;  // each by itself
   for (const std::size_t i : thing)
     if (stands_at(scan.rays[i].end_m, scan.newest)) stood.push_back(i);
   if (!is_good_part(stood.size(), thing)) return;
@@ -303,9 +297,9 @@ void ObstacleMemory::stand_where_hit(const DeskewedScan& scan, const Thing& thin
 
 /// Along a wall that they graze rays end far apart, and in other cells in each scan. Where what stands leads
 /// on, away from the scanner, it stands too, unless someone has come there.
-void ObstacleMemory::stand_along(const DeskewedScan& scan, const Thing& thing, GrazedSurface& surface,
+void ObstacleMemory::stand_along(const DeskewedScan& scan, const ScanPiece& thing, GrazedSurface& surface,
                                  std::vector<bool>& stands) const {
-  Thing led_to;
+  ScanPiece led_to;
   std::size_t standing = 0;
   for (const std::size_t i : thing) {
     const Ray& ray = scan.rays[i];

@@ -10,6 +10,7 @@
 #include "maps/grazed_surface.hpp"
 #include "maps/legs.hpp"
 #include "maps/ray_fan.hpp"
+#include "maps/scan_pieces.hpp"
 #include "maps/scan_rays.hpp"
 #include "maps/stamp.hpp"
 
@@ -26,6 +27,10 @@ struct ObstacleMemoryOptions {
   /// Where the floor was seen free just before, what is hit has come by itself: someone who has stopped, and
   /// may walk on at once. So may who has legs. Chosen by hand.
   Duration to_stand_as_a_person = std::chrono::seconds(10);
+  /// What fewer beams have hit in a row may be a mixed pixel beside what stands, and is nobody yet: three, and
+  /// nearer than 3 m, of beams half a degree apart, half of those that hit a cell in three scans.
+  int hits_to_come = 3;
+  double hits_to_come_m = 8.5;  ///< times the range
   /// What has come and shows no legs may be in a coat or a wheelchair, or be a robot, and go as well; what
   /// has stayed for so long was put there (chosen by hand).
   Duration to_stay = std::chrono::seconds(60);
@@ -125,6 +130,7 @@ class ObstacleMemory {
     Stamp hit_beside;  ///< last, here or in a cell beside
     /// The floor here was seen free just before then, or beside here.
     std::optional<Stamp> came_at;
+    bool has_come = false;        ///< then, by more than a mixed pixel
     std::optional<Stamp> leg_at;  ///< what may be a leg was hit last
     Stamp judged_at;              ///< hit last from where legs can be told
   };
@@ -146,13 +152,10 @@ class ObstacleMemory {
   [[nodiscard]] bool is_part_of_a_thing(Place place) const;
   [[nodiscard]] bool has_come_to(const Vec2& point_m) const;
   [[nodiscard]] bool was_seen_free(Place place, Stamp before) const;
-  [[nodiscard]] std::optional<Stamp> came_at(Place place, Stamp now) const;
-  /// Rays side by side that hit one piece.
-  using Thing = std::vector<std::size_t>;
-  [[nodiscard]] std::vector<Thing> things_in(const DeskewedScan& scan) const;
-  [[nodiscard]] bool is_good_part(std::size_t rays, const Thing& of) const;
-  void stand_where_hit(const DeskewedScan& scan, const Thing& thing, std::vector<bool>& stands) const;
-  void stand_along(const DeskewedScan& scan, const Thing& thing, GrazedSurface& surface,
+  [[nodiscard]] std::optional<Stamp> came_beside_at(Place place, Stamp now) const;
+  [[nodiscard]] bool is_good_part(std::size_t rays, const ScanPiece& of) const;
+  void stand_where_hit(const DeskewedScan& scan, const ScanPiece& thing, std::vector<bool>& stands) const;
+  void stand_along(const DeskewedScan& scan, const ScanPiece& thing, GrazedSurface& surface,
                    std::vector<bool>& stands) const;
   template <typename Ask>
   void ask_beside(Place middle, const Ask& ask, int reach = 1) const;

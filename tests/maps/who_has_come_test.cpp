@@ -111,6 +111,26 @@ TEST(WhoHasCome, IsKnownAfterTheScannerWasBlind) {
   }
 }
 
+/// One beam that hits beside an edge in every scan: a mixed pixel. A walking stick is hit by several.
+TEST(WhoHasCome, IsHitByMoreThanOneBeam) {
+  const Vec2 place_m(0.62, 0.02);
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    for (const bool is_someone : {false, true}) {
+      Random random(seed);
+      ObstacleMemory memory;
+      for (int scans = 0; scans < 36; ++scans) {
+        const bool is_there = scans >= 30;
+        const std::vector<ScanDisc> stick{{place_m + Vec2(0.01, 0.0), 0.01}};
+        DeskewedScan scan =
+            scan_of(is_there && is_someone ? stick : std::vector<ScanDisc>(), scan_s * scans, random);
+        if (is_there && !is_someone) scan.rays[4] = {scan.newest, Vec2::Zero(), place_m, Echo::hit};
+        memory.add(scan);
+      }
+      EXPECT_EQ(memory.has_come(place_m), is_someone) << seed;
+    }
+  }
+}
+
 /// A disc of 25 cm that comes from the side at 1 m/s, and stands there after four seconds.
 class Stander {
  public:
