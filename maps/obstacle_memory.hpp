@@ -27,8 +27,8 @@ struct ObstacleMemoryOptions {
   /// Where the floor was seen free just before, what is hit has come by itself: someone who has stopped, and
   /// may walk on at once. So may who has legs. Chosen by hand.
   Duration to_stand_as_a_person = std::chrono::seconds(10);
-  /// What fewer beams have hit in a row may be a mixed pixel beside what stands, and is nobody yet: three, and
-  /// nearer than 3 m, of beams half a degree apart, half of those that hit a cell in three scans.
+  /// What fewer beams have hit in a row may be a mixed pixel beside what stands, and is nobody yet: three,
+  /// and nearer than 3 m, of beams half a degree apart, half of those that hit a cell in three scans.
   int hits_to_come = 3;
   double hits_to_come_m = 8.5;  ///< times the range
   /// What has come and shows no legs may be in a coat or a wheelchair, or be a robot, and go as well; what

@@ -49,8 +49,7 @@ Surroundings::Surroundings(const SurroundingsOptions& options)
       memory_(memory_around(options)),
       lingering_(options.lingering),
       release_(options.release),
-      holding_(options.holding),
-      detours_(options.detours) {
+      holding_(options.holding) {
   if (!options.depth) return;
   ObstacleMemoryOptions memory = memory_around(options);
   memory.seen_free_within_m = 0.7 * options.depth->mount.range_m;  // beyond, noise lets edges come and go
@@ -252,7 +251,8 @@ std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& 
 
 UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped,
                                          std::span<const Goal> goals) const {
-  return {unmapped_m(now, mapped, goals, options_.roomy), unmapped_m(now, mapped, goals, options_.tight)};
+  return {unmapped_m(now, mapped, goals, options_.roomy), unmapped_m(now, mapped, goals, options_.tight),
+          unmapped_m(now, mapped, goals, RoomAround{})};
 }
 
 std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped, std::span<const Goal> goals,
@@ -284,7 +284,8 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped, 
 std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, const MappedPose& mapped,
                                                                     const Path& path,
                                                                     std::span<const Goal> goals) {
-  if (path.waypoints_m.empty() || !detours_.may_change(now)) return std::nullopt;
+  if (path.waypoints_m.empty() || (last_detour_ && now - *last_detour_ < options_.between_detours))
+    return std::nullopt;
   if (!field_scan_ || looked_at_ == field_scan_->newest) return std::nullopt;
   looked_at_ = field_scan_->newest;
   std::vector<Vec2> roomy_m = unmapped_m(now, mapped, goals, options_.roomy);
@@ -295,8 +296,9 @@ std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, c
     return from_path_m < within_m && from_path_m < (robot_m - point_m).norm();
   });
   if (!is_blocked) return std::nullopt;
-  detours_.changed(now, robot_m);
-  return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, goals, options_.tight)};
+  last_detour_ = now;
+  return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, goals, options_.tight),
+                           unmapped_m(now, mapped, goals, RoomAround{})};
 }
 
 }  // namespace lodestar

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "app/navigation/detour_backoff.hpp"
 #include "app/navigation/holding_points.hpp"
 #include "app/navigation/lingering_people.hpp"
 #include "app/navigation/seen_surroundings.hpp"
@@ -55,7 +54,8 @@ struct SurroundingsOptions {
   ScannerWatchOptions watch;
   MapContradictionOptions contradiction;
   HoldingPointsOptions holding;
-  DetourBackoffOptions detours;
+  /// A path is looked at no more often than this for what stands in its way.
+  Duration between_detours = std::chrono::seconds(1);
   /// More than the field needs: what is behind the side that was seen is not known, and cells of 5 cm round
   /// it off. Before who lingers it stops the robot at 1.05 m, also in a turn; before who may go at 0.57 m.
   RoomAround roomy{.things_m = 0.04, .legs_m = 0.28, .lingering_m = 1.3, .waiting_m = 0.6};
@@ -110,8 +110,8 @@ class Surroundings {
   [[nodiscard]] UnmappedObstacles unmapped(Stamp now, const MappedPose& mapped,
                                            std::span<const Goal> goals) const;
 
-  /// The same where something of it stands in the way of a path that begins at the robot, as often as
-  /// DetourBackoff allows; nothing where the way is clear.
+  /// The same where something of it stands in the way of a path that begins at the robot, at most once a
+  /// second; nothing where the way is clear.
   std::optional<UnmappedObstacles> obstacles_in_the_way(Stamp now, const MappedPose& mapped, const Path& path,
                                                         std::span<const Goal> goals);
 
@@ -163,9 +163,9 @@ class Surroundings {
   HoldingPoints holding_;
   std::deque<Scan> waiting_;             ///< for the wheel readings of their time
   std::optional<FieldScan> field_scan_;  ///< of all sources; its age is the newest scan's
-  std::size_t scanned_points_ = 0;  ///< the first of its points; those of the depth camera come after them
-  std::optional<Stamp> looked_at_;  ///< the newest scan when things in the way were last looked for
-  DetourBackoff detours_;
+  std::size_t scanned_points_ = 0;    ///< the first of its points; those of the depth camera come after them
+  std::optional<Stamp> looked_at_;    ///< the newest scan when things in the way were last looked for
+  std::optional<Stamp> last_detour_;  ///< when a path was blocked last
 };
 
 }  // namespace lodestar

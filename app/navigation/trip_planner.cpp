@@ -127,6 +127,7 @@ void TripPlanner::use_map(std::shared_ptr<const ObstacleField> map, UnmappedObst
 void TripPlanner::plan_around(std::span<const Vec2> blind_m) {
   blind_m_.assign(blind_m.begin(), blind_m.end());
   tight_.reset();
+  bare_.reset();
   map_alone_.reset();
   context_.emplace(context_around(obstacles_.roomy_m));
 }
@@ -148,7 +149,7 @@ int TripPlanner::parts_of_a_cell() const {
 }
 
 /// What `plan` finds with room around the obstacles; close to them, where that is a long detour or none; else
-/// without them.
+/// with no room, or without them.
 template <typename Plan>
 auto TripPlanner::first_of(const Plan& plan) {
   auto roomy = plan(context_->planner);
@@ -160,6 +161,9 @@ auto TripPlanner::first_of(const Plan& plan) {
   const Path* const tight_way = way_of(tight);
   if (tight_way && (!roomy_way || is_long_detour(length_m(*roomy_way), length_m(*tight_way)))) return tight;
   if (roomy_way) return roomy;
+  if (!bare_) bare_.emplace(context_around(obstacles_.bare_m));
+  auto bare = plan(bare_->planner);
+  if (way_of(bare)) return bare;
   if (!map_alone_) map_alone_.emplace(context_on(map_));
   return plan(map_alone_->planner);
 }

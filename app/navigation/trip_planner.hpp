@@ -45,8 +45,9 @@ struct TripPlan {
 };
 
 /// Answers the plan requests of the behaviour, on the present map. Where what the map lacks leaves no way
-/// with room, the answer is a tight one; without one it is that of the map alone: the robot drives up to what
-/// is there and waits, for it may go away.
+/// with room, the answer is a tight one. Without one it leads through a gap that the protective field may yet
+/// let the robot pass: from near it looks otherwise. Without that either it is that of the map alone: the
+/// robot drives up to what is there and waits, for it may go away.
 class TripPlanner {
  public:
   TripPlanner(std::shared_ptr<const ObstacleField> field, const TripPlannerOptions& options);
@@ -79,6 +80,7 @@ class TripPlanner {
   std::vector<Vec2> blind_m_;
   std::optional<PlanningContext> context_;    ///< with room around the obstacles
   std::optional<PlanningContext> tight_;      ///< with the least; made when it is asked for first
+  std::optional<PlanningContext> bare_;       ///< with none; likewise
   std::optional<PlanningContext> map_alone_;  ///< likewise
   bool prefers_wide_margins_ = false;         ///< as the planning context was built for
 };

@@ -228,7 +228,9 @@ TEST(BackgroundPlanner, leads_close_past_obstacles_where_there_is_no_way_with_ro
   const Path tight = path_around(planner, {.roomy_m = closed, .tight_m = narrow});
   EXPECT_TRUE(keeps_off(tight, narrow));
   EXPECT_FALSE(keeps_off(tight, closed));
-  const Path up_to_it = path_around(planner, {.roomy_m = closed, .tight_m = closed});
+  const Path up_to_gap = path_around(planner, {.roomy_m = closed, .tight_m = closed, .bare_m = narrow});
+  EXPECT_TRUE(keeps_off(up_to_gap, narrow)) << "the field may let it pass";
+  const Path up_to_it = path_around(planner, {.roomy_m = closed, .tight_m = closed, .bare_m = closed});
   EXPECT_FALSE(keeps_off(up_to_it, closed)) << "they may go away";
 }
 

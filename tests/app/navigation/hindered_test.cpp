@@ -34,14 +34,14 @@ MovingDisc paces_up_and_down() {
             true);
 }
 
-/// So near that the robot stands, for longer than it would wait for a thing; then aside.
+/// So near that the robot stands, for longer than it would wait for a thing; then aside, and off any detour.
 MovingDisc steps_from_foot_to_foot() {
   std::vector<DiscKey> keys;
   for (int s = 0; s < 75; s += 2) {
     keys.push_back({std::chrono::seconds(s), start * Vec2(0.9, 0.0)});
     keys.push_back({std::chrono::seconds(s + 1), start * Vec2(1.0, 0.0)});
   }
-  keys.push_back({std::chrono::seconds(78), start * Vec2(1.0, -2.0)});
+  keys.push_back({std::chrono::seconds(78), start * Vec2(1.0, -3.0)});
   return on(std::move(keys), false);
 }
 
