@@ -166,7 +166,7 @@ TEST(Scenario, says_where_its_file_is_wrong) {
 TEST(Scenario, reads_the_examples) {
   const ScratchFolder scratch;
   for (const char* name : {"crossing-people", "static-clutter", "heaps-of-posts", "gaps-in-rows",
-                           "people-who-stand-about", "corridor"}) {
+                           "narrow-ways", "people-who-stand-about", "corridor"}) {
     // So short a time shows that the files are read, and no more.
     std::string text = read_text(std::string(LODESTAR_SOURCE_DIR) + "/scenarios/" + name + ".yaml");
     const std::size_t at = text.find("time_limit_s: ");
@@ -201,6 +201,11 @@ TEST(Scenario, drives_around_people_who_stand_and_sway) {
 /// In a gap it looks along the row, and took the posts for people: one of eight arrived.
 TEST(Scenario, drives_through_gaps_in_rows_of_posts) {
   EXPECT_GE(arrivals_of("gaps-in-rows"), 7);
+}
+
+/// Where no way looked open it turned to and fro before them all: seven of sixteen arrived.
+TEST(Scenario, drives_on_where_each_way_looks_shut_now_and_then) {
+  EXPECT_GE(arrivals_of("narrow-ways"), 6);
 }
 
 /// Of an example, with another seed each; all arrive.
