@@ -30,7 +30,7 @@ struct ObstacleMemoryOptions {
   /// What fewer beams have hit in a row may be a mixed pixel beside what stands, and is nobody yet: three,
   /// and nearer than 3 m, of beams half a degree apart, half of those that hit a cell in three scans.
   int hits_to_come = 3;
-  double hits_to_come_m = 8.5;  ///< times the range
+  double hits_to_come_m = 8.5;  ///< this divided by the range
   /// What has come and shows no legs may be in a coat or a wheelchair, or be a robot, and go as well; what
   /// has stayed for so long was put there (chosen by hand).
   Duration to_stay = std::chrono::seconds(60);

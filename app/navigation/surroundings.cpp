@@ -251,7 +251,12 @@ std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& 
 
 UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped,
                                          std::span<const Goal> goals) const {
-  return {unmapped_m(now, mapped, goals, options_.roomy), unmapped_m(now, mapped, goals, options_.tight),
+  return with_less_room(unmapped_m(now, mapped, goals, options_.roomy), now, mapped, goals);
+}
+
+UnmappedObstacles Surroundings::with_less_room(std::vector<Vec2> roomy_m, Stamp now, const MappedPose& mapped,
+                                               std::span<const Goal> goals) const {
+  return {std::move(roomy_m), unmapped_m(now, mapped, goals, options_.tight),
           unmapped_m(now, mapped, goals, RoomAround{})};
 }
 
@@ -297,8 +302,7 @@ std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, c
   });
   if (!is_blocked) return std::nullopt;
   last_detour_ = now;
-  return UnmappedObstacles{std::move(roomy_m), unmapped_m(now, mapped, goals, options_.tight),
-                           unmapped_m(now, mapped, goals, RoomAround{})};
+  return with_less_room(std::move(roomy_m), now, mapped, goals);
 }
 
 }  // namespace lodestar

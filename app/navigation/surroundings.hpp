@@ -137,6 +137,8 @@ class Surroundings {
   [[nodiscard]] std::vector<const ObstacleMemory*> memories() const;
   [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped, std::span<const Goal> goals,
                                              const RoomAround& room) const;
+  [[nodiscard]] UnmappedObstacles with_less_room(std::vector<Vec2> roomy_m, Stamp now,
+                                                 const MappedPose& mapped, std::span<const Goal> goals) const;
   void hold(Stamp now, const std::optional<Pose2>& odom_from_base, const FieldLimit& limit,
             const BodyVelocity& allowed);
 
