@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "maps/legs.hpp"
 #include "maps/occupancy_map.hpp"
 #include "maps/smoothed_ends.hpp"
 
@@ -259,61 +260,6 @@ bool ObstacleMemory::has_come(const Vec2& point_m) const {
 bool ObstacleMemory::may_go(const Vec2& point_m) const {
   return has_come(point_m) &&
          any_beside(point_m, [&](const Seen& seen) { return is_leg(seen) || came_lately(seen); });
-}
-
-bool ObstacleMemory::is_good_part(std::size_t rays, const ScanPiece& of) const {
-  return static_cast<double>(rays) >= options_.standing_share * static_cast<double>(of.size());
-}
-
-std::vector<bool> ObstacleMemory::standing(const DeskewedScan& scan) const {
-  const auto joins = [&](const Ray& before, const Ray& ray) {
-    return (ray.end_m - before.end_m).norm() <= options_.joins_m;
-  };
-  const std::vector<ScanPiece> things = pieces_of(scan, ends_at_something, joins);
-  std::vector<bool> stands(scan.rays.size(), false);
-  for (const ScanPiece& thing : things) stand_where_hit(scan, thing, stands);
-  GrazedSurface to_left;
-  for (const ScanPiece& thing : things) stand_along(scan, thing, to_left, stands);
-  GrazedSurface to_right;
-  for (std::size_t i = things.size(); i-- > 0;)
-    stand_along(scan, ScanPiece(things[i].rbegin(), things[i].rend()), to_right, stands);
-  return stands;
-}
-
-void ObstacleMemory::stand_where_hit(const DeskewedScan& scan, const ScanPiece& thing,
-                                     std::vector<bool>& stands) const {
-  ScanPiece stood;  // each by itself
-  for (const std::size_t i : thing)
-    if (stands_at(scan.rays[i].end_m, scan.newest)) stood.push_back(i);
-  if (!is_good_part(stood.size(), thing)) return;
-  for (const std::size_t i : stood) stands[i] = true;
-  for (const std::size_t i : thing) {
-    const Vec2& end_m = scan.rays[i].end_m;
-    stands[i] = stands[i] || (!has_come_to(end_m) && std::ranges::any_of(stood, [&](std::size_t k) {
-                  return (scan.rays[k].end_m - end_m).norm() <= options_.shows_m;
-                }));
-  }
-}
-
-/// Along a wall that they graze rays end far apart, and in other cells in each scan. Where what stands leads
-/// on, away from the scanner, it stands too, unless someone has come there.
-void ObstacleMemory::stand_along(const DeskewedScan& scan, const ScanPiece& thing, GrazedSurface& surface,
-                                 std::vector<bool>& stands) const {
-  ScanPiece led_to;
-  std::size_t standing = 0;
-  for (const std::size_t i : thing) {
-    const Ray& ray = scan.rays[i];
-    const bool leads = !stands[i] && surface.leads_to(ray) && !has_come_to(ray.end_m);
-    if (leads) led_to.push_back(i);
-    if (stands[i] || leads) {
-      ++standing;
-      surface.add(ray.end_m);
-    } else {
-      surface.end();
-    }
-  }
-  if (!is_good_part(standing, thing) || !are_grazing(scan, led_to)) return surface.end();
-  for (const std::size_t i : led_to) stands[i] = true;
 }
 
 std::vector<Vec2> ObstacleMemory::standing_m(Stamp now) const {

@@ -7,10 +7,7 @@
 #include <vector>
 
 #include "maps/geometry.hpp"
-#include "maps/grazed_surface.hpp"
-#include "maps/legs.hpp"
 #include "maps/ray_fan.hpp"
-#include "maps/scan_pieces.hpp"
 #include "maps/scan_rays.hpp"
 #include "maps/stamp.hpp"
 
@@ -66,11 +63,6 @@ struct ObstacleMemoryOptions {
   /// as long as someone takes to leave a step's width.
   Duration remembered_standing = std::chrono::seconds(30);
   Duration remembered_moving = std::chrono::milliseconds(1500);
-  double joins_m = 0.15;        ///< neighbouring hits within this of each other are one thing
-  double standing_share = 0.6;  ///< of a thing's hits, for any of them to count as standing
-  /// What comes into sight of a thing as the robot goes around it, within a second: so far from what has
-  /// stood it is the same thing, unless the floor was seen free there.
-  double shows_m = 0.3;
 };
 
 /// What the scanner has seen around the robot: a rolling grid in the odometry frame, of which only the cells
@@ -87,15 +79,14 @@ class ObstacleMemory {
   /// it?
   [[nodiscard]] bool stands_at(const Vec2& point_m, Stamp now) const;
 
-  /// For each ray of the newest scan: does it end at something that stands? Of what is hit in one piece a
-  /// good part must stand: the flank of someone who walks across stays in the same cells for a while.
-  [[nodiscard]] std::vector<bool> standing(const DeskewedScan& scan) const;
-
   /// Is there, here or in a cell beside it, what may be a leg?
   [[nodiscard]] bool has_legs(const Vec2& point_m) const;
 
   /// Was what is hit here, or in a cell beside it, seen to come? Else it may be furniture.
   [[nodiscard]] bool has_come(const Vec2& point_m) const;
+
+  /// May what is hit here have come within the last seconds?
+  [[nodiscard]] bool has_come_to(const Vec2& point_m) const;
 
   /// May it go as it came, since it has legs or came lately?
   [[nodiscard]] bool may_go(const Vec2& point_m) const;
@@ -150,13 +141,8 @@ class ObstacleMemory {
   [[nodiscard]] bool has_stood(const Seen& seen) const;
   [[nodiscard]] bool came_lately(const Seen& seen) const;
   [[nodiscard]] bool is_part_of_a_thing(Place place) const;
-  [[nodiscard]] bool has_come_to(const Vec2& point_m) const;
   [[nodiscard]] bool was_seen_free(Place place, Stamp before) const;
   [[nodiscard]] std::optional<Stamp> came_beside_at(Place place, Stamp now) const;
-  [[nodiscard]] bool is_good_part(std::size_t rays, const ScanPiece& of) const;
-  void stand_where_hit(const DeskewedScan& scan, const ScanPiece& thing, std::vector<bool>& stands) const;
-  void stand_along(const DeskewedScan& scan, const ScanPiece& thing, GrazedSurface& surface,
-                   std::vector<bool>& stands) const;
   template <typename Ask>
   void ask_beside(Place middle, const Ask& ask, int reach = 1) const;
   template <typename Holds>

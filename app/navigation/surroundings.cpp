@@ -9,6 +9,7 @@
 #include "app/navigation/scanner_stops.hpp"
 #include "localization/scan/veil.hpp"
 #include "maps/smoothed_ends.hpp"
+#include "maps/standing_rays.hpp"
 
 namespace lodestar {
 namespace {
@@ -156,7 +157,7 @@ std::vector<FieldPoint> Surroundings::presences(const DeskewedScan& scan, const 
   std::vector<FieldPoint> points;
   std::optional<MapExplanation> explanation;
   if (map_from_odom) explanation.emplace(mapped.map, mapped.estimate->covariance);
-  const std::vector<bool> stands = memory.standing(scan);
+  const std::vector<bool> stands = rays_at_what_stands(scan, memory);
   const auto presence_of = [&](std::size_t i) {
     const Ray& ray = scan.rays[i];
     if (is_within_robot(ray)) return Presence::person;  // nothing can stand there

@@ -7,6 +7,7 @@
 
 #include "maps/obstacle_memory.hpp"
 #include "maps/random.hpp"
+#include "maps/standing_rays.hpp"
 
 #include "tests/maps/disc_scan.hpp"
 
@@ -50,7 +51,7 @@ Counted count_standing(int scans, const Look& look, const Asked& are_asked_for) 
       const DeskewedScan scan = look(scan_number, random);
       memory.add(scan);
       if (scan_number < scans_to_stand) continue;
-      const std::vector<bool> stands = memory.standing(scan);
+      const std::vector<bool> stands = rays_at_what_stands(scan, memory);
       for (std::size_t i = 0; i < stands.size(); ++i) {
         if (!ends_at_something(scan.rays[i]) || !are_asked_for(scan.rays[i])) continue;
         ++counted.hits;

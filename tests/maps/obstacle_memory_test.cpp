@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "maps/random.hpp"
+#include "maps/standing_rays.hpp"
 
 #include "tests/maps/disc_scan.hpp"
 
@@ -17,7 +18,7 @@ using Disc = testing::ScanDisc;
 using testing::scan_of;
 
 double share_standing(const ObstacleMemory& memory, const DeskewedScan& scan) {
-  const std::vector<bool> stands = memory.standing(scan);
+  const std::vector<bool> stands = rays_at_what_stands(scan, memory);
   const auto hits = std::ranges::count_if(scan.rays, ends_at_something);
   return static_cast<double>(std::ranges::count(stands, true)) / static_cast<double>(hits);
 }
@@ -102,7 +103,7 @@ TEST(ObstacleMemory, WhatComesIntoSightOfAThingThatStandsHasNotCome) {
     if (scans < 35) continue;
     for (std::size_t i = 0; i < scan.rays.size(); ++i) {
       if (scan.rays[i].end_m.norm() > 1.5 && ends_at_something(scan.rays[i])) {
-        EXPECT_TRUE(memory.standing(scan)[i]) << scans << ", " << scan.rays[i].end_m.transpose();
+        EXPECT_TRUE(rays_at_what_stands(scan, memory)[i]) << scans << ", " << scan.rays[i].end_m.transpose();
       }
     }
   }
@@ -202,7 +203,7 @@ TEST(ObstacleMemory, AThingThatStoodAndSlidesOnHasComeWhereTheFloorWasFree) {
         leaf.push_back({{1.2, edge_m - 0.04 - 0.07 * static_cast<double>(disc)}, 0.04});
       const DeskewedScan scan = scan_of(leaf, 0.1 * scans, random);
       memory.add(scan);
-      const std::vector<bool> stands = memory.standing(scan);
+      const std::vector<bool> stands = rays_at_what_stands(scan, memory);
       std::optional<std::size_t> edge;
       for (std::size_t i = 0; i < scan.rays.size(); ++i)
         if (ends_at_something(scan.rays[i]) && (!edge || scan.rays[i].end_m.y() > scan.rays[*edge].end_m.y()))
