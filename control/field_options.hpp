@@ -34,11 +34,15 @@ struct ProtectiveFieldOptions {
   double body_m = 0.20;
   double body_margin_m = 0.22;    ///< with the noise of five beams: a robot comes no nearer to legs by itself
   double mapped_margin_m = 0.01;  ///< the way's clearance is planned with elsewhere
-  /// Beside what is nearer than its margin already, the room may shrink by this share of the way to rest:
-  /// with the noise of the range the nearest hit along a wall is up to 5 cm ahead, and with that of the
-  /// wheels a turn on the spot leads some tenths of a millimetre aside.
+  /// Beside what is at its margin or nearer, the room may shrink by this share of the way to rest: with the
+  /// noise of the range the nearest hit along a wall is up to 5 cm ahead, and with that of the wheels a turn
+  /// on the spot leads some tenths of a millimetre aside.
   double slack_share = 0.2;
   double turn_drift_m = 0.002;  ///< by which that noise leads a turn on the spot until it is at rest
+  /// What is no farther ahead of the robot's middle, or behind it, is beside it. From 0.25 m to the side it
+  /// comes nearer by 2 mm until it is abeam, and by the noise of the wheels.
+  double beside_m = 0.03;
+  double beside_drift_m = 0.003;
   /// Someone may step out from behind what hides them, at the speed at which people walk off (chosen by hand,
   /// half of the greatest). Before they can touch it the robot is down to the contact speed, not to rest.
   double hidden_mps = 1.0;

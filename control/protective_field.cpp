@@ -157,18 +157,22 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   const double slack_m = options_.slack_share * path.travel_m();
   switch (hit.presence) {
     case Presence::legs:
-      if (distance_m >= margin) return stays_clear(path, hit, margin);
       // It came there before that looked like legs, and must get away: off, past what is beside it and
       // behind, or on the spot. Only a command to drive could bring it nearer step by step: without slack.
-      if (distance_m < options_.body_m) return stays_clear(path, hit, distance_m);
-      return stays_clear(path, hit, std::max(options_.body_m, distance_m - slack_m));
+      if (distance_m < options_.body_m) return stays_clear(path, hit, distance_m - drift_beside_m(hit));
+      return stays_clear(path, hit, std::max(options_.body_m, std::min(margin, distance_m) - slack_m));
     case Presence::standing: {
-      const double room_m = least_room_m < margin ? least_room_m - slack_m : margin;
-      return stays_clear(path, hit, std::min(distance_m, std::max(options_.least_standing_m, room_m)));
+      const double room_m = std::max(options_.least_standing_m, std::min(margin, least_room_m) - slack_m);
+      return stays_clear(path, hit, std::min(distance_m, room_m));
     }
     default:
       return stays_clear(path, hit, std::min(margin, least_room_m - slack_m));
   }
+}
+
+/// Beside the robot, what is a little ahead of its middle comes nearer by a hair as it drives on.
+double ProtectiveField::drift_beside_m(const FieldHit& hit) const {
+  return std::abs(hit.point_in_base.x()) <= options_.beside_m ? options_.beside_drift_m : 0.0;
 }
 
 /// A disc that turns on the spot comes no nearer to anything, but for the noise of its wheels.

@@ -55,6 +55,7 @@ class ProtectiveField {
   [[nodiscard]] bool is_safe(const BrakingPath& path, const FieldHit& hit, double distance_m,
                              double least_room_m) const;
   [[nodiscard]] bool stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const;
+  [[nodiscard]] double drift_beside_m(const FieldHit& hit) const;
   [[nodiscard]] bool rests_in_time(const BrakingPath& path, const FieldHit& hit) const;
   [[nodiscard]] double within_m(const BodyVelocity& measured, const BodyVelocity& wanted) const;
 

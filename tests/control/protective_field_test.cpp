@@ -6,6 +6,7 @@
 
 #include "control/field_release.hpp"
 #include "control/hidden_corners.hpp"
+#include "maps/random.hpp"
 
 namespace lodestar {
 namespace {
@@ -147,6 +148,38 @@ TEST(ProtectiveField, WithLegsInReachOfABodyItComesNoNearer) {
   const std::vector<FieldHit> beside{
       hit(0.0, radius_m + ProtectiveFieldOptions{}.body_margin_m + 0.01, Presence::legs)};
   EXPECT_EQ(disc_field().limit(beside, {0.1, 0.0}, {0.1, 0.0}).share, 1.0);
+}
+
+/// Straight past them in steps; true once they are behind.
+bool passes_legs(double aside_m, double noise_m) {
+  Random random(3);
+  double ahead_m = 0.4;
+  for (int step = 0; step < 1000 && ahead_m > -0.1; ++step) {
+    const std::vector<FieldHit> hits{hit(ahead_m + noise_m * random.normal(),
+                                         radius_m + aside_m + noise_m * random.normal(), Presence::legs)};
+    ahead_m -= 0.02 * disc_field().limit(hits, {0.1, 0.0}, {0.1, 0.0}).share * 0.1;
+  }
+  return ahead_m <= -0.1;
+}
+
+/// A way is planned to keep 20 cm where none has more room: between that and what it would like to keep the
+/// robot is not held.
+TEST(ProtectiveField, LegsBesideAPlannedWayArePassed) {
+  for (const double noise_m : {0.0, 0.001, 0.003}) {
+    EXPECT_TRUE(passes_legs(0.225, noise_m)) << noise_m;
+    EXPECT_TRUE(passes_legs(0.215, noise_m)) << noise_m;
+    EXPECT_FALSE(passes_legs(0.18, noise_m)) << noise_m;
+  }
+}
+
+/// What it has come up to, and then looks like legs: it drives on past what is beside it already.
+TEST(ProtectiveField, LegsRightBesideItDoNotHoldIt) {
+  for (const double ahead_m : {-0.03, -0.01, 0.0, 0.01, 0.03}) {
+    const std::vector<FieldHit> beside{hit(ahead_m, radius_m + 0.18, Presence::legs)};
+    EXPECT_EQ(disc_field().limit(beside, {0.1, 0.0}, {0.1, 0.0}).share, 1.0) << ahead_m;
+  }
+  const std::vector<FieldHit> ahead{hit(0.05, radius_m + 0.18, Presence::legs)};
+  EXPECT_LT(disc_field().limit(ahead, {0.1, 0.0}, {0.1, 0.0}).share, 0.1);
 }
 
 /// From rest they are at the robot before it is at rest, however slowly it creeps or moves off; sooner than
