@@ -252,12 +252,7 @@ std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& 
 
 UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped,
                                          std::span<const Goal> goals) const {
-  return with_less_room(unmapped_m(now, mapped, goals, options_.roomy), now, mapped, goals);
-}
-
-UnmappedObstacles Surroundings::with_less_room(std::vector<Vec2> roomy_m, Stamp now, const MappedPose& mapped,
-                                               std::span<const Goal> goals) const {
-  return {std::move(roomy_m), unmapped_m(now, mapped, goals, options_.tight),
+  return {unmapped_m(now, mapped, goals, options_.roomy), unmapped_m(now, mapped, goals, options_.tight),
           unmapped_m(now, mapped, goals, RoomAround{})};
 }
 
@@ -294,16 +289,16 @@ std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, c
     return std::nullopt;
   if (!field_scan_ || looked_at_ == field_scan_->newest) return std::nullopt;
   looked_at_ = field_scan_->newest;
-  std::vector<Vec2> roomy_m = unmapped_m(now, mapped, goals, options_.roomy);
+  const std::vector<Vec2> kept_m = unmapped_m(now, mapped, goals, options_.kept);
   const Vec2& robot_m = path.waypoints_m.front();
   const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
-  const bool is_blocked = std::ranges::any_of(roomy_m, [&](const Vec2& point_m) {
+  const bool is_blocked = std::ranges::any_of(kept_m, [&](const Vec2& point_m) {
     const double from_path_m = distance_to_path_m(path, point_m);
     return from_path_m < within_m && from_path_m < (robot_m - point_m).norm();
   });
   if (!is_blocked) return std::nullopt;
   last_detour_ = now;
-  return with_less_room(std::move(roomy_m), now, mapped, goals);
+  return unmapped(now, mapped, goals);
 }
 
 }  // namespace lodestar

@@ -62,6 +62,9 @@ struct SurroundingsOptions {
   /// Where there is no way with so much room: as much as the field lets pass
   /// (ProtectiveFieldOptions::body_m).
   RoomAround tight{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 0.0, .waiting_m = 0.0};
+  /// What a path that is followed must keep: where it has become as tight as the field lets pass, another way
+  /// is not worth turning for, which from nearer is maybe no wider.
+  RoomAround kept{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 1.3, .waiting_m = 0.6};
   LingeringPeopleOptions lingering;
   double leaves_m = 0.2;  ///< beside the robot, so that a path need not begin with a step back from someone
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
@@ -110,8 +113,8 @@ class Surroundings {
   [[nodiscard]] UnmappedObstacles unmapped(Stamp now, const MappedPose& mapped,
                                            std::span<const Goal> goals) const;
 
-  /// The same where something of it stands in the way of a path that begins at the robot, at most once a
-  /// second; nothing where the way is clear.
+  /// The same where a path that begins at the robot does not keep the least room, at most once a second;
+  /// nothing where the way is clear.
   std::optional<UnmappedObstacles> obstacles_in_the_way(Stamp now, const MappedPose& mapped, const Path& path,
                                                         std::span<const Goal> goals);
 
@@ -137,8 +140,6 @@ class Surroundings {
   [[nodiscard]] std::vector<const ObstacleMemory*> memories() const;
   [[nodiscard]] std::vector<Vec2> unmapped_m(Stamp now, const MappedPose& mapped, std::span<const Goal> goals,
                                              const RoomAround& room) const;
-  [[nodiscard]] UnmappedObstacles with_less_room(std::vector<Vec2> roomy_m, Stamp now,
-                                                 const MappedPose& mapped, std::span<const Goal> goals) const;
   void hold(Stamp now, const std::optional<Pose2>& odom_from_base, const FieldLimit& limit,
             const BodyVelocity& allowed);
 
