@@ -158,7 +158,7 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   switch (hit.presence) {
     case Presence::legs:
       // It came there before that looked like legs, and must get away: off, past what is beside it and
-      // behind, or on the spot. Only a command to drive could bring it nearer step by step: without slack.
+      // behind, or on the spot. Only a command to drive could bring it nearer step by step: no slack.
       if (distance_m < options_.body_m) return stays_clear(path, hit, distance_m - drift_beside_m(hit));
       return stays_clear(path, hit, std::max(options_.body_m, std::min(margin, distance_m) - slack_m));
     case Presence::standing: {
