@@ -252,8 +252,9 @@ std::optional<SeenSurroundings> Surroundings::seen(Stamp now, const MappedPose& 
 
 UnmappedObstacles Surroundings::unmapped(Stamp now, const MappedPose& mapped,
                                          std::span<const Goal> goals) const {
-  return {unmapped_m(now, mapped, goals, options_.roomy), unmapped_m(now, mapped, goals, options_.tight),
-          unmapped_m(now, mapped, goals, RoomAround{})};
+  return {.roomy_m = unmapped_m(now, mapped, goals, options_.roomy),
+          .tight_m = unmapped_m(now, mapped, goals, options_.tight),
+          .bare_m = unmapped_m(now, mapped, goals, RoomAround{})};
 }
 
 std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped, std::span<const Goal> goals,
@@ -289,16 +290,20 @@ std::optional<UnmappedObstacles> Surroundings::obstacles_in_the_way(Stamp now, c
     return std::nullopt;
   if (!field_scan_ || looked_at_ == field_scan_->newest) return std::nullopt;
   looked_at_ = field_scan_->newest;
-  const std::vector<Vec2> kept_m = unmapped_m(now, mapped, goals, options_.kept);
   const Vec2& robot_m = path.waypoints_m.front();
   const double within_m = options_.shape.outer_radius_m() + options_.least_margin_m;
-  const bool is_blocked = std::ranges::any_of(kept_m, [&](const Vec2& point_m) {
+  const auto blocks = [&](const Vec2& point_m) {
     const double from_path_m = distance_to_path_m(path, point_m);
     return from_path_m < within_m && from_path_m < (robot_m - point_m).norm();
-  });
-  if (!is_blocked) return std::nullopt;
+  };
+  const auto is_blocked_with = [&](const RoomAround& room) {
+    return std::ranges::any_of(unmapped_m(now, mapped, goals, room), blocks);
+  };
+  if (!is_blocked_with(options_.roomy)) return std::nullopt;
   last_detour_ = now;
-  return unmapped(now, mapped, goals);
+  UnmappedObstacles obstacles = unmapped(now, mapped, goals);
+  obstacles.path_is_passable = !is_blocked_with(options_.passable);
+  return obstacles;
 }
 
 }  // namespace lodestar

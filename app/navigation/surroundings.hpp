@@ -62,9 +62,9 @@ struct SurroundingsOptions {
   /// Where there is no way with so much room: as much as the field lets pass
   /// (ProtectiveFieldOptions::body_m).
   RoomAround tight{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 0.0, .waiting_m = 0.0};
-  /// What a path that is followed must keep: `tight` from things and legs, as another way that looks wider
-  /// may be no wider from nearer; `roomy` from people.
-  RoomAround kept{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 1.3, .waiting_m = 0.6};
+  /// With so much a path that is followed can be followed on: `tight` from things and legs, `roomy` from
+  /// people.
+  RoomAround passable{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 1.3, .waiting_m = 0.6};
   LingeringPeopleOptions lingering;
   double leaves_m = 0.2;  ///< beside the robot, so that a path need not begin with a step back from someone
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.
@@ -113,8 +113,8 @@ class Surroundings {
   [[nodiscard]] UnmappedObstacles unmapped(Stamp now, const MappedPose& mapped,
                                            std::span<const Goal> goals) const;
 
-  /// The same where a path that begins at the robot keeps less room than SurroundingsOptions::kept, at most
-  /// once a second; nothing where the way is clear.
+  /// The same where a path that begins at the robot has not all the room that is planned with, at most once a
+  /// second; nothing where the way is clear.
   std::optional<UnmappedObstacles> obstacles_in_the_way(Stamp now, const MappedPose& mapped, const Path& path,
                                                         std::span<const Goal> goals);
 

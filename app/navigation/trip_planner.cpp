@@ -65,12 +65,20 @@ const Path* way_of(const RouteUpdate& update) {
   return update.failure ? nullptr : &update.route.path;
 }
 
-/// Is it worth passing close by obstacles instead? That is slower, at the creeping speed of the protective
-/// field, and what was seen badly may block it still. Chosen by hand.
-bool is_long_detour(double length_m, double other_m) {
-  constexpr double share = 1.5;
-  constexpr double more_m = 1.0;
-  return length_m > share * other_m + more_m;
+/// A way with room around the obstacles may be longer than one close by them. Chosen by hand.
+struct LongestDetour {
+  double share = 0.0;
+  double more_m = 0.0;
+};
+/// Close by them the robot creeps, as the protective field has it, and what was seen badly may block it
+/// still.
+constexpr LongestDetour to_pass_with_room{.share = 1.5, .more_m = 1.0};
+/// What can be passed already is left for a step aside. From nearer another way may have no more room: a
+/// robot that turned for it would go to and fro.
+constexpr LongestDetour to_leave_a_way{.share = 1.1, .more_m = 0.3};
+
+bool is_too_long(double length_m, double other_m, const LongestDetour& longest) {
+  return length_m > longest.share * other_m + longest.more_m;
 }
 
 double straight_m(const Path& way) {
@@ -148,6 +156,11 @@ int TripPlanner::parts_of_a_cell() const {
   return std::max(1, static_cast<int>(std::min(parts, most)));
 }
 
+const MarginPlanner& TripPlanner::tight_planner() {
+  if (!tight_) tight_.emplace(context_around(obstacles_.tight_m));
+  return tight_->planner;
+}
+
 /// What `plan` finds with room around the obstacles; close to them, where that is a long detour or none; else
 /// with no room, or without them.
 template <typename Plan>
@@ -155,11 +168,12 @@ auto TripPlanner::first_of(const Plan& plan) {
   auto roomy = plan(context_->planner);
   const Path* const roomy_way = way_of(roomy);
   if (obstacles_.empty()) return roomy;
-  if (roomy_way && !is_long_detour(length_m(*roomy_way), straight_m(*roomy_way))) return roomy;
-  if (!tight_) tight_.emplace(context_around(obstacles_.tight_m));
-  auto tight = plan(tight_->planner);
+  if (roomy_way && !is_too_long(length_m(*roomy_way), straight_m(*roomy_way), to_pass_with_room))
+    return roomy;
+  auto tight = plan(tight_planner());
   const Path* const tight_way = way_of(tight);
-  if (tight_way && (!roomy_way || is_long_detour(length_m(*roomy_way), length_m(*tight_way)))) return tight;
+  if (tight_way && (!roomy_way || is_too_long(length_m(*roomy_way), length_m(*tight_way), to_pass_with_room)))
+    return tight;
   if (roomy_way) return roomy;
   if (!bare_) bare_.emplace(context_around(obstacles_.bare_m));
   auto bare = plan(bare_->planner);
@@ -292,7 +306,12 @@ RouteUpdate TripPlanner::route_from(const TripQuery& query) {
     return updated(route, pose, planner, options_.route,
                    [&] { return plan_over(goals_of(query), pose, route.goal_heading_rad, planner); });
   };
-  return first_of(update_on);
+  RouteUpdate update = first_of(update_on);
+  if (!obstacles_.path_is_passable || !way_of(update) || update.change == RouteChange::kept) return update;
+  RouteUpdate tight = update_on(tight_planner());
+  const bool is_left = tight.change != RouteChange::kept ||
+                       !is_too_long(length_m(update.route.path), length_m(tight.route.path), to_leave_a_way);
+  return is_left ? update : tight;
 }
 
 PathFound TripPlanner::along(const Route& route) const {

@@ -63,6 +63,7 @@ class TripPlanner {
   [[nodiscard]] PlanningContext context_around(std::span<const Vec2> obstacles_m) const;
   [[nodiscard]] int parts_of_a_cell() const;
   void plan_around(std::span<const Vec2> blind_m);
+  const MarginPlanner& tight_planner();
   template <typename Plan>
   auto first_of(const Plan& plan);
   [[nodiscard]] TripPlan review(const RouteUpdate& update) const;

@@ -241,6 +241,34 @@ TEST(BackgroundPlanner, leads_close_past_obstacles_before_a_long_detour) {
   EXPECT_FALSE(keeps_off(path_around(planner, {.roomy_m = far, .tight_m = fence_m(5.2, 6.0)}), far));
 }
 
+/// From afar another way looks wider, from near it may not: a robot that turned for each centimetre went to
+/// and fro.
+TEST(BackgroundPlanner, leaves_a_way_that_can_be_passed_for_a_step_aside_alone) {
+  BackgroundPlanner planner(testing::walled_room(10.0, 7.5), planner_options(), {});
+  const auto path_after = [&](const Path& path, UnmappedObstacles obstacles) {
+    planner.use_obstacles(std::move(obstacles));
+    for (int step = 0; step < 10; ++step) planner.begin_step({});
+    TripQuery query = query_to(near_m);
+    query.request.kind = PlanKind::replan;
+    query.trip.drive = RotateThenDrive(path, std::nullopt, {});
+    planner.ask(query);
+    std::optional<TripPlan> plan;
+    steps_until_taken(planner, plan);
+    return plan->update ? plan->update->route.path : path;
+  };
+  const std::vector<Vec2> tight = fence_m(4.9, 5.6);
+  const std::vector<Vec2> aside = fence_m(5.2, 6.0);
+  const std::vector<Vec2> far = fence_m(3.9, 4.6);
+  const Path way = path_around(planner, {.roomy_m = tight, .tight_m = tight});
+  const auto with = [&](const std::vector<Vec2>& roomy, bool is_passable) {
+    return UnmappedObstacles{
+        .roomy_m = roomy, .tight_m = tight, .bare_m = {}, .path_is_passable = is_passable};
+  };
+  EXPECT_TRUE(keeps_off(path_after(way, with(aside, true)), aside));
+  EXPECT_TRUE(keeps_off(path_after(way, with(far, true)), tight)) << "that would be a detour";
+  EXPECT_TRUE(keeps_off(path_after(way, with(far, false)), far)) << "what cannot be passed is left for it";
+}
+
 /// 3 cm more than the robot needs; rounded to the map's cells, 2 cm less.
 TEST(BackgroundPlanner, leads_through_gaps_that_end_within_cells) {
   BackgroundPlanner planner(testing::walled_room(10.0, 7.5), planner_options(), {});
