@@ -43,6 +43,10 @@ struct ProtectiveFieldOptions {
   /// comes nearer by 2 mm until it is abeam, and by the noise of the wheels.
   double beside_m = 0.03;
   double beside_drift_m = 0.003;
+  /// Before who stays about a place and does not stand still, the robot stops so early that it may yet turn
+  /// away on the spot, as fast as this, to drive around them. Chosen by hand among people who sway: with half
+  /// of it some turns are held still.
+  double turn_away_radps = 0.3;
   /// Someone may step out from behind what hides them, at the speed at which people walk off (chosen by hand,
   /// half of the greatest). Before they can touch it the robot is down to the contact speed, not to rest.
   double hidden_mps = 1.0;

@@ -14,7 +14,7 @@ std::vector<FieldHit> seen_from(const Pose2& odom_from_base, Stamp now, const Fi
   for (const FieldPoint& point : scan.points) {
     const Vec2 point_in_base = base_from_odom.position_m + turned * point.point_in_odom;
     if (point_in_base.squaredNorm() > within_squared_m2) continue;
-    hits.push_back({point_in_base, std::max(seconds(now - point.stamp), 0.0), point.presence});
+    hits.push_back({point_in_base, std::max(seconds(now - point.stamp), 0.0), point.presence, point.stays});
   }
   return hits;
 }

@@ -27,6 +27,7 @@ struct FieldPoint {
   Stamp stamp;
   Vec2 point_in_odom = Vec2::Zero();
   Presence presence = Presence::person;
+  bool stays = false;  ///< has been about this place for a while, and may be for longer
 };
 
 /// A scan prepared for the protective field, once for all control steps until the next one.
@@ -40,6 +41,7 @@ struct FieldHit {
   Vec2 point_in_base = Vec2::Zero();
   double age_s = 0.0;  ///< since it was seen there
   Presence presence = Presence::person;
+  bool stays = false;  ///< as of the point
 };
 
 /// From where the robot is now; without points farther than `within_m` from the base frame's origin.

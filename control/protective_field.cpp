@@ -87,10 +87,22 @@ double ProtectiveField::margin_m(Presence presence) const {
   return 0.0;
 }
 
+/// So much longer than a robot that drives up to someone it takes one that turns away to be at rest. Driven
+/// to the last centimetre it could not turn there, for as long as they stay.
+double ProtectiveField::turning_away_s(const BrakingPath& path, const FieldHit& hit) const {
+  constexpr double towards = 0.5;  // within 60 degrees
+  if (!hit.stays || is_still(hit.presence) || path.is_turn()) return 0.0;
+  const double nearer_m = shape_.distance_m(hit.point_in_base) -
+                          shape_.distance_m(inverse(path.steps().back().end) * hit.point_in_base);
+  if (nearer_m <= towards * path.travel_m()) return 0.0;
+  return options_.turn_away_radps / options_.turn_deceleration_radps2;
+}
+
 /// Nothing farther away than this can limit: all ways and times are longest at the faster of both velocities.
 double ProtectiveField::within_m(const BodyVelocity& measured, const BodyVelocity& wanted) const {
   const BrakingPath path(measured, wanted, shape_, options_);
-  const double age_s = 2.0 * seconds(options_.max_scan_age);  // of the oldest beam of the oldest scan
+  const double age_s = 2.0 * seconds(options_.max_scan_age) +  // of the oldest beam of the oldest scan
+                       options_.turn_away_radps / options_.turn_deceleration_radps2;
   return shape_.outer_radius_m() + path.travel_m() + options_.swing_m +
          std::max(options_.person_mps, options_.hidden_mps) * (age_s + path.until_rest_s());
 }
@@ -148,7 +160,8 @@ FieldLimit ProtectiveField::limit(std::span<const FieldHit> hits, const BodyVelo
 bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, double distance_m,
                               double least_room_m) const {
   const double margin = margin_m(hit.presence);
-  const double most_m = path.travel_m() + reach_m(hit.presence, hit.age_s + path.until_rest_s()) + margin;
+  const double after_s = hit.age_s + turning_away_s(path, hit);
+  const double most_m = path.travel_m() + reach_m(hit.presence, after_s + path.until_rest_s()) + margin;
   if (distance_m > most_m) return true;
   if (!is_still(hit.presence)) return rests_in_time(path, hit);
   // Up to the creeping speed, what stands is passed like what is mapped.
@@ -186,11 +199,12 @@ bool ProtectiveField::stays_clear(const BrakingPath& path, const FieldHit& hit, 
 
 bool ProtectiveField::rests_in_time(const BrakingPath& path, const FieldHit& hit) const {
   const double margin = margin_m(hit.presence);
+  const double after_s = hit.age_s + turning_away_s(path, hit);
   const double slow_mps = hit.presence == Presence::hidden ? options_.hidden_contact_mps : 0.0;
   return std::ranges::all_of(path.steps(), [&](const BrakingPath::Step& step) {
     if (step.speed_mps <= slow_mps) return true;
     const double distance_m = shape_.distance_m(inverse(step.middle) * hit.point_in_base);
-    return distance_m - step.sway_m > reach_m(hit.presence, hit.age_s + step.until_s) + margin;
+    return distance_m - step.sway_m > reach_m(hit.presence, after_s + step.until_s) + margin;
   });
 }
 

@@ -51,6 +51,7 @@ class ProtectiveField {
   /// How far what is there may have come since it was seen.
   [[nodiscard]] double reach_m(Presence presence, double time_s) const;
   [[nodiscard]] double margin_m(Presence presence) const;
+  [[nodiscard]] double turning_away_s(const BrakingPath& path, const FieldHit& hit) const;
   [[nodiscard]] double least_share(const FieldHit& hit, const BodyVelocity& wanted) const;
   [[nodiscard]] bool is_safe(const BrakingPath& path, const FieldHit& hit, double distance_m,
                              double least_room_m) const;

@@ -15,26 +15,28 @@ double weight(Duration after, Duration of_mean) {
 
 }  // namespace
 
-void LingeringPeople::add(std::span<const FieldPoint> points, Stamp newest) {
-  Piece piece;
-  for (const FieldPoint& point : points) {
-    const bool is_map = point.presence == Presence::mapped;
-    const bool joins = !is_map && !piece.hits_m.empty() &&
-                       (piece.hits_m.back() - point.point_in_odom).norm() <= options_.joins_m;
-    if (!joins) follow(std::exchange(piece, {}), newest);
-    if (is_map) continue;
-    piece.hits_m.push_back(point.point_in_odom);
-    piece.has_moved = piece.has_moved || point.presence == Presence::person;
+void LingeringPeople::add(std::span<FieldPoint> points, Stamp newest) {
+  const auto is_map = [](const FieldPoint& point) { return point.presence == Presence::mapped; };
+  const auto joins = [&](const FieldPoint& point, const FieldPoint& next) {
+    return !is_map(point) && !is_map(next) &&
+           (point.point_in_odom - next.point_in_odom).norm() <= options_.joins_m;
+  };
+  for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
+    for (last = first + 1; last < points.size() && joins(points[last - 1], points[last]);) ++last;
+    if (!is_map(points[first])) follow(points.subspan(first, last - first), newest);
   }
-  follow(std::move(piece), newest);
   std::erase_if(people_,
                 [&](const Someone& someone) { return newest - someone.seen > options_.longest_unseen; });
 }
 
-void LingeringPeople::follow(Piece piece, Stamp newest) {
-  if (piece.hits_m.empty() || (piece.hits_m.front() - piece.hits_m.back()).norm() > options_.widest_m) return;
-  const Vec2 sum_m = std::accumulate(piece.hits_m.begin(), piece.hits_m.end(), Vec2(Vec2::Zero()));
-  const Vec2 middle_m = sum_m / static_cast<double>(piece.hits_m.size());
+void LingeringPeople::follow(std::span<FieldPoint> piece, Stamp newest) {
+  if ((piece.front().point_in_odom - piece.back().point_in_odom).norm() > options_.widest_m) return;
+  std::vector<Vec2> hits_m;
+  for (const FieldPoint& point : piece) hits_m.push_back(point.point_in_odom);
+  const Vec2 sum_m = std::accumulate(hits_m.begin(), hits_m.end(), Vec2(Vec2::Zero()));
+  const Vec2 middle_m = sum_m / static_cast<double>(hits_m.size());
+  const bool has_moved =
+      std::ranges::any_of(piece, [](const FieldPoint& point) { return point.presence == Presence::person; });
   Someone* someone = nearest(middle_m);
   if (someone == nullptr) {
     people_.push_back(
@@ -42,11 +44,14 @@ void LingeringPeople::follow(Piece piece, Stamp newest) {
     someone = &people_.back();
   }
   const Duration after = newest - someone->seen;
-  const double moved = piece.has_moved ? 1.0 : 0.0;
+  const double moved = has_moved ? 1.0 : 0.0;
   someone->moved_share += weight(after, options_.lately) * (moved - someone->moved_share);
   someone->place_m += weight(after, options_.follows_in) * (middle_m - someone->place_m);
   someone->seen = newest;
-  someone->hits_m = std::move(piece.hits_m);
+  someone->hits_m = std::move(hits_m);
+  const bool stays =
+      newest - someone->since >= options_.stays_from && someone->moved_share >= options_.walking_share;
+  for (FieldPoint& point : piece) point.stays = stays;
 }
 
 /// Null where nobody has been.

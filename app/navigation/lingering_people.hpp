@@ -19,9 +19,10 @@ struct LingeringPeopleOptions {
   double walking_share = 0.2;
   Duration lately = std::chrono::seconds(3);
   Duration longest_unseen = std::chrono::milliseconds(1500);
-  /// Near to people the field hardly lets the robot turn: it is sooner there when it waits for who only
-  /// pauses (chosen among crowds of both kinds).
-  Duration lingers_from = std::chrono::seconds(25);
+  /// The robot is sooner there when it waits for who only pauses (chosen among crowds of both kinds).
+  Duration lingers_from = std::chrono::seconds(15);
+  /// Who passes by has left the place by then.
+  Duration stays_from = std::chrono::seconds(3);
 };
 
 /// Who stays about one place, but not so still that they stand: people who talk, sway and shift from one leg
@@ -30,17 +31,13 @@ class LingeringPeople {
  public:
   explicit LingeringPeople(const LingeringPeopleOptions& options = {}) : options_(options) {}
 
-  /// What the newest scan shows, in the order of its beams.
-  void add(std::span<const FieldPoint> points, Stamp newest);
+  /// What the newest scan shows, in the order of its beams. Says of its points whether who is there stays.
+  void add(std::span<FieldPoint> points, Stamp newest);
 
   /// Where they were hit last, in the odometry frame.
   [[nodiscard]] std::vector<Vec2> hits_m(Stamp now) const;
 
  private:
-  struct Piece {
-    std::vector<Vec2> hits_m;
-    bool has_moved = false;  ///< a part of it
-  };
   struct Someone {
     Vec2 place_m = Vec2::Zero();
     Stamp since;
@@ -49,7 +46,7 @@ class LingeringPeople {
     std::vector<Vec2> hits_m;
   };
 
-  void follow(Piece piece, Stamp newest);
+  void follow(std::span<FieldPoint> piece, Stamp newest);
   [[nodiscard]] Someone* nearest(const Vec2& middle_m);
 
   LingeringPeopleOptions options_;

@@ -75,6 +75,32 @@ TEST(ProtectiveField, ADiscDoesNotTurnWhileSomeoneMayTouchIt) {
   EXPECT_EQ(disc_field().limit(far, {}, {0.0, 0.5}).share, 1.0);
 }
 
+/// Who talks in a group sways for minutes: a robot driven up to the last centimetre was held there as long.
+TEST(ProtectiveField, BeforeWhoStaysItStopsWhereItCanTurnAway) {
+  const BodyVelocity creeping{0.05, 0.0};
+  const BodyVelocity turning{0.0, 0.3};
+  const auto turn_where_it_stops = [&](bool stays) {
+    double ahead_m = 3.0;
+    const auto allowed = [&](const BodyVelocity& measured, const BodyVelocity& wanted) {
+      FieldHit person = hit(ahead_m, 0.1, Presence::person);
+      person.stays = stays;
+      return disc_field().limit(std::vector{person}, measured, wanted).share;
+    };
+    while (allowed(creeping, creeping) > 0.0) ahead_m -= 0.005;
+    ahead_m -= 0.03;  // they sway
+    return allowed({}, turning);
+  };
+  EXPECT_GT(turn_where_it_stops(true), 0.7);
+  EXPECT_LT(turn_where_it_stops(false), 0.2) << "how it would be else";
+}
+
+TEST(ProtectiveField, WhoStaysBesideTheWayHoldsItNoSooner) {
+  FieldHit person = hit(0.5, radius_m + 1.3, Presence::person);
+  const double share = disc_field().limit(std::vector{person}, full, full).share;
+  person.stays = true;
+  EXPECT_EQ(disc_field().limit(std::vector{person}, full, full).share, share);
+}
+
 /// The body around them: they are passed 25 cm off, beside a wall too, and left from wherever they are.
 TEST(ProtectiveField, StandingLegsKeepRoomForTheirBody) {
   std::vector<FieldHit> hits{hit(0.3, 0.32, Presence::legs)};  // 19 cm off

@@ -1,5 +1,6 @@
 #include "app/navigation/lingering_people.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -29,23 +30,46 @@ class LingeringPeopleTest : public ::testing::Test {
     const Stamp end = now_ + from_seconds(for_s);
     for (; now_ < end; now_ += std::chrono::milliseconds(100)) {
       const bool moves = one_in > 0 && scans_++ % one_in == 0;
-      people_.add(body(place(lodestar::seconds(now_ - Stamp{})), now_, moves), now_);
+      points_ = body(place(lodestar::seconds(now_ - Stamp{})), now_, moves);
+      people_.add(points_, now_);
     }
   }
 
   static Vec2 swaying(double at_s) { return Vec2(2.0 + 0.06 * std::sin(1.9 * at_s), 0.08 * std::cos(at_s)); }
 
   LingeringPeople people_;
+  std::vector<FieldPoint> points_;  ///< of the newest scan
   Stamp now_{};
   int scans_ = 0;
 };
 
 TEST_F(LingeringPeopleTest, ShowsWhoSwaysAfterAWhile) {
-  look(24.0, swaying, 2);
+  look(14.0, swaying, 2);
   EXPECT_TRUE(people_.hits_m(now_).empty());
   look(2.0, swaying, 2);
   EXPECT_EQ(people_.hits_m(now_).size(), 5U);
   for (const Vec2& hit_m : people_.hits_m(now_)) EXPECT_LT((hit_m - Vec2(2.0, 0.0)).norm(), 0.4);
+}
+
+TEST_F(LingeringPeopleTest, SaysSoonerWhoStays) {
+  const auto stays = [&] { return std::ranges::any_of(points_, &FieldPoint::stays); };
+  look(2.5, swaying, 2);
+  EXPECT_FALSE(stays());
+  look(1.0, swaying, 2);
+  EXPECT_TRUE(stays());
+  look(0.1, [](double) { return Vec2(2.0, 1.0); }, 1);
+  EXPECT_FALSE(stays()) << "somebody else";
+}
+
+TEST_F(LingeringPeopleTest, SaysOfNobodyWhoWalksAndOfNoThingThatTheyStay) {
+  for (int i = 0; i < 50; ++i) {
+    look(0.1, [](double at_s) { return Vec2(2.0, 2.0 * std::sin(0.5 * at_s)); }, 1);
+    EXPECT_TRUE(std::ranges::none_of(points_, &FieldPoint::stays)) << i;
+  }
+  for (int i = 0; i < 50; ++i) {
+    look(0.1, [](double) { return Vec2(3.0, 0.0); }, 10);
+    EXPECT_TRUE(std::ranges::none_of(points_, &FieldPoint::stays)) << i;
+  }
 }
 
 /// The edges of a post come and go; what stands and does not sway is planned around as what stands.
