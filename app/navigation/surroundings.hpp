@@ -57,7 +57,8 @@ struct SurroundingsOptions {
   /// A path is looked at no more often than this for what stands in its way.
   Duration between_detours = std::chrono::seconds(1);
   /// More than the field needs: what is behind the side that was seen is not known, and cells of 5 cm round
-  /// it off. Before who lingers it stops the robot at 1.05 m, also in a turn; before who may go at 0.57 m.
+  /// it off. Beside who lingers it stops the robot at 1.05 m, also in a turn, towards them at 1.35 m; before
+  /// who may go at 0.57 m.
   RoomAround roomy{.things_m = 0.04, .legs_m = 0.28, .lingering_m = 1.3, .waiting_m = 0.6};
   /// Where there is no way with so much room: as much as the field lets pass
   /// (ProtectiveFieldOptions::body_m).
