@@ -30,6 +30,11 @@ FieldReason reason_for(Presence presence) {
   return FieldReason::obstacle_ahead;
 }
 
+/// So much longer than a robot that drives up to someone it takes one that turns away to be at rest.
+double turning_longer_s(const ProtectiveFieldOptions& options) {
+  return options.turn_away_radps / options.turn_deceleration_radps2;
+}
+
 }  // namespace
 
 std::string_view to_string(FieldReason reason) {
@@ -87,22 +92,22 @@ double ProtectiveField::margin_m(Presence presence) const {
   return 0.0;
 }
 
-/// So much longer than a robot that drives up to someone it takes one that turns away to be at rest. Driven
-/// to the last centimetre it could not turn there, for as long as they stay.
+/// Time for that, towards who stays: driven up to the last centimetre the robot could not turn there, for as
+/// long as they do.
 double ProtectiveField::turning_away_s(const BrakingPath& path, const FieldHit& hit) const {
   constexpr double towards = 0.5;  // within 60 degrees
   if (!hit.stays || is_still(hit.presence) || path.is_turn()) return 0.0;
   const double nearer_m = shape_.distance_m(hit.point_in_base) -
                           shape_.distance_m(inverse(path.steps().back().end) * hit.point_in_base);
   if (nearer_m <= towards * path.travel_m()) return 0.0;
-  return options_.turn_away_radps / options_.turn_deceleration_radps2;
+  return turning_longer_s(options_);
 }
 
 /// Nothing farther away than this can limit: all ways and times are longest at the faster of both velocities.
 double ProtectiveField::within_m(const BodyVelocity& measured, const BodyVelocity& wanted) const {
   const BrakingPath path(measured, wanted, shape_, options_);
   const double age_s = 2.0 * seconds(options_.max_scan_age) +  // of the oldest beam of the oldest scan
-                       options_.turn_away_radps / options_.turn_deceleration_radps2;
+                       turning_longer_s(options_);
   return shape_.outer_radius_m() + path.travel_m() + options_.swing_m +
          std::max(options_.person_mps, options_.hidden_mps) * (age_s + path.until_rest_s());
 }
@@ -163,10 +168,10 @@ bool ProtectiveField::is_safe(const BrakingPath& path, const FieldHit& hit, doub
   const double after_s = hit.age_s + turning_away_s(path, hit);
   const double most_m = path.travel_m() + reach_m(hit.presence, after_s + path.until_rest_s()) + margin;
   if (distance_m > most_m) return true;
-  if (!is_still(hit.presence)) return rests_in_time(path, hit);
+  if (!is_still(hit.presence)) return rests_in_time(path, hit, after_s);
   // Up to the creeping speed, what stands is passed like what is mapped.
   const bool is_passed = hit.presence == Presence::mapped || path.speed_mps() <= options_.standing_creep_mps;
-  if (!is_passed) return rests_in_time(path, hit);
+  if (!is_passed) return rests_in_time(path, hit, after_s);
   const double slack_m = options_.slack_share * path.travel_m();
   switch (hit.presence) {
     case Presence::legs:
@@ -197,9 +202,8 @@ bool ProtectiveField::stays_clear(const BrakingPath& path, const FieldHit& hit, 
   });
 }
 
-bool ProtectiveField::rests_in_time(const BrakingPath& path, const FieldHit& hit) const {
+bool ProtectiveField::rests_in_time(const BrakingPath& path, const FieldHit& hit, double after_s) const {
   const double margin = margin_m(hit.presence);
-  const double after_s = hit.age_s + turning_away_s(path, hit);
   const double slow_mps = hit.presence == Presence::hidden ? options_.hidden_contact_mps : 0.0;
   return std::ranges::all_of(path.steps(), [&](const BrakingPath::Step& step) {
     if (step.speed_mps <= slow_mps) return true;

@@ -57,7 +57,7 @@ class ProtectiveField {
                              double least_room_m) const;
   [[nodiscard]] bool stays_clear(const BrakingPath& path, const FieldHit& hit, double room_m) const;
   [[nodiscard]] double drift_beside_m(const FieldHit& hit) const;
-  [[nodiscard]] bool rests_in_time(const BrakingPath& path, const FieldHit& hit) const;
+  [[nodiscard]] bool rests_in_time(const BrakingPath& path, const FieldHit& hit, double after_s) const;
   [[nodiscard]] double within_m(const BodyVelocity& measured, const BodyVelocity& wanted) const;
 
   RobotShape shape_;

@@ -182,10 +182,10 @@ TEST_F(SurroundingsTest, says_whether_a_way_that_has_lost_room_can_be_followed_o
   };
   const auto in_the_way = [&] { return surroundings_.obstacles_in_the_way(now_, mapped(), ahead, {}); };
   stand(3.0, {beside(0.28)});
-  EXPECT_TRUE(in_the_way()->path_is_passable);
+  EXPECT_TRUE(in_the_way().value().path_is_passable);
   stand(0.5, {});
   stand(30.0, {beside(0.22)});
-  EXPECT_FALSE(in_the_way()->path_is_passable);
+  EXPECT_FALSE(in_the_way().value().path_is_passable);
 }
 
 }  // namespace
