@@ -4,11 +4,11 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
 #include <span>
 #include <string>
 
 #include "maps/atomic_file.hpp"
+#include "maps/file_text.hpp"
 #include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
 
@@ -163,8 +163,7 @@ CameraModel load_camera(const fs::path& file) {
 }
 
 CameraFile read_camera_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string text = file_text(file, "a YAML file");
   if (!text.starts_with("%YAML:1.0")) return load_camera_info(file);
   return {.camera = load_file_storage(file, text), .other_keys = {}, .warnings = {}};
 }

@@ -1,23 +1,12 @@
 #include "maps/map_image.hpp"
 
 #include <fmt/format.h>
-#include <fstream>
 #include <opencv2/core.hpp>
-#include <sstream>
 
-#include "maps/path_kind.hpp"
 #include "maps/picture.hpp"
 
 namespace lodestar {
 namespace {
-
-std::string read_whole(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || is_folder(file)) throw PictureError("cannot be read");
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return bytes.str();
-}
 
 /// The gray value as map_server computes it: the mean of the colour channels, without alpha.
 std::uint8_t mean_of(const std::uint8_t* pixel, int channels) {
@@ -28,9 +17,7 @@ std::uint8_t mean_of(const std::uint8_t* pixel, int channels) {
 }  // namespace
 
 MapImage read_map_image(const std::filesystem::path& file) {
-  const std::string bytes = read_whole(file);
-  if (bytes.empty()) throw PictureError("an empty file");
-  cv::Mat picture = decode_picture({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  cv::Mat picture = decode_picture(picture_bytes_in(file));
   if (picture.depth() == CV_16U) picture.convertTo(picture, CV_8U, 1.0 / 257.0);
 
   MapImage image;

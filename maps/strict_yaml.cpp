@@ -3,12 +3,10 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
+#include "maps/file_text.hpp"
 #include "maps/input_error.hpp"
-#include "maps/path_kind.hpp"
 #include "maps/utf8.hpp"
 #include "maps/yaml_documents.hpp"
 
@@ -30,15 +28,6 @@ std::string kind_of(const YAML::Node& node) {
     default:
       return "nothing";
   }
-}
-
-std::string read_whole(const std::filesystem::path& file) {
-  if (is_folder(file)) throw InputError(file, 0, "a folder", "a YAML file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file, 0, "no file that can be read", "a YAML file");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 /// yaml-cpp keeps both of two equal keys; here the second is refused.
@@ -80,7 +69,7 @@ StrictYaml::StrictYaml(std::filesystem::path file, const YAML::Node& node, std::
 }
 
 StrictYaml StrictYaml::load(const std::filesystem::path& file) {
-  return parse(read_whole(file), file);
+  return parse(file_text(file, "a YAML file"), file);
 }
 
 StrictYaml StrictYaml::parse(const std::string& text, const std::filesystem::path& file) {

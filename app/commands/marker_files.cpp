@@ -1,18 +1,16 @@
 #include <algorithm>
 #include <fmt/core.h>
-#include <fstream>
 #include <iterator>
 #include <memory>
-#include <sstream>
 
 #include "app/commands/commands.hpp"
 #include "app/placement/formats.hpp"
 #include "app/placement/place_sheet.hpp"
 #include "app/site/site_folder.hpp"
 #include "maps/atomic_file.hpp"
+#include "maps/file_text.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
-#include "maps/path_kind.hpp"
 
 // The subcommands of `lodestar markers` that write files for other programs and people: convert and print.
 namespace lodestar {
@@ -35,14 +33,6 @@ struct PrintArguments {
   std::string paper = "A4";
 };
 
-std::string read_whole(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || is_folder(file)) throw InputError(file, 0, "no file that can be read", "markers");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 MarkerFormat format_of(const char* option, const std::string& name, const fs::path& file,
                        const std::string& text) {
   const std::optional<MarkerFormat> format =
@@ -54,7 +44,7 @@ MarkerFormat format_of(const char* option, const std::string& name, const fs::pa
 }
 
 ExitCode convert(const ConvertArguments& arguments) {
-  const std::string text = read_whole(arguments.input);
+  const std::string text = file_text(arguments.input, "markers");
   const MarkerFormat from = format_of("--from", arguments.from, arguments.input, text);
   const MarkerFormat to = arguments.output.empty() && arguments.to.empty()
                               ? MarkerFormat::lodestar

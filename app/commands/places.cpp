@@ -7,10 +7,10 @@
 
 #include "app/commands/commands.hpp"
 #include "app/common/json_text.hpp"
-#include "app/console/document_history.hpp"
 #include "app/placement/lif.hpp"
 #include "app/placement/places_check.hpp"
 #include "maps/atomic_file.hpp"
+#include "maps/file_text.hpp"
 
 namespace lodestar {
 namespace {
@@ -71,7 +71,7 @@ ExitCode export_lif(const PlacesArguments& arguments) {
 /// Replaces the graph; zones stay, and so do missions, whose places must still be there.
 ExitCode import_lif(const PlacesArguments& arguments) {
   const Site site = load_site(arguments.site);
-  ImportedLif lif = read_lif(read_document(arguments.file), arguments.file, arguments.choice);
+  ImportedLif lif = read_lif(file_text(arguments.file, "a LIF file"), arguments.file, arguments.choice);
   for (const std::string& warning : lif.warnings) fmt::print(stderr, "lodestar: warning: {}\n", warning);
   Places places = site.places;
   places.places = std::move(lif.places.places);

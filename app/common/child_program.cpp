@@ -4,7 +4,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fstream>
 #include <spawn.h>
 #include <sstream>
 #include <sys/wait.h>
@@ -12,16 +11,10 @@
 
 #include "app/common/spawn_attributes.hpp"
 #include "app/common/stopwatch.hpp"
+#include "maps/file_text.hpp"
 
 namespace lodestar {
 namespace {
-
-std::string written_in(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 std::string last_line_of(const std::string& text) {
   std::istringstream lines(text);
@@ -70,8 +63,8 @@ ProgramEnd run_program_to_end(const std::filesystem::path& program, const std::v
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  ProgramEnd end{.output = written_in(output_file),
-                 .last_words = last_line_of(written_in(error_file)),
+  ProgramEnd end{.output = file_text(output_file).value_or(""),
+                 .last_words = last_line_of(file_text(error_file).value_or("")),
                  .wall_s = watch.seconds()};
   if (WIFEXITED(status)) {
     end.exit_code = WEXITSTATUS(status);

@@ -2,23 +2,21 @@
 
 #include <cstdlib>
 #include <fmt/format.h>
-#include <fstream>
 #include <sched.h>
 #include <sstream>
 #include <sys/utsname.h>
 
 #include "app/common/program_data.hpp"
+#include "maps/file_text.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr double kb_per_gb = 1024.0 * 1024.0;
 
+/// Empty where it cannot be read.
 std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  return file_text(file).value_or("");
 }
 
 /// What stands behind the first line that begins with `key`, without blanks, quotes and the separator; empty:

@@ -18,6 +18,7 @@
 #include "app/placement/installation.hpp"
 #include "app/placement/place_sheet.hpp"
 #include "maps/atomic_file.hpp"
+#include "maps/file_text.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
 
@@ -180,11 +181,11 @@ HttpResponse DocumentApi::cells() const {
 
 HttpResponse DocumentApi::markers() const {
   return {.body = json_text(registry_json(load_registry(registry_file_))),
-          .etag = etag_of(read_document(registry_file_))};
+          .etag = etag_of(file_text(registry_file_, "a registry"))};
 }
 
 HttpResponse DocumentApi::save_markers(const HttpRequest& request) const {
-  const std::string before = read_document(registry_file_);
+  const std::string before = file_text(registry_file_, "a registry");
   if (std::optional<HttpResponse> conflict = conflict_with(before, request.if_match)) return *conflict;
   try {
     const MarkerRegistry after = registry_from_json(request.body);

@@ -3,24 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 
 #include "app/common/wall_clock.hpp"
 #include "maps/atomic_file.hpp"
-#include "maps/input_error.hpp"
+#include "maps/file_text.hpp"
 
 namespace lodestar {
 
 namespace fs = std::filesystem;
-
-std::string read_document(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file, 0, "no file that can be read", "one");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 std::vector<int> DocumentHistory::numbers() const {
   std::vector<int> numbers;
@@ -40,7 +30,7 @@ std::vector<int> DocumentHistory::numbers() const {
 std::optional<std::string> DocumentHistory::text(int number) const {
   const std::vector<int> all = numbers();
   if (std::ranges::find(all, number) == all.end()) return std::nullopt;
-  return read_document(file_of(number));
+  return file_text(file_of(number), "an earlier version");
 }
 
 int DocumentHistory::keep(const std::string& text) const {

@@ -8,9 +8,6 @@
 
 namespace lodestar {
 
-/// The whole file. Throws InputError when it cannot be read.
-std::string read_document(const std::filesystem::path& file);
-
 /// Earlier versions of a document: numbered files in a folder beside it.
 class DocumentHistory {
  public:

@@ -7,12 +7,12 @@
 #include "app/common/base64.hpp"
 #include "app/common/json_parse.hpp"
 #include "app/common/wall_clock.hpp"
-#include "app/console/document_history.hpp"
 #include "app/console/etag.hpp"
 #include "app/placement/hanging.hpp"
 #include "app/placement/installation.hpp"
 #include "app/placement/registry_check.hpp"
 #include "maps/atomic_file.hpp"
+#include "maps/file_text.hpp"
 #include "maps/input_error.hpp"
 #include "maps/marker.hpp"
 
@@ -129,7 +129,7 @@ HttpResponse HangingApi::keep_photo(int id, const HttpRequest& request) const {
 
 HttpResponse HangingApi::photo(int id) const {
   if (!fs::exists(photo_file(id))) return refusal(404, "found no such photo");
-  return with_etag({.content_type = "image/jpeg", .body = read_document(photo_file(id))});
+  return with_etag({.content_type = "image/jpeg", .body = file_text(photo_file(id), "a photo")});
 }
 
 fs::path HangingApi::photo_file(int id) const {

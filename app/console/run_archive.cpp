@@ -7,11 +7,11 @@
 #include <sstream>
 
 #include "app/common/rounding.hpp"
-#include "app/console/document_history.hpp"
 #include "app/console/map_json.hpp"
 #include "app/console/registry_json.hpp"
 #include "app/console/run_facts.hpp"
 #include "app/recording/run_origin.hpp"
+#include "maps/file_text.hpp"
 #include "maps/geometry.hpp"
 #include "maps/input_error.hpp"
 #include "maps/map_file.hpp"
@@ -105,7 +105,7 @@ ordered_json run_in(const fs::path& folder) {
   const auto add = [&](const char* which, const char* extension, auto read) {
     const fs::path file = folder / (std::string(which) + extension);
     run[which] =
-        fs::is_regular_file(file) ? read(read_document(file), file, most_rows) : ordered_json::array();
+        fs::is_regular_file(file) ? read(file_text(file, "a table"), file, most_rows) : ordered_json::array();
   };
   add("estimate", ".tum", trajectory_json);
   add("truth", ".tum", trajectory_json);
@@ -209,7 +209,7 @@ std::optional<std::string> RunArchive::picture(const std::string& name, const st
   const std::vector<std::string> all = pictures_in(*folder);
   const auto found = std::ranges::find(all, picture);
   if (found == all.end()) return std::nullopt;
-  return read_document(*folder / "pictures" / *found);
+  return file_text(*folder / "pictures" / *found, "a picture");
 }
 
 }  // namespace lodestar

@@ -4,8 +4,8 @@
 
 #include "app/common/rounding.hpp"
 #include "app/common/wall_clock.hpp"
-#include "app/console/document_history.hpp"
 #include "app/recording/run_origin.hpp"
+#include "maps/file_text.hpp"
 #include "maps/input_error.hpp"
 #include "maps/path_kind.hpp"
 
@@ -48,7 +48,7 @@ std::optional<RunOrigin> origin_if_any(const fs::path& folder) {
 }
 
 ordered_json summary_of_run(const fs::path& file) {
-  ordered_json summary = ordered_json::parse(read_document(file), nullptr, false);
+  ordered_json summary = ordered_json::parse(file_text(file, "a summary"), nullptr, false);
   if (!summary.is_object()) throw InputError(file, 0, "broken JSON", "a summary");
   return summary;
 }

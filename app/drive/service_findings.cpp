@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <sys/stat.h>
 
+#include "maps/file_text.hpp"
 #include "maps/path_kind.hpp"
 
 namespace lodestar {
@@ -17,15 +17,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view user = "lodestar";
 
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 /// The service's user, from /etc/passwd; nothing when there is none.
 std::optional<std::string> number_of_user(const ServicePlaces& places) {
-  std::istringstream lines(text_of(places.root / "etc/passwd"));
+  std::istringstream lines(file_text(places.root / "etc/passwd").value_or(""));
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(std::string(user) + ":")) continue;
     const std::size_t number = line.find(':', user.size() + 1) + 1;
@@ -50,7 +44,7 @@ bool is_unit_installed(const ServicePlaces& places) {
 bool is_running(const std::string& site, const ServicePlaces& places) {
   const fs::path group = places.root / "sys/fs/cgroup/system.slice/system-lodestar.slice" /
                          fmt::format("lodestar@{}.service", site) / "cgroup.procs";
-  return !text_of(group).empty();
+  return !file_text(group).value_or("").empty();
 }
 
 bool is_enabled(const std::string& site, const ServicePlaces& places) {
@@ -122,7 +116,7 @@ bool is_brought_up(const std::string& interface, const ServicePlaces& places) {
     std::error_code none;
     for (const fs::directory_entry& entry : fs::directory_iterator(places.root / folder, none)) {
       if (entry.path().extension() != ".network") continue;
-      const std::string text = text_of(entry.path());
+      const std::string text = file_text(entry.path()).value_or("");
       const bool is_can = text.find("[CAN]") != std::string::npos;
       if (is_can && text.find("Name=" + interface) != std::string::npos) return true;
     }

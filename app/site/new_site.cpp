@@ -5,29 +5,20 @@
 #include <cstring>
 #include <deque>
 #include <fmt/format.h>
-#include <fstream>
 #include <regex>
-#include <sstream>
 #include <sys/stat.h>
 
 #include "app/site/robot_mount.hpp"
 #include "app/site/site.hpp"
 #include "maps/atomic_file.hpp"
 #include "maps/distance_field.hpp"
+#include "maps/file_text.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw InputError(file, 0, "no file that can be read", "one to begin with");
-  return text.str();
-}
 
 /// The last cell that a breadth-first search over the four neighbours reaches.
 Cell farthest_from(Cell start, const DistanceField& room, double room_m) {
@@ -83,7 +74,7 @@ fs::path without_slash(const fs::path& folder) {
 
 /// The rest of the file, comments included, stays as it is.
 void write_robot(const NewSite& site, const fs::path& file) {
-  std::string text = text_of(site.robot_file);
+  std::string text = file_text(site.robot_file, "one to begin with");
   static const std::regex radius("^radius_m:[^#\n]*", std::regex::multiline);
   if (site.radius_m) text = std::regex_replace(text, radius, fmt::format("radius_m: {}", *site.radius_m));
   write_file_atomically(file, text);
@@ -93,7 +84,7 @@ void write_robot(const NewSite& site, const fs::path& file) {
 
 void write_files(const NewSite& site, const fs::path& folder, const std::string& name) {
   write_robot(site, folder / "robot.yaml");
-  write_file_atomically(folder / "camera.yaml", text_of(site.camera_file));
+  write_file_atomically(folder / "camera.yaml", file_text(site.camera_file, "one to begin with"));
   save_map(site.map, folder / "map.yaml", "");
   save_registry(MarkerRegistry{}, folder / "markers.yaml");
   save_places(Places{}, folder);

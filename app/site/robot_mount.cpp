@@ -1,17 +1,15 @@
 #include "app/site/robot_mount.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <yaml-cpp/yaml.h>
 
+#include "maps/file_text.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
 
 std::string with_camera_mount(const std::filesystem::path& robot_file,
                               const std::map<std::string, std::string>& values) {
-  std::ifstream stream(robot_file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::string text = file_text(robot_file, "a robot's YAML file");
   const YAML::Node mount = YAML::Load(text)["camera_mount"];
   std::map<std::size_t, std::pair<std::string, std::string>>
       pieces;  // by position in the text: old value, new value

@@ -7,6 +7,7 @@
 
 #include "app/console/document_api.hpp"
 #include "app/console/registry_json.hpp"
+#include "maps/file_text.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 #include "tests/scenarios/shots.hpp"
@@ -136,7 +137,7 @@ TEST(Markers, check_of_a_site_says_what_the_console_says) {
   std::filesystem::copy(std::filesystem::path(LODESTAR_SOURCE_DIR) / "sites/lab", site,
                         std::filesystem::copy_options::recursive);
   DocumentApi console(site, scratch.path() / "runs");
-  std::istringstream lab(read_document(site / "markers.yaml"));
+  std::istringstream lab(file_text(site / "markers.yaml", "a registry"));
   std::string fewer;  // every third marker is left, one of them twice, one far away
   int number = 0;
   for (std::string line; std::getline(lab, line);) {
