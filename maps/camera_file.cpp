@@ -9,7 +9,6 @@
 
 #include "maps/atomic_file.hpp"
 #include "maps/file_text.hpp"
-#include "maps/input_error.hpp"
 #include "maps/strict_yaml.hpp"
 
 namespace lodestar {
@@ -101,8 +100,8 @@ void read_unused(StrictYaml& yaml) {
   if (yaml.has("roi")) (void)yaml.node("roi");
 }
 
-CameraFile load_camera_info(const fs::path& file) {
-  StrictYaml yaml = StrictYaml::load(file);
+CameraFile load_camera_info(const fs::path& file, const std::string& text) {
+  StrictYaml yaml = StrictYaml::parse(text, file);
   Calibration calibration;
   calibration.width_px = yaml.integer("image_width", 1, max_image_side_px);
   calibration.height_px = yaml.integer("image_height", 1, max_image_side_px);
@@ -164,7 +163,7 @@ CameraModel load_camera(const fs::path& file) {
 
 CameraFile read_camera_file(const fs::path& file) {
   const std::string text = file_text(file, "a YAML file");
-  if (!text.starts_with("%YAML:1.0")) return load_camera_info(file);
+  if (!text.starts_with("%YAML:1.0")) return load_camera_info(file, text);
   return {.camera = load_file_storage(file, text), .other_keys = {}, .warnings = {}};
 }
 

@@ -18,10 +18,8 @@ std::optional<std::string> file_text(const std::filesystem::path& file) {
 }
 
 std::string file_text(const std::filesystem::path& file, const std::string& wanted) {
-  if (is_folder(file)) throw InputError(file, 0, "a folder", wanted);
-  std::optional<std::string> text = file_text(file);
-  if (!text) throw InputError(file, 0, "no file that can be read", wanted);
-  return *std::move(text);
+  if (std::optional<std::string> text = file_text(file)) return *std::move(text);
+  throw InputError(file, 0, is_folder(file) ? "a folder" : "no file that can be read", wanted);
 }
 
 }  // namespace lodestar
