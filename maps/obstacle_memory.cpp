@@ -18,6 +18,10 @@ std::size_t wrapped(int column, int row) {
   return (static_cast<unsigned>(row) & mask) * wraps + (static_cast<unsigned>(column) & mask);
 }
 
+bool is_part_of(const Vec2& hit_m, const LonePost& post) {
+  return (hit_m - post.middle_m).norm() <= post.reach_m;
+}
+
 }  // namespace
 
 ObstacleMemory::ObstacleMemory(const ObstacleMemoryOptions& options)
@@ -62,9 +66,11 @@ void ObstacleMemory::add(const DeskewedScan& scan) {
   forget(scan.newest, middle);
   for (Seen& seen : seen_) seen.hit_now = false;
   mark_hits(scan, middle);
-  mark_legs(scan);
+  RayFan fan(scan);
+  mark_legs(scan, fan);
   note_hits_beside(scan.newest);
-  count_free(scan);
+  count_free(scan, fan);
+  remember_look(scan, std::move(fan));
   forget(scan.newest, middle);
 }
 
@@ -122,15 +128,23 @@ void ObstacleMemory::note_hits_beside(Stamp now) {
 }
 
 /// What has come is someone if it can be: only what was always there may be a heap of things.
-void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
+void ObstacleMemory::mark_legs(const DeskewedScan& scan, const RayFan& fan) {
   const auto mark = [&](const Ray& ray) {
     const Place place = place_of(ray.end_m);
     const std::int32_t index = index_[wrapped(place.column, place.row)];
-    if (index >= 0) seen_[static_cast<std::size_t>(index)].leg_at = ray.stamp;
+    if (index < 0) return;
+    Seen& seen = seen_[static_cast<std::size_t>(index)];
+    seen.leg_at = ray.stamp;
+    seen.is_post = false;
   };
   const RaysAtLegs legs = rays_at_legs(scan);
+  const std::vector<LonePost> posts = posts_.add(scan, fan, legs.likely);
+  for (const LonePost& post : posts) take_as_post(post);
   for (const std::size_t i : legs.likely) {
     const Ray& ray = scan.rays[i];
+    if (!has_come(ray.end_m) &&
+        std::ranges::any_of(posts, [&](const LonePost& post) { return is_part_of(ray.end_m, post); }))
+      continue;
     const bool is_near = range_m(ray) < options_.becomes_leg_from_m;
     if (!is_near || !is_part_of_a_thing(place_of(ray.end_m))) mark(ray);
   }
@@ -138,17 +152,24 @@ void ObstacleMemory::mark_legs(const DeskewedScan& scan) {
     if (has_come(scan.rays[i].end_m)) mark(scan.rays[i]);
 }
 
+/// Not who has come: it can be someone on one leg, and a post does not come.
+void ObstacleMemory::take_as_post(const LonePost& post) {
+  for (Seen& seen : seen_) {
+    if (!is_part_of(seen.mean_m, post) || has_come(seen.mean_m)) continue;
+    seen.leg_at.reset();
+    seen.is_post = true;
+  }
+}
+
 /// What is hit in the same scan is not free, however many rays pass beside it: a leg is thinner than a cell.
 /// Nor are the cells beside that it is hit in now and then, nor is a wall that the rays graze.
-void ObstacleMemory::count_free(const DeskewedScan& scan) {
-  RayFan fan(scan);
+void ObstacleMemory::count_free(const DeskewedScan& scan, const RayFan& fan) {
   for (Seen& seen : seen_) {
     if (seen.hit_now || (is_leg(seen) && seen.hit_beside == scan.newest)) continue;
     if (fan.passes(center_m(seen.place), 0.5 * options_.cell_m, options_.kept_before_end_m) &&
         !fan.graze(seen.mean_m, options_.cell_m, options_.kept_before_end_m))
       ++seen.times_free;
   }
-  remember_look(scan, std::move(fan));
 }
 
 /// A scanner that was blind does not know who came meanwhile: then what it saw before counts as just before.
@@ -274,6 +295,13 @@ std::vector<Vec2> ObstacleMemory::standing_people_m(Stamp now) const {
   for (const Seen& seen : seen_)
     if ((is_leg(seen) || came_lately(seen)) && has_stood(seen) && is_remembered(seen, now))
       points_m.push_back(seen.surface_m);
+  return points_m;
+}
+
+std::vector<Vec2> ObstacleMemory::standing_posts_m(Stamp now) const {
+  std::vector<Vec2> points_m;
+  for (const Seen& seen : seen_)
+    if (seen.is_post && has_stood(seen) && is_remembered(seen, now)) points_m.push_back(seen.surface_m);
   return points_m;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "maps/geometry.hpp"
+#include "maps/lone_posts.hpp"
 #include "maps/ray_fan.hpp"
 #include "maps/scan_rays.hpp"
 #include "maps/stamp.hpp"
@@ -98,6 +99,9 @@ class ObstacleMemory {
   /// The same of legs, and of what has come lately.
   [[nodiscard]] std::vector<Vec2> standing_people_m(Stamp now) const;
 
+  /// The same of posts: they may carry a seat or the top of a table, which the scanner does not see.
+  [[nodiscard]] std::vector<Vec2> standing_posts_m(Stamp now) const;
+
   /// Centres of the cells that are hit now or remembered.
   [[nodiscard]] std::vector<Vec2> occupied_m(Stamp now) const;
 
@@ -123,6 +127,7 @@ class ObstacleMemory {
     std::optional<Stamp> came_at;
     bool has_come = false;        ///< then, by more than a mixed pixel
     std::optional<Stamp> leg_at;  ///< what may be a leg was hit last
+    bool is_post = false;         ///< and was none
     Stamp judged_at;              ///< hit last from where legs can be told
   };
 
@@ -150,10 +155,11 @@ class ObstacleMemory {
   [[nodiscard]] bool is_remembered(const Seen& seen, Stamp now) const;
   void mark_hits(const DeskewedScan& scan, const Place& middle);
   void hit(const Ray& ray, const Vec2& surface_m);
-  void mark_legs(const DeskewedScan& scan);
+  void mark_legs(const DeskewedScan& scan, const RayFan& fan);
+  void take_as_post(const LonePost& post);
   void note_hits_beside(Stamp now);
   [[nodiscard]] bool is_broken_off(const Seen& seen, Stamp now) const;
-  void count_free(const DeskewedScan& scan);
+  void count_free(const DeskewedScan& scan, const RayFan& fan);
   void remember_look(const DeskewedScan& scan, RayFan fan);
   void forget(Stamp now, const Place& middle);
 
@@ -162,6 +168,7 @@ class ObstacleMemory {
   std::vector<Seen> seen_;
   std::vector<std::int32_t> index_;  ///< of a place, wrapped around, in seen_; none where negative
   std::deque<Look> looks_;
+  LonePosts posts_;
   std::optional<Stamp> last_look_;
   Duration seeing_{};  ///< for how long so far: not while the scanner was silent or most beams were lost
 };

@@ -269,6 +269,7 @@ std::vector<Vec2> Surroundings::unmapped_m(Stamp now, const MappedPose& mapped, 
   for (const ObstacleMemory* memory : memories()) {
     for (const Vec2& thing_m : memory->standing_m(now)) obstacles.add(thing_m, room.things_m);
     for (const Vec2& someone_m : memory->standing_people_m(now)) obstacles.add(someone_m, room.legs_m);
+    for (const Vec2& post_m : memory->standing_posts_m(now)) obstacles.add(post_m, room.posts_m);
   }
   const auto before_goals_m = [&](const Vec2& hit_m, double radius_m) {
     return std::min(radius_m, obstacles.room_before_goals_m(hit_m));

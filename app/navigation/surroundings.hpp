@@ -37,6 +37,7 @@ struct DepthSourceOptions {
 struct RoomAround {
   double things_m = 0.0;
   double legs_m = 0.0;       ///< the body that they carry
+  double posts_m = 0.0;      ///< the seat or table top that they may carry
   double lingering_m = 0.0;  ///< people who linger; paths lead up to them where it is 0
   double waiting_m = 0.0;    ///< who has come, may go and holds the robot; likewise
 };
@@ -59,13 +60,13 @@ struct SurroundingsOptions {
   /// More than the field needs: what is behind the side that was seen is not known, and cells of 5 cm round
   /// it off. Beside who lingers it stops the robot at 1.05 m, also in a turn, towards them at 1.35 m; before
   /// who may go at 0.57 m.
-  RoomAround roomy{.things_m = 0.04, .legs_m = 0.28, .lingering_m = 1.3, .waiting_m = 0.6};
+  RoomAround roomy{.things_m = 0.04, .legs_m = 0.28, .posts_m = 0.28, .lingering_m = 1.3, .waiting_m = 0.6};
   /// Where there is no way with so much room: as much as the field lets pass
   /// (ProtectiveFieldOptions::body_m).
-  RoomAround tight{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 0.0, .waiting_m = 0.0};
+  RoomAround tight{.things_m = 0.0, .legs_m = 0.20, .posts_m = 0.0, .lingering_m = 0.0, .waiting_m = 0.0};
   /// With so much a path that is followed can be followed on: `tight` from things and legs, `roomy` from
   /// people.
-  RoomAround passable{.things_m = 0.0, .legs_m = 0.20, .lingering_m = 1.3, .waiting_m = 0.6};
+  RoomAround passable{.things_m = 0.0, .legs_m = 0.20, .posts_m = 0.0, .lingering_m = 1.3, .waiting_m = 0.6};
   LingeringPeopleOptions lingering;
   double leaves_m = 0.2;  ///< beside the robot, so that a path need not begin with a step back from someone
   /// What is nearer to the robot than this counts for a path by its hits alone, so that one can begin there.

@@ -155,8 +155,9 @@ TEST(ObstacleMemory, APostSixMetresAwayThatIsMissedForThreeLooksHasNotCome) {
 /// Hit in one or another of the four by the noise of the range, it never stood, and held the robot for good.
 TEST(ObstacleMemory, AThinPostWhereFourCellsMeetStandsAfterTenSecondsAsLegsDo) {
   Random random(9);
-  const Vec2 corner_m(1.5, 1.0);  // of four cells: its near side is there
-  const Disc post{corner_m + 0.02 * corner_m.normalized(), 0.02};
+  const Vec2 corner_m(1.5, 1.0);      // of four cells: its near side is there
+  constexpr double radius_m = 0.055;  // thick enough to hide a leg behind it
+  const Disc post{corner_m + radius_m * corner_m.normalized(), radius_m};
   ObstacleMemory memory;
   for (int scans = 0; scans < 200; ++scans) {
     const DeskewedScan scan = scan_of({post}, 0.1 * scans, random);

@@ -166,7 +166,7 @@ TEST(Scenario, says_where_its_file_is_wrong) {
 TEST(Scenario, reads_the_examples) {
   const ScratchFolder scratch;
   for (const char* name : {"crossing-people", "static-clutter", "heaps-of-posts", "gaps-in-rows",
-                           "narrow-ways", "people-who-stand-about", "corridor"}) {
+                           "narrow-ways", "lone-posts", "people-who-stand-about", "corridor"}) {
     // So short a time shows that the files are read, and no more.
     std::string text = read_text(std::string(LODESTAR_SOURCE_DIR) + "/scenarios/" + name + ".yaml");
     const std::size_t at = text.find("time_limit_s: ");
@@ -223,6 +223,11 @@ TEST(Scenario, drives_around_what_stands) {
     EXPECT_EQ(line["contacts_moving"], 0) << line;
     EXPECT_GT(line["least_clearance_m"].get<double>(), 0.0) << line;
   }
+}
+
+/// Each was someone with room around, until it was seen from all sides: none of sixteen drives arrived.
+TEST(Scenario, tells_lone_posts_from_legs) {
+  for (const auto& line : four_drives_of("lone-posts")) EXPECT_EQ(line["contacts_moving"], 0) << line;
 }
 
 /// A robot that takes two of them for legs stands before them for good.

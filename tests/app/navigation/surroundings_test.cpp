@@ -79,6 +79,16 @@ TEST_F(SurroundingsTest, plans_around_a_chair_for_the_body_on_its_legs) {
   for (const Vec2& point_m : around_m) EXPECT_LT((point_m - chair.position_m).norm(), 0.6);
 }
 
+/// A post may carry a seat that no beam meets; where no way has the room for one, it is passed as it is seen.
+TEST_F(SurroundingsTest, plans_around_a_post_for_what_it_may_carry_where_there_is_room) {
+  const DiscState post{.radius_m = 0.03, .position_m = {3.0, 4.2}};  // so thin that it hides no leg behind it
+  stand(5.0, {post});
+  const UnmappedObstacles around = surroundings_.unmapped(now_, mapped(), {});
+  EXPECT_GT(count_beyond(0.25, post.position_m, around.roomy_m), 10);
+  ASSERT_FALSE(around.tight_m.empty());
+  EXPECT_EQ(count_beyond(0.1, post.position_m, around.tight_m), 0);
+}
+
 /// Who has come without legs that can be seen may go for a minute; what stays is a thing, and passed closely.
 TEST_F(SurroundingsTest, keeps_clear_of_what_has_come_for_a_minute) {
   const auto farthest_m = [&](const DiscState& disc) {
