@@ -141,15 +141,17 @@ void RotateThenDrive::next_phase(const Pose2& pose) {
 }
 
 /// The heading to the target is fixed once, at rest: close to the target it changes with every millimetre of
-/// noise, and the robot would chase it. When it differs from the leg's by more than 10 degrees, the leg
-/// restarts at the robot; else the robot would turn back and forth between the two headings.
+/// noise, and the robot would chase it. From then on it drives, also where the target looks within epsilon
+/// from that side: camera and markers are known to some millimetres, and from another it may look beyond
+/// again. When the heading differs from the leg's by more than 10 degrees, the leg restarts at the robot;
+/// else the robot would turn back and forth between the two headings.
 void RotateThenDrive::next_phase_rotating(const Pose2& pose) {
   if (!at_rest()) return;
-  if ((target_m() - pose.position_m).norm() <= epsilon_m()) {
-    end_leg(pose);
-    return;
-  }
   if (!turn_heading_rad_) {
+    if ((target_m() - pose.position_m).norm() <= epsilon_m()) {
+      end_leg(pose);
+      return;
+    }
     turn_heading_rad_ = heading_between(pose.position_m, target_m());
     const double beside_rad = std::abs(wrap_angle(*turn_heading_rad_ - leg_heading_rad()));
     if (beside_rad > 0.5 * turn_again_rad) leg_start_m_ = pose.position_m;

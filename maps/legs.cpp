@@ -57,7 +57,8 @@ bool is_gap(const Thing& from, const Thing& to, const DeskewedScan& scan) {
 
 enum class Side : std::uint8_t { before, after };
 
-/// How far behind its edge must a thing's neighbours end, and how wide may what ends nearer be?
+/// How far behind its edge, and behind what is seen of another beside it, must a thing's neighbours end, and
+/// how wide may that other be?
 struct Room {
   double behind_m = 0.0;
   double sliver_m = 0.0;
@@ -75,11 +76,12 @@ bool is_free(const Thing& thing, Side side, const Room& room, const DeskewedScan
   const double edge_m = range_m(scan.rays[edge]);
   const double between_rays_m = edge_m * 2.0 * std::numbers::pi / static_cast<double>(count);
   const auto most_slivers = static_cast<std::size_t>(room.sliver_m / between_rays_m);
-  const auto looks_past = [&](const Ray& ray) {
-    return ray.echo != Echo::invalid && range_m(ray) > edge_m + room.behind_m;
-  };
+  double past_m = edge_m + room.behind_m;
+  const auto looks_past = [&](const Ray& ray) { return ray.echo != Echo::invalid && range_m(ray) > past_m; };
   std::size_t first = 1;
-  while (first <= most_slivers && !looks_past(ray_beside(first))) ++first;
+  for (; first <= most_slivers && !looks_past(ray_beside(first)); ++first)
+    if (ends_at_something(ray_beside(first)))
+      past_m = std::max(past_m, range_m(ray_beside(first)) + room.behind_m);
   for (std::size_t k = first; k < first + beside; ++k)
     if (!looks_past(ray_beside(k))) return false;
   return true;

@@ -15,8 +15,9 @@ struct LegOptions {
   double gap_rad = 0.025;        ///< ... nor those farther apart than beams of half a degree leave them
   double widest_leg_m = 0.18;    ///< with trousers and the noise of the range
   double farthest_pair_m = 0.5;  ///< from middle to middle: standing, or in a stride
-  /// What has nothing beside it so far behind is alone, but for a sliver of the leg that it hides. Of a leg
-  /// that hides less of the other the gap between them opens before who passes can touch the body.
+  /// What has nothing beside it so far behind is alone, but for a sliver of the leg that it hides, which has
+  /// as much behind it: the posts of a row, seen along its side, show a sliver each. Of a leg that hides less
+  /// of the other the gap between them opens before who passes can touch the body.
   double alone_before_m = 0.3;
   double sliver_m = 0.03;
   double perhaps_alone_before_m = 0.1;

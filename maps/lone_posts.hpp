@@ -20,9 +20,9 @@ struct LonePostsOptions {
   /// The thing's own hits lie so far around it: 3 standard deviations of the range (4.5 cm), half the
   /// diagonal of a cell, and what few beams show of its width less than there is.
   double own_m = 0.07;
-  /// A ray that passes so close to where the middle of a leg is would hit it: a leg is at least 11 cm thick,
+  /// A ray that passes so close to where the middle of a leg is would hit it: a leg is at least 10 cm thick,
   /// less half the diagonal of a cell.
-  double would_hit_m = 0.035;
+  double would_hit_m = 0.03;
   double before_end_m = 0.05;  ///< a ray that ends so soon behind a place has not passed it
   /// In the odometry frame, which drifts meanwhile by some centimetres (chosen by hand).
   Duration places_remembered = std::chrono::seconds(120);

@@ -53,5 +53,39 @@ TEST(Legs, AreNoPartsOfAThing) {
   EXPECT_LT(seen_as_legs, 0.01 * asked) << "of " << asked;
 }
 
+/// Of a row that is seen along its side each post shows a sliver beside the one before it.
+TEST(Legs, AreNoEndsOfARow) {
+  Random random(11);
+  int seen_as_legs = 0;
+  int asked = 0;
+  for (double from_side_m = 0.06; from_side_m < 0.2; from_side_m += 0.01) {
+    for (double from_end_m = 0.35; from_end_m < 1.0; from_end_m += 0.05) {
+      constexpr double post_m = 0.08;
+      std::vector<Disc> row;
+      for (int i = 0; i < 12; ++i)
+        row.push_back({{from_end_m + (2.0 * i + 1.0) * post_m, -from_side_m - post_m}, post_m});
+      ++asked;
+      if (!rays_at_legs(scan_of(row, 0.0, random)).likely.empty()) ++seen_as_legs;
+    }
+  }
+  EXPECT_LT(seen_as_legs, 0.05 * asked) << "of " << asked;
+}
+
+/// Beside a leg up to 3 cm are seen of the other, which it hides.
+TEST(Legs, MayShowASliverOfEachOther) {
+  Random random(12);
+  int seen_as_legs = 0;
+  int asked = 0;
+  for (double range_m = 0.5; range_m < 1.5; range_m += 0.05) {
+    for (double sliver_m = 0.0; sliver_m < 0.025; sliver_m += 0.005) {
+      const std::vector<Disc> legs{{{range_m, 0.0}, 0.06},
+                                   {{range_m + 0.2, sliver_m * (range_m + 0.2) / range_m}, 0.06}};
+      ++asked;
+      if (!rays_at_legs(scan_of(legs, 0.0, random)).likely.empty()) ++seen_as_legs;
+    }
+  }
+  EXPECT_GT(seen_as_legs, 0.9 * asked) << "of " << asked;
+}
+
 }  // namespace
 }  // namespace lodestar

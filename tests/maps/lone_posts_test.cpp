@@ -87,7 +87,7 @@ TEST(LonePosts, AreNoLegs) {
   int scans = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const double half_m = 0.08 + 0.00125 * static_cast<double>(seed);  // 16 to 26 cm from middle to middle
-    const double radius_m = seed % 2 == 0 ? 0.06 : 0.055;
+    const double radius_m = 0.045 + 0.005 * static_cast<double>(seed % 4);
     const double range_m = 0.6 + 0.05 * static_cast<double>(seed % 20);
     Round round({Disc{{half_m, 0.0}, radius_m}, Disc{{-half_m, 0.0}, radius_m}}, range_m, seed);
     scans += round.posts_on(0.3 * static_cast<double>(seed), 720.0);
