@@ -24,19 +24,15 @@ Thing measured(Thing thing, const DeskewedScan& scan) {
   return thing;
 }
 
-/// What is near, split where neighbouring hits lie too far apart for one leg. A turn may begin in the middle
-/// of a thing.
+/// What is near, split where neighbouring hits lie too far apart for one leg.
 std::vector<Thing> near_things(const DeskewedScan& scan, const LegOptions& options) {
   const auto is_near = [&](const Ray& ray) { return range_m(ray) <= options.within_m; };
   const auto joins = [&](const Ray& before, const Ray& ray) {
-    const double gap_m = std::max(options.least_gap_m, options.gap_rad * range_m(ray));
-    return (ray.end_m - before.end_m).norm() <= gap_m;
+    return (ray.end_m - before.end_m).norm() <= options.gap_m(ray);
   };
   std::vector<ScanPiece> pieces = pieces_of(scan, is_near, joins);
-  if (pieces.size() > 1 && joins(scan.rays[pieces.back().back()], scan.rays[pieces.front().front()])) {
-    pieces.back().insert(pieces.back().end(), pieces.front().begin(), pieces.front().end());
-    pieces.erase(pieces.begin());
-  }
+  join_over_seam(
+      pieces, [&](std::size_t last, std::size_t first) { return joins(scan.rays[last], scan.rays[first]); });
   std::vector<Thing> things;
   for (ScanPiece& rays : pieces) things.push_back(measured({.rays = std::move(rays)}, scan));
   return things;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct LegOptions {
   double perhaps_alone_before_m = 0.1;
   /// Rays that pass on the outer sides of a pair end so far behind: 3 standard deviations of the range.
   double aside_m = 0.05;
+
+  /// How far apart neighbouring hits of one leg may end.
+  [[nodiscard]] double gap_m(const Ray& ray) const { return std::max(least_gap_m, gap_rad * range_m(ray)); }
 };
 
 /// The rays that end at legs, of people or chairs: pairs of thin things close to each other, and thin things

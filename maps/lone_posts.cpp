@@ -11,28 +11,22 @@ namespace {
 
 constexpr int wraps = 256;  ///< cells a side: those around all that can be told as legs
 
-/// Rays at one thing follow each other, and end as close to each other as those at one leg. A turn may begin
-/// in the middle of a thing.
+/// Rays at one thing follow each other, and end as close to each other as those at one leg.
 std::vector<ScanPiece> things_at(const DeskewedScan& scan, std::span<const std::size_t> rays) {
-  const LegOptions legs;
   ScanPiece ascending(rays.begin(), rays.end());
   std::ranges::sort(ascending);
   const auto repeated = std::ranges::unique(ascending);
   ascending.erase(repeated.begin(), repeated.end());
   const auto goes_on = [&](std::size_t before, std::size_t i) {
-    const double gap_m = std::max(legs.least_gap_m, legs.gap_rad * range_m(scan.rays[i]));
     return (before + 1) % scan.rays.size() == i &&
-           (scan.rays[before].end_m - scan.rays[i].end_m).norm() <= gap_m;
+           (scan.rays[before].end_m - scan.rays[i].end_m).norm() <= LegOptions{}.gap_m(scan.rays[i]);
   };
   std::vector<ScanPiece> things;
   for (const std::size_t i : ascending) {
     if (things.empty() || !goes_on(things.back().back(), i)) things.emplace_back();
     things.back().push_back(i);
   }
-  if (things.size() > 1 && goes_on(things.back().back(), things.front().front())) {
-    things.back().insert(things.back().end(), things.front().begin(), things.front().end());
-    things.erase(things.begin());
-  }
+  join_over_seam(things, goes_on);
   return things;
 }
 

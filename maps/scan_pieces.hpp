@@ -23,4 +23,13 @@ std::vector<ScanPiece> pieces_of(const DeskewedScan& scan, const Counts& counts,
   return pieces;
 }
 
+/// A turn may begin in the middle of a thing: makes one of the last piece and the first, where the last ray
+/// `joins` the first, by their places in the scan.
+template <typename Joins>
+void join_over_seam(std::vector<ScanPiece>& pieces, const Joins& joins) {
+  if (pieces.size() < 2 || !joins(pieces.back().back(), pieces.front().front())) return;
+  pieces.back().insert(pieces.back().end(), pieces.front().begin(), pieces.front().end());
+  pieces.erase(pieces.begin());
+}
+
 }  // namespace lodestar
