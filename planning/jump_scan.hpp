@@ -41,6 +41,7 @@ class JumpScan {
   [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] int jump(Cell cell, int direction) const;
   [[nodiscard]] NeighbourMask neighbours(Cell cell) const;
+  void prefetch(Cell /*cell*/) const {}  ///< its bits are few enough to stay in the cache
 
  private:
   [[nodiscard]] int diagonal_jump(Cell cell, int direction) const;

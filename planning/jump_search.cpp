@@ -213,6 +213,7 @@ void JumpSearch<Jumps>::expand_diagonal(Cell from, StepLength length, std::uint3
 template <typename Jumps>
 void JumpSearch<Jumps>::reach(Cell cell, StepLength length, std::uint32_t parent, int direction) {
   const std::uint32_t at = index(cell);
+  jumps_.prefetch(cell);
   Node& node = node_to_reach(at);
   if (length >= node.length) return;
   node = {.length = length, .parent = parent, .visit = visit_};
