@@ -70,6 +70,7 @@ void TwoWayTurnSearch::gather_places(std::span<const Vec2> known, int round) {
   const std::vector<TurnPlace>& chosen =
       choice_.choose(known, cost_->longest(limit_), cost_->counts_turns(), limits_.candidates, round);
   places_.clear();
+  screen_.clear();
   add_place({known.back(), std::nullopt});
   add_place({known.front(), std::nullopt});
   for (const Vec2& point : known.subspan(1, known.size() - 2)) add_place({point, std::nullopt});
@@ -91,6 +92,7 @@ void TwoWayTurnSearch::add_place(const TurnPlace& at) {
   place.least_from_start = least(start, place.to_start_cells);
   if (places_.size() > start && place.least_from_start + place.least_to_goal >= limit_) return;
   places_.push_back(place);
+  screen_.add(position, cost_->longest(place.least_from_start));
 }
 
 /// False when the paths over tiles differ by more than a straight leg between the two can.
@@ -159,6 +161,7 @@ TwoWayTurnSearch::Open TwoWayTurnSearch::pop() {
 void TwoWayTurnSearch::search_backwards() {
   open_.clear();
   places_[goal].next = goal;
+  screen_.remove(goal);
   expand_backwards(goal);
   while (!open_.empty() && work_ < limits_.work / 10 * 9) {
     Open next = pop();
@@ -176,6 +179,7 @@ void TwoWayTurnSearch::search_backwards() {
       }
     }
     place.next = next.from;
+    screen_.remove(next.place);
     place.cost_to_goal = next.cost;
     place.heading_on_rad = next.heading_rad;
     if (next.place != start) expand_backwards(next.place);
@@ -187,9 +191,9 @@ void TwoWayTurnSearch::expand_backwards(std::uint32_t place) {
   const Place& to = places_[place];
   work_ += places_.size();
   ++expanded_;
-  for (std::uint32_t other = 0; other < places_.size(); ++other) {
+  const double longest_cells = cost_->longest(limit_ - to.cost_to_goal);
+  for (const std::uint32_t other : screen_.may_lead_to(to.position, turn_around(place), longest_cells)) {
     const Place& from = places_[other];
-    if (from.next != none || other == place) continue;
     if (place != goal && !is_taut(to, from.position, places_[to.next].position)) continue;
     const Vec2 way = to.position - from.position;
     const double length_cells = way.norm();
@@ -205,6 +209,13 @@ void TwoWayTurnSearch::expand_backwards(std::uint32_t place) {
     open.total = open.cost;
     push(open);
   }
+}
+
+/// Around the place's corner into its cheapest way on.
+std::optional<TurnAround> TwoWayTurnSearch::turn_around(std::uint32_t place) const {
+  const Place& at = places_[place];
+  if (place == goal || !at.corner) return std::nullopt;
+  return TurnAround{.way = places_[at.next].position - at.position, .to_corner = *at.corner - at.position};
 }
 
 /// Cost of the turn from an arrival into the cheapest path on to the goal.

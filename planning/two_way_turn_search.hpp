@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planning/path_cost.hpp"
+#include "planning/place_screen.hpp"
 #include "planning/turn_point_choice.hpp"
 #include "planning/turn_search_limits.hpp"
 
@@ -87,6 +88,7 @@ class TwoWayTurnSearch {
 
   void search_backwards();
   void expand_backwards(std::uint32_t place);
+  [[nodiscard]] std::optional<TurnAround> turn_around(std::uint32_t place) const;
   void search_forwards();
   void expand_forwards(std::uint32_t label);
   [[nodiscard]] double turn_at(std::uint32_t place, double arrival_rad) const;
@@ -104,6 +106,7 @@ class TwoWayTurnSearch {
   std::size_t expanded_ = 0;
   std::vector<Open> complete_;  ///< labels with a path to the goal: their total, `from` is the label
   std::vector<Place> places_;
+  PlaceScreen screen_;         ///< of the places not reached yet
   std::vector<Sight> sights_;  ///< between places
   std::vector<Label> labels_;
   std::vector<Open> open_;
