@@ -229,4 +229,17 @@ std::vector<int> choose_marker_ids(int count, const std::vector<int>& taken,
   return best;
 }
 
+std::vector<int> choose_marker_ids(int count, const std::vector<int>& taken) {
+  constexpr std::array<MarkerCodeOptions, 3> codes{
+      {{.min_distance = 3, .lexicodes = 500},
+       {.min_distance = 3, .all_views = false, .lexicodes = 500},
+       {.min_distance = 2, .all_views = false, .lexicodes = 500}}};
+  std::vector<int> ids;
+  for (const MarkerCodeOptions& code : codes) {
+    ids = choose_marker_ids(count, taken, code);
+    if (std::ssize(ids) >= count) break;
+  }
+  return ids;
+}
+
 }  // namespace lodestar

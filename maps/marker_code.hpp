@@ -59,4 +59,8 @@ struct MarkerCodeOptions {
 std::vector<int> choose_marker_ids(int count, const std::vector<int>& taken,
                                    const MarkerCodeOptions& options);
 
+/// IDs for a site, `count` of them or as many as there are: of a code as far apart in all views as `count`
+/// allows, of a weaker one for larger sites.
+std::vector<int> choose_marker_ids(int count, const std::vector<int>& taken);
+
 }  // namespace lodestar

@@ -145,6 +145,22 @@ std::optional<double> TwoWayTurnSearch::extra_cost(std::uint32_t from, std::uint
   return cost_->leg(begin, end) - cost_->at_least(length_cells);
 }
 
+/// Looks at a label's leg, once. False where it is blocked; and where it costs more than its least cost: then
+/// the label waits again at its true cost.
+bool TwoWayTurnSearch::is_settled(Open& label, std::uint32_t from, std::uint32_t to) {
+  if (label.looked_at) return true;
+  const std::optional<double> extra = extra_cost(from, to);
+  if (!extra) return false;
+  label.looked_at = true;
+  label.cost += *extra;
+  label.total += *extra;
+  if (*extra > 0.0) {
+    push(label);
+    return false;
+  }
+  return true;
+}
+
 void TwoWayTurnSearch::push(const Open& open) {
   open_.push_back(open);
   std::ranges::push_heap(open_, Later{});
@@ -167,17 +183,7 @@ void TwoWayTurnSearch::search_backwards() {
     Open next = pop();
     Place& place = places_[next.place];
     if (place.next != none) continue;
-    if (!next.looked_at) {
-      const std::optional<double> extra = extra_cost(next.place, next.from);
-      if (!extra) continue;
-      next.looked_at = true;
-      next.cost += *extra;
-      next.total += *extra;
-      if (*extra > 0.0) {
-        push(next);
-        continue;
-      }
-    }
+    if (!is_settled(next, next.place, next.from)) continue;
     place.next = next.from;
     screen_.remove(next.place);
     place.cost_to_goal = next.cost;
@@ -234,17 +240,7 @@ void TwoWayTurnSearch::search_forwards() {
     Open next = pop();
     if (next.total >= limit_ + slack) break;
     if (is_dominated(next)) continue;
-    if (!next.looked_at) {
-      const std::optional<double> extra = extra_cost(labels_[next.from].place, next.place);
-      if (!extra) continue;
-      next.looked_at = true;
-      next.cost += *extra;
-      next.total += *extra;
-      if (*extra > 0.0) {
-        push(next);
-        continue;
-      }
-    }
+    if (!is_settled(next, labels_[next.from].place, next.place)) continue;
     const auto label = static_cast<std::uint32_t>(labels_.size());
     Place& at = places_[next.place];
     labels_.push_back({next.cost, next.heading_rad, next.place, next.from, at.newest_label});

@@ -83,6 +83,7 @@ class TwoWayTurnSearch {
   bool may_be_clear(std::uint32_t from, std::uint32_t to);
   bool sees(std::uint32_t from, std::uint32_t to);
   std::optional<double> extra_cost(std::uint32_t from, std::uint32_t to);
+  bool is_settled(Open& label, std::uint32_t from, std::uint32_t to);
   void push(const Open& open);
   Open pop();
 

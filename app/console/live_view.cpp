@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "app/common/json_parse.hpp"
 #include "app/console/live_json.hpp"
 #include "app/console/survey_json.hpp"
+#include "app/console/view_session.hpp"
 #include "drivers/system/clock.hpp"
 #include "maps/input_error.hpp"
 
@@ -24,26 +24,6 @@ bool is_for_once(const std::string& type) {
 
 }  // namespace
 
-class LiveView::Session : public SocketSession {
- public:
-  Session(LiveView& view, Role role, Outbox& outbox) : view_(view) {
-    client_.role = role;
-    client_.outbox = &outbox;
-    view_.add_client(client_);
-  }
-  ~Session() override { view_.remove_client(client_); }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-
-  void receive(const std::string& bytes, bool /*binary*/) override {
-    view_.receive(client_, parse_json(bytes), monotonic_now());
-  }
-
- private:
-  LiveView& view_;
-  Client client_;
-};
-
 LiveView::LiveView(const Site& site, LiveLink* link, const LiveSurvey* survey, const LiveViewOptions& options)
     : site_(site),
       link_(link),
@@ -61,7 +41,7 @@ LiveView::LiveView(const Site& site, LiveLink* link, const LiveSurvey* survey, c
 std::vector<SocketProtocol> LiveView::protocols() {
   return {
       {.name = "lodestar.v1", .open = [this](Role role, Outbox& outbox) -> std::unique_ptr<SocketSession> {
-         return std::make_unique<Session>(*this, role, outbox);
+         return std::make_unique<ViewSession<LiveView>>(*this, role, outbox);
        }}};
 }
 

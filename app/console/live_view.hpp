@@ -18,6 +18,9 @@
 
 namespace lodestar {
 
+template <typename View>
+class ViewSession;
+
 struct LiveViewOptions {
   Duration lease = std::chrono::seconds(1);  ///< the robot pauses when the driver is silent for longer
   Duration camera_period = std::chrono::milliseconds(200);  ///< of the pictures sent
@@ -67,7 +70,7 @@ class LiveView : public LiveChannel {
   [[nodiscard]] Lease& lease() { return lease_; }
 
  private:
-  class Session;
+  friend class ViewSession<LiveView>;
   /// Where a client wants the robot to drive.
   struct Wish {
     std::vector<Goal> goals;

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <fmt/format.h>
 
-#include "app/common/json_parse.hpp"
 #include "app/console/live_json.hpp"
 #include "app/console/rosbridge_json.hpp"
+#include "app/console/view_session.hpp"
 #include "drivers/system/clock.hpp"
 #include "maps/input_error.hpp"
 #include "planning/route.hpp"
@@ -60,32 +60,12 @@ Duration unix_time(Stamp stamp, Stamp now) {
 
 }  // namespace
 
-class RosbridgeView::Session : public SocketSession {
- public:
-  Session(RosbridgeView& view, Role role, Outbox& outbox) : view_(view) {
-    client_.role = role;
-    client_.outbox = &outbox;
-    view_.add_client(client_);
-  }
-  ~Session() override { view_.remove_client(client_); }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-
-  void receive(const std::string& bytes, bool /*binary*/) override {
-    view_.receive(client_, parse_json(bytes), monotonic_now());
-  }
-
- private:
-  RosbridgeView& view_;
-  Client client_;
-};
-
 RosbridgeView::RosbridgeView(const Site& site, LiveLink& link, Lease& lease)
     : site_(site), link_(link), lease_(lease) {}
 
 std::vector<SocketProtocol> RosbridgeView::protocols() {
   return {{.name = "", .open = [this](Role role, Outbox& outbox) -> std::unique_ptr<SocketSession> {
-             return std::make_unique<Session>(*this, role, outbox);
+             return std::make_unique<ViewSession<RosbridgeView>>(*this, role, outbox);
            }}};
 }
 

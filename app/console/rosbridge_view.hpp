@@ -14,6 +14,9 @@
 
 namespace lodestar {
 
+template <typename View>
+class ViewSession;
+
 /// rosbridge 2.0 for clients that offer no subprotocol, such as roslib: topics /map, /amcl_pose and /plan to
 /// subscribe to, /goal_pose and /initialpose to publish, the service /rosapi/topics, and the action
 /// /navigate_to_pose (nav2_msgs/NavigateToPose) with feedback, result and cancel.
@@ -31,7 +34,7 @@ class RosbridgeView : public LiveChannel {
   void take_markers(const MarkerRegistry& /*saved*/) override {}
 
  private:
-  class Session;
+  friend class ViewSession<RosbridgeView>;
   /// A drive that a client asked for.
   struct Drive {
     std::uint64_t ticket = 0;

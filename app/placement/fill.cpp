@@ -1,7 +1,6 @@
 #include "app/placement/fill.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -105,17 +104,10 @@ std::vector<Vec2> chosen_centers(std::vector<Candidate> open, Samples& samples, 
   return {taken_m.begin() + static_cast<std::ptrdiff_t>(present), taken_m.end()};
 }
 
-/// Prefers codes that are far apart in all views; larger sites need weaker ones.
+/// Throws InputError when there are fewer.
 std::vector<int> ids_for(int wanted, const std::vector<int>& taken) {
-  constexpr std::array<MarkerCodeOptions, 3> codes{
-      {{.min_distance = 3, .lexicodes = 500},
-       {.min_distance = 3, .all_views = false, .lexicodes = 500},
-       {.min_distance = 2, .all_views = false, .lexicodes = 500}}};
-  std::vector<int> ids;
-  for (const MarkerCodeOptions& code : codes) {
-    ids = choose_marker_ids(wanted, taken, code);
-    if (std::ssize(ids) >= wanted) return ids;
-  }
+  std::vector<int> ids = choose_marker_ids(wanted, taken);
+  if (std::ssize(ids) >= wanted) return ids;
   throw InputError(
       fmt::format("found {} IDs that differ in two cells from those present, wanted {}", ids.size(), wanted));
 }

@@ -1,7 +1,6 @@
 #include "app/simulate/marker_grid_above.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -45,26 +44,12 @@ std::vector<Vec2> places_above(const OccupancyMap& map, double wanted_spacing_m)
   return places_m;
 }
 
-/// Prefers codes that are far apart in all views; larger sites need weaker ones.
-std::vector<int> ids_for(int count) {
-  constexpr std::array<MarkerCodeOptions, 3> codes{
-      {{.min_distance = 3, .lexicodes = 500},
-       {.min_distance = 3, .all_views = false, .lexicodes = 500},
-       {.min_distance = 2, .all_views = false, .lexicodes = 500}}};
-  std::vector<int> ids;
-  for (const MarkerCodeOptions& code : codes) {
-    ids = choose_marker_ids(count, {}, code);
-    if (std::ssize(ids) >= count) break;
-  }
-  return ids;
-}
-
 }  // namespace
 
 MarkerRegistry marker_grid_above(const OccupancyMap& map) {
   MarkerRegistry registry;
   std::vector<Vec2> places_m = places_above(map, spacing_m);
-  const std::vector<int> ids = ids_for(static_cast<int>(places_m.size()));
+  const std::vector<int> ids = choose_marker_ids(static_cast<int>(places_m.size()), {});
   for (double apart_m = spacing_m * wider; places_m.size() > ids.size(); apart_m *= wider)
     places_m = places_above(map, apart_m);
   Random random(1);

@@ -21,6 +21,22 @@ void write(const Rows& rows, Eigen::Index first_row, int columns, double* jacobi
   Eigen::Map<RowMajor>(jacobian + first_row * columns, rows.rows(), columns) = rows;
 }
 
+/// Derivatives by two places of the way between them, in the frame of the first and over a scale, and of the
+/// turn.
+struct ByPlaces {
+  Eigen::Matrix<double, 3, 5> from = Eigen::Matrix<double, 3, 5>::Zero();
+  Eigen::Matrix<double, 3, 5> to = Eigen::Matrix<double, 3, 5>::Zero();
+};
+
+ByPlaces by_places(const Eigen::Matrix2d& base_from_map, const Vec2& way_m, double scale) {
+  ByPlaces by;
+  by.to.topLeftCorner<2, 2>() = base_from_map / scale;
+  by.to(2, 2) = 1.0;
+  by.from = -by.to;
+  by.from.block<2, 1>(0, 2) = Vec2(way_m.y(), -way_m.x()) / scale;
+  return by;
+}
+
 /// The derivative is that of the translation and of the rotation about the map's axes, by place (5), mount
 /// position (3) and mount turn (3).
 struct CameraPose {
@@ -147,22 +163,18 @@ bool WheelsBetween::Evaluate(const double* const* parameters, double* residuals,
   const double scale = parameters[2][0];
   const WheelMotion rolled = segment_.motion({.difference = parameters[2][1], .track_m = parameters[2][2]});
   const Eigen::Matrix2d base_from_map = Eigen::Rotation2Dd(-from[2]).toRotationMatrix();
-  const Vec2 way = base_from_map * (to.head<2>() - from.head<2>()) / scale;
+  const Vec2 way_m = base_from_map * (to.head<2>() - from.head<2>());
+  const Vec2 way = way_m / scale;
   Vec3 off;
   off << way - rolled.way_m, wrapped(to[2] - from[2] - rolled.turn_rad);
   Eigen::Map<Vec3> residual(residuals);
   residual = root_information_ * off;
   if (jacobians == nullptr) return true;
-  Eigen::Matrix<double, 3, 5> by_from = Eigen::Matrix<double, 3, 5>::Zero();
-  Eigen::Matrix<double, 3, 5> by_to = Eigen::Matrix<double, 3, 5>::Zero();
-  by_to.topLeftCorner<2, 2>() = base_from_map / scale;
-  by_to(2, 2) = 1.0;
-  by_from = -by_to;
-  by_from.block<2, 1>(0, 2) = Vec2(way.y(), -way.x());
+  const ByPlaces by = by_places(base_from_map, way_m, scale);
   Eigen::Matrix3d by_wheels;
   by_wheels << Vec3(-way.x() / scale, -way.y() / scale, 0.0), -rolled.by_gauge;
-  write(root_information_ * by_from, 0, 5, jacobians[0]);
-  write(root_information_ * by_to, 0, 5, jacobians[1]);
+  write(root_information_ * by.from, 0, 5, jacobians[0]);
+  write(root_information_ * by.to, 0, 5, jacobians[1]);
   write(root_information_ * by_wheels, 0, 3, jacobians[2]);
   return true;
 }
@@ -201,14 +213,9 @@ bool CeilingBetween::Evaluate(const double* const* parameters, double* residuals
   Eigen::Map<Vec3> residual(residuals);
   residual = root_information_ * off;
   if (jacobians == nullptr) return true;
-  Eigen::Matrix<double, 3, 5> by_from = Eigen::Matrix<double, 3, 5>::Zero();
-  Eigen::Matrix<double, 3, 5> by_to = Eigen::Matrix<double, 3, 5>::Zero();
-  by_to.topLeftCorner<2, 2>() = base_from_map / scale;
-  by_to(2, 2) = 1.0;
-  by_from = -by_to;
-  by_from.block<2, 1>(0, 2) = Vec2(way.y(), -way.x()) / scale;
-  by_to.topRightCorner<2, 2>() = turn * aside_by_lean / scale;
-  by_from.topRightCorner<2, 2>() = -aside_by_lean / scale;
+  ByPlaces by = by_places(base_from_map, way, scale);
+  by.to.topRightCorner<2, 2>() = turn * aside_by_lean / scale;
+  by.from.topRightCorner<2, 2>() = -aside_by_lean / scale;
   Vec3 by_scale;
   by_scale << -seen / scale, 0.0;
   Eigen::Matrix3d by_mount = Eigen::Matrix3d::Zero();
@@ -219,8 +226,8 @@ bool CeilingBetween::Evaluate(const double* const* parameters, double* residuals
   by_turn.col(2) << camera_way.y(), -camera_way.x(), 0.0;
   Eigen::Matrix<double, 3, 2> by_print = Eigen::Matrix<double, 3, 2>::Zero();
   by_print.topLeftCorner<2, 1>() = (swayed / print - sweep * aside_by_print_m) / scale;
-  write(root_information_ * by_from, 0, 5, jacobians[0]);
-  write(root_information_ * by_to, 0, 5, jacobians[1]);
+  write(root_information_ * by.from, 0, 5, jacobians[0]);
+  write(root_information_ * by.to, 0, 5, jacobians[1]);
   write(root_information_ * by_scale, 0, 1, jacobians[2]);
   write(root_information_ * by_mount, 0, 3, jacobians[3]);
   write(root_information_ * by_turn, 0, 3, jacobians[4]);

@@ -131,6 +131,18 @@ TEST(MarkerCode, keeps_away_from_ids_that_are_taken) {
   }
 }
 
+TEST(MarkerCode, of_a_larger_site_is_a_weaker_one) {
+  const std::vector<int> few = choose_marker_ids(60, {});
+  EXPECT_EQ(few.size(), 60U);
+  expect_code(few, {.min_distance = 3});
+  const std::vector<int> more = choose_marker_ids(200, {});
+  EXPECT_EQ(more.size(), 200U);
+  expect_code(more, {.min_distance = 3, .all_views = false});
+  const std::vector<int> many = choose_marker_ids(1000, {});
+  EXPECT_EQ(many.size(), 1000U);
+  expect_code(many, {.min_distance = 2, .all_views = false});
+}
+
 TEST(MarkerCode, finds_none_where_there_is_none) {
   EXPECT_TRUE(choose_marker_ids(5, {}, {.min_distance = 3, .min_dots = 16}).empty());
   EXPECT_TRUE(choose_marker_ids(0, {}, {}).empty());

@@ -9,12 +9,6 @@ namespace {
 
 using namespace survey_sample;
 
-std::vector<SurveyFlaw> flaws_of(const MarkerSurvey& survey) {
-  std::vector<SurveyFlaw> flaws;
-  for (const SurveyRefusal& refusal : survey.flaws) flaws.push_back(refusal.flaw);
-  return flaws;
-}
-
 /// The markers at the room's corners, of which the first is measured too far along x by this.
 Anchors at_the_corners(const SurveyTour& tour, double off_m) {
   const std::vector<RegisteredMarker>& markers = tour.world.markers;

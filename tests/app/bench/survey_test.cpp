@@ -13,12 +13,6 @@ namespace {
 
 using namespace survey_sample;
 
-std::vector<SurveyFlaw> flaws_of(const MarkerSurvey& survey) {
-  std::vector<SurveyFlaw> flaws;
-  for (const SurveyRefusal& refusal : survey.flaws) flaws.push_back(refusal.flaw);
-  return flaws;
-}
-
 Anchor at_its_place(const RegisteredMarker& marker, double sigma_m = 0.003) {
   return {MarkerAnchor{.id = marker.id, .position_m = marker.position_m.head<2>(), .sigma_m = sigma_m}, 7};
 }

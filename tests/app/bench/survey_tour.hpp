@@ -45,4 +45,10 @@ inline std::string words_of(const MarkerSurvey& survey) {
   return survey.flaws.empty() ? "" : survey.flaws.front().found;
 }
 
+inline std::vector<SurveyFlaw> flaws_of(const MarkerSurvey& survey) {
+  std::vector<SurveyFlaw> flaws;
+  for (const SurveyRefusal& refusal : survey.flaws) flaws.push_back(refusal.flaw);
+  return flaws;
+}
+
 }  // namespace lodestar::survey_sample
