@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "maps/touching.hpp"
+#include "planning/bit_words.hpp"
 #include "planning/swept_disc.hpp"
 
 namespace lodestar {
@@ -21,9 +22,7 @@ int first_set(std::span<const std::uint64_t> row, double least_x, double greates
   if (last == greatest_x) --last;  // touches the next cell only
   last = std::min(last, 64 * static_cast<int>(row.size()) - 1);
   for (int i = first / 64; i <= last / 64; ++i) {
-    std::uint64_t bits = row[static_cast<std::size_t>(i)];
-    if (i == first / 64) bits &= ~std::uint64_t{0} << static_cast<unsigned>(first % 64);
-    if (i == last / 64) bits &= ~std::uint64_t{0} >> static_cast<unsigned>(63 - last % 64);
+    const std::uint64_t bits = row[static_cast<std::size_t>(i)] & bits_between(i, first, last);
     if (bits != 0) return 64 * i + std::countr_zero(bits);
   }
   return -1;
@@ -141,12 +140,8 @@ void CollisionChecker::block_border(double distance_cells, std::vector<std::uint
 
 void CollisionChecker::block(int row, int first, int last, std::vector<std::uint64_t>& bits) {
   const std::size_t begin = word(row);
-  for (int i = first / 64; i <= last / 64; ++i) {
-    std::uint64_t blocked = ~std::uint64_t{0};
-    if (i == first / 64) blocked &= ~std::uint64_t{0} << static_cast<unsigned>(first % 64);
-    if (i == last / 64) blocked &= ~std::uint64_t{0} >> static_cast<unsigned>(63 - last % 64);
-    bits[begin + static_cast<std::size_t>(i)] &= ~blocked;
-  }
+  for (int i = first / 64; i <= last / 64; ++i)
+    bits[begin + static_cast<std::size_t>(i)] &= ~bits_between(i, first, last);
 }
 
 bool CollisionChecker::is_surely_blocked(const Vec2& from, const Vec2& to) const {
