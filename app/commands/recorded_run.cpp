@@ -8,6 +8,7 @@
 #include "app/navigation/navigation_setup.hpp"
 #include "app/recording/run_origin.hpp"
 #include "app/report/run_folder.hpp"
+#include "drivers/system/clock.hpp"
 #include "maps/input_error.hpp"
 
 namespace lodestar {
@@ -37,14 +38,18 @@ RecordedRun::RecordedRun(std::filesystem::path folder, const Site& site, const s
                                      .disk = options.disk}),
       sighting_log_(folder_, site.robot, site.cameras.at(camera),
                     {.can_wait = options.can_wait, .tell = once(options.tell), .disk = options.disk}) {
-  origin_ = std::async(
-      std::launch::async,
-      [&site, folder = folder_,
-       origin = RunOrigin{
-           .started = utc_text(), .program = LODESTAR_VERSION, .site = site.name, .seed = options.seed}] {
-        lower_priority_of_this_thread();
-        write_run_origin(folder, origin, site.map.map, site.registry);
-      });
+  origin_ =
+      std::async(std::launch::async,
+                 [&site, folder = folder_,
+                  origin = RunOrigin{
+                      .started = utc_text(),
+                      .program = LODESTAR_VERSION,
+                      .site = site.name,
+                      .seed = options.seed,
+                      .clock_offset = options.seed ? std::nullopt : std::optional(system_clock_offset())}] {
+                   lower_priority_of_this_thread();
+                   write_run_origin(folder, origin, site.map.map, site.registry);
+                 });
   if (site.robot.scanner)
     scan_log_.emplace(
         folder_, site.robot.scanner->mount,

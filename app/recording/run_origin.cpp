@@ -34,10 +34,11 @@ void write_run_origin(const fs::path& folder, const RunOrigin& origin, const Occ
     throw InputError(folder, 0, "a folder that could not be made (" + error.message() + ")", "one that can");
   save_map(map, folder / map_of_run);
   save_registry(registry, folder / markers_of_run);
-  write_file_atomically(folder / file_name,
-                        fmt::format("format: lodestar-run\nversion: 1\nstarted: {}\nprogram: {}\nsite: {}\n",
-                                    origin.started, yaml_quoted(origin.program), yaml_quoted(origin.site)) +
-                            (origin.seed ? fmt::format("seed: {}\n", *origin.seed) : ""));
+  std::string text = fmt::format("format: lodestar-run\nversion: 1\nstarted: {}\nprogram: {}\nsite: {}\n",
+                                 origin.started, yaml_quoted(origin.program), yaml_quoted(origin.site));
+  if (origin.seed) text += fmt::format("seed: {}\n", *origin.seed);
+  if (origin.clock_offset) text += fmt::format("clock_offset_s: {:.6f}\n", seconds(*origin.clock_offset));
+  write_file_atomically(folder / file_name, text);
 }
 
 std::optional<RunOrigin> read_run_origin(const fs::path& folder) {
@@ -51,6 +52,7 @@ std::optional<RunOrigin> read_run_origin(const fs::path& folder) {
                    .site = yaml.text("site"),
                    .seed = std::nullopt};
   if (yaml.has("seed")) origin.seed = seed_in(yaml);
+  if (yaml.has("clock_offset_s")) origin.clock_offset = from_seconds(yaml.number("clock_offset_s"));
   yaml.finish();
   return origin;
 }

@@ -7,6 +7,7 @@
 
 #include "maps/marker_registry.hpp"
 #include "maps/occupancy_map.hpp"
+#include "maps/stamp.hpp"
 
 namespace lodestar {
 
@@ -16,6 +17,8 @@ struct RunOrigin {
   std::string program;  ///< its version
   std::string site;
   std::optional<std::uint64_t> seed;  ///< of a simulated world
+  /// Of a real one: what UTC, counted from 1970, was ahead of the robot's clock when the drive began.
+  std::optional<Duration> clock_offset = std::nullopt;
 };
 
 /// In a run folder: the map and the registry that the robot drove on, for whoever looks at the run when the

@@ -1,6 +1,9 @@
 #include <cmath>
+#include <optional>
 
+#include "app/recording/run_origin.hpp"
 #include "drivers/can/candump.hpp"
+#include "drivers/system/clock.hpp"
 
 #include "tests/can/lab.hpp"
 
@@ -61,6 +64,9 @@ TEST_F(Mission, arrives_and_candump_saw_it) {
   }
   EXPECT_LE(late, commands.size() / 100);
   EXPECT_FALSE(load_candump("run/can.log").empty());
+  const std::optional<Duration> clock_offset = read_run_origin("run").value().clock_offset;
+  ASSERT_TRUE(clock_offset);
+  EXPECT_NEAR(seconds(*clock_offset - system_clock_offset()), 0.0, 1.0);
 }
 
 /// A full disk must not affect the drive; that the run is not recorded as a whole shows in the exit code.

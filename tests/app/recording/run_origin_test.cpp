@@ -25,15 +25,20 @@ TEST(RunOrigin, is_read_as_it_was_written_with_the_map_and_the_markers) {
   EXPECT_EQ(read.program, written.program);
   EXPECT_EQ(read.site, written.site);
   EXPECT_EQ(read.seed, written.seed);
+  EXPECT_FALSE(read.clock_offset) << "of a simulated drive";
   EXPECT_EQ(load_map(folder / "run" / map_of_run).map.cells, sample::floor().cells);
   EXPECT_EQ(load_registry(folder / "run" / markers_of_run).markers.at(0).id, 77);
 }
 
 TEST(RunOrigin, of_a_real_drive_has_no_seed_and_that_of_an_older_one_is_nothing) {
   const TemporaryFolder folder;
-  write_run_origin(folder / "run", {.started = "2026-11-26T09:05:00Z", .program = "1", .site = "lab"},
+  const Duration offset = std::chrono::microseconds(1764061500123456);
+  write_run_origin(folder / "run",
+                   {.started = "2026-11-26T09:05:00Z", .program = "1", .site = "lab", .clock_offset = offset},
                    sample::floor(), sample::ceiling());
-  EXPECT_FALSE(read_run_origin(folder / "run").value().seed);
+  const RunOrigin read = read_run_origin(folder / "run").value();
+  EXPECT_FALSE(read.seed);
+  EXPECT_NEAR(seconds(read.clock_offset.value() - offset), 0.0, 1e-6);
   EXPECT_FALSE(read_run_origin(folder / "older"));
 }
 
