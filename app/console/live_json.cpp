@@ -138,7 +138,7 @@ ordered_json state_json(const RobotState& state) {
                    {"seen_s", state.last_seen ? ordered_json(short_number(seconds(*state.last_seen)))
                                               : ordered_json(nullptr)},
                    {"distrusted", ordered_json::array()},
-                   {"error_m", or_null(state.error_m)},
+                   {"error_m", state.error ? ordered_json(state.error->position_m) : ordered_json(nullptr)},
                    {"events", ordered_json::array()}};
   for (const Goal& goal : state.goals) out["goals"].push_back(goal_json(goal));
   for (const DistrustedMarker& marker : state.distrusted) out["distrusted"].push_back(marker.id);

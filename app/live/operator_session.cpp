@@ -160,7 +160,7 @@ void OperatorSession::remember(const SensorInput& input, const MissionStep& step
 }
 
 void OperatorSession::publish(const SensorInput& input, const MissionStep& step, const Mission& mission,
-                              const std::function<std::optional<double>()>& error_m) {
+                              const std::function<std::optional<TrueError>()>& error) {
   remember(input, step, mission);
   if (!link_.wants_state()) return;
   if (mission.finished()) {
@@ -185,7 +185,7 @@ void OperatorSession::publish(const SensorInput& input, const MissionStep& step,
                    .charging = charging_ != nullptr ? charging_->state() : ChargingState::none,
                    .distrusted = navigation.distrusted,
                    .frame = last_frame_,
-                   .error_m = error_m ? error_m() : std::nullopt,
+                   .error = error ? error() : std::nullopt,
                    .events = {events_.begin(), events_.end()},
                    .ended = {ended_.begin(), ended_.end()}};
   if (input.base.system && input.base.system->battery_v > 0.0) state.battery_v = input.base.system->battery_v;

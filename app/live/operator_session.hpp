@@ -30,9 +30,9 @@ class OperatorSession {
   /// Zones that were set by the orders, handed out once, for the step's input; null when none were.
   [[nodiscard]] std::shared_ptr<const Zones> take_zones() { return std::exchange(zones_, nullptr); }
 
-  /// Call after it. `error_m` is evaluated only when a state is wanted.
+  /// Call after it. `error` is evaluated only when a state is wanted.
   void publish(const SensorInput& input, const MissionStep& step, const Mission& mission,
-               const std::function<std::optional<double>()>& error_m = {});
+               const std::function<std::optional<TrueError>()>& error = {});
 
   void say(Stamp now, const std::string& words);
 

@@ -30,6 +30,12 @@ struct EndedDrive {
   std::string why;  ///< it did not arrive
 };
 
+/// Of an estimate.
+struct TrueError {
+  double position_m = 0.0;
+  double heading_rad = 0.0;  ///< signed
+};
+
 /// The robot's state at one step: everything that the console shows.
 struct RobotState {
   Stamp now;
@@ -56,7 +62,7 @@ struct RobotState {
 
   std::shared_ptr<const SeenSurroundings> seen;  ///< by the scanner; null without one
 
-  std::optional<double> error_m;   ///< true position error; in simulation only
+  std::optional<TrueError> error;  ///< in simulation only
   std::vector<DriveEvent> events;  ///< the latest, oldest first
   std::vector<EndedDrive> ended;   ///< likewise
 };

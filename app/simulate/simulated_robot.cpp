@@ -197,14 +197,15 @@ void SimulatedRobot::score_backtrack(bool goes_back) {
 }
 
 /// Of an estimate that was made just now.
-std::optional<double> SimulatedRobot::error_of(const NavigationStep& step) {
+std::optional<TrueError> SimulatedRobot::error_of(const NavigationStep& step) {
   if (!step.estimate) return std::nullopt;
   const std::vector<TruePose>& track = simulation_.scorer().track();
   RunRecord moment;
   moment.steps.push_back({.estimate = *step.estimate, .commanded = {}, .measured = {}});
   moment.truth.assign(track.end() - std::min<std::ptrdiff_t>(10, std::ssize(track)), track.end());
   const std::vector<EstimateError> errors = estimate_errors(moment);
-  return errors.empty() ? std::nullopt : std::optional(errors.front().position_m);
+  if (errors.empty()) return std::nullopt;
+  return TrueError{errors.front().position_m, errors.front().heading_rad};
 }
 
 Pace::Pace() : next_(monotonic_now()) {}

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "app/live/robot_state.hpp"
 #include "app/navigation/mission.hpp"
 #include "app/recording/run_recorder.hpp"
 #include "app/simulate/simulated_drive.hpp"
@@ -41,7 +42,7 @@ class SimulatedRobot {
   void score(MissionEvent event);
   void forget();
   void score_backtrack(bool goes_back);
-  [[nodiscard]] std::optional<double> error_of(const NavigationStep& step);
+  [[nodiscard]] std::optional<TrueError> error_of(const NavigationStep& step);
 
   const Site& site_;
   const SimulatedDriveOptions& options_;

@@ -106,6 +106,15 @@ Channel events(const char* topic, const char* schema) {
   return made;
 }
 
+Message error_message(Stamp stamp, const EstimateError& off) {
+  return message(error, stamp,
+                 {{"timestamp", time_json(stamp)},
+                  {"position_mm", short_number(mm_per_m * off.position_m)},
+                  {"yaw_deg", short_number(degrees(off.heading_rad))},
+                  {"position_sigma_mm", short_number(mm_per_m * off.position_sigma_m)},
+                  {"yaw_sigma_deg", short_number(degrees(off.heading_sigma_rad))}});
+}
+
 }  // namespace
 
 const std::size_t camera_channel = DriveChannel::camera;
@@ -174,12 +183,11 @@ std::vector<Message> seen_messages(Stamp stamp, const SeenSurroundings& seen) {
           message(obstacles, stamp, memory_message(stamp, seen))};
 }
 
-Message error_message(const PoseEstimate& estimate, double error_m) {
-  return message(error, estimate.stamp,
-                 {{"timestamp", time_json(estimate.stamp)},
-                  {"position_mm", short_number(mm_per_m * error_m)},
-                  {"position_sigma_mm", short_number(mm_per_m * largest_sigma_m(estimate.covariance))},
-                  {"yaw_sigma_deg", short_number(degrees(yaw_sigma_rad(estimate)))}});
+Message error_message(const PoseEstimate& estimate, const TrueError& off) {
+  return error_message(estimate.stamp, {.position_m = off.position_m,
+                                        .heading_rad = off.heading_rad,
+                                        .position_sigma_m = largest_sigma_m(estimate.covariance),
+                                        .heading_sigma_rad = yaw_sigma_rad(estimate)});
 }
 
 std::vector<int> ids_of(const std::vector<DistrustedMarker>& distrusted) {
@@ -267,12 +275,7 @@ std::vector<Message> truth_messages(const RunRecord& record) {
   for (const EstimateError& off : estimate_errors(record)) {
     const Stamp stamp(from_seconds(off.time_s));
     if (!is_due(last, stamp, message_period)) continue;
-    messages.push_back(message(error, stamp,
-                               {{"timestamp", time_json(stamp)},
-                                {"position_mm", short_number(mm_per_m * off.position_m)},
-                                {"yaw_deg", short_number(degrees(off.heading_rad))},
-                                {"position_sigma_mm", short_number(mm_per_m * off.position_sigma_m)},
-                                {"yaw_sigma_deg", short_number(degrees(off.heading_sigma_rad))}}));
+    messages.push_back(error_message(stamp, off));
     last = stamp;
   }
   return messages;

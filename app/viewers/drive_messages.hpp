@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/live/robot_state.hpp"
 #include "app/recording/drive_moment.hpp"
 #include "app/report/run_record.hpp"
 #include "app/site/site.hpp"
@@ -51,8 +52,8 @@ Message words_message(Stamp stamp, LogLevel level, const std::string& words);
 Message camera_message(Stamp stamp, const std::string& jpeg);
 /// /scan and /obstacles.
 std::vector<Message> seen_messages(Stamp stamp, const SeenSurroundings& seen);
-/// Position error of the estimate; the heading's error is not known.
-Message error_message(const PoseEstimate& estimate, double error_m);
+/// /error.
+Message error_message(const PoseEstimate& estimate, const TrueError& off);
 
 /// Ground truth of a simulated drive, after the drive.
 std::vector<Message> truth_messages(const RunRecord& record);

@@ -36,7 +36,7 @@ void FoxgloveView::show(const RobotState& state) {
                                .stop = state.stop,
                                .slowed_by = state.slowed_by},
                               body_));
-    if (state.error_m) publish({error_message(*state.estimate, *state.error_m)});
+    if (state.error) publish({error_message(*state.estimate, *state.error)});
   }
   if (state.seen) publish(seen_messages(state.now, *state.seen));
   if (state.path && state.path != path_) publish({planned_message(state.now, *state.path)});

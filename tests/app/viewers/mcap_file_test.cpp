@@ -90,5 +90,16 @@ TEST(DriveMessages, tell_the_truth_of_a_simulated_drive) {
   EXPECT_NEAR(last["position_sigma_mm"], 20.0, 1e-6);
 }
 
+TEST(DriveMessages, tell_the_error_during_a_drive_as_after_it) {
+  const RunRecord record = sample::run();
+  const Message after = truth_messages(record).back();
+  const auto off = nlohmann::json::parse(after.content);
+  const TrueError error{.position_m = off["position_mm"].get<double>() / mm_per_m,
+                        .heading_rad = radians(off["yaw_deg"].get<double>())};
+  const Message during = error_message(record.steps.back().estimate, error);
+  EXPECT_EQ(during.channel, after.channel);
+  EXPECT_EQ(nlohmann::json::parse(during.content), off);
+}
+
 }  // namespace
 }  // namespace lodestar
