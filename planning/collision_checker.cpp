@@ -228,7 +228,9 @@ bool CollisionChecker::along(const Vec2& from, const Vec2& to, std::optional<Cel
   if (length > worth_a_look && is_surely_blocked(from, to)) return false;
   const Vec2 step = length > 0.0 ? Vec2((to - from) / length) : Vec2::Zero();
   const double near_stride = std::max(1.0, 0.5 * radius_cells_);
-  constexpr double least_stride = 0.5;  // cells; shorter ones cost more than an exact look
+  // Shorter strides cost more than an exact look at the way; so does leaving a stretch near obstacles for one
+  // that is no longer than those on it, for each stretch has two round ends.
+  constexpr double least_stride = 0.5;
   std::optional<double> near_since;
   for (double at = 0.0; at <= length;) {
     const Vec2 point = from + at * step;
@@ -245,7 +247,7 @@ bool CollisionChecker::along(const Vec2& from, const Vec2& to, std::optional<Cel
     const bool is_exact = field_->squared_cells(index) != ObstacleField::far;
     if (is_exact && to_obstacle + off_center + rounding < radius_cells_ + 0.5) return false;
     const double stride = to_obstacle - off_center - 0.5 * std::numbers::sqrt2 - radius_cells_ - rounding;
-    if (stride >= least_stride) {
+    if (stride >= (near_since ? near_stride : least_stride)) {
       if (near_since) {
         const std::optional<Cell> obstacle = obstacle_on_stretch(from + *near_since * step, point);
         if (obstacle) {
