@@ -22,8 +22,9 @@ Wedge wedge_of(const std::optional<TurnAround>& turn) {
   if (!turn) return {};
   const double side = cross(turn->way, turn->to_corner);
   if (side == 0.0) return {};
-  const Vec2 way = turn->way.normalized() * (side > 0.0 ? 1.0 : -1.0);
-  const Vec2 corner = turn->to_corner.normalized() * (side > 0.0 ? 1.0 : -1.0);
+  const double sign = side > 0.0 ? 1.0 : -1.0;
+  const Vec2 way = sign * turn->way.normalized();
+  const Vec2 corner = sign * turn->to_corner.normalized();
   return {static_cast<float>(way.x()), static_cast<float>(way.y()), static_cast<float>(corner.x()),
           static_cast<float>(corner.y())};
 }

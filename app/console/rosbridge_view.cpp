@@ -7,7 +7,6 @@
 #include "app/console/live_json.hpp"
 #include "app/console/rosbridge_json.hpp"
 #include "app/console/view_session.hpp"
-#include "drivers/system/clock.hpp"
 #include "maps/input_error.hpp"
 #include "planning/route.hpp"
 
