@@ -38,6 +38,25 @@ std::vector<Thing> near_things(const DeskewedScan& scan, const LegOptions& optio
   return things;
 }
 
+/// Apart there, where all rays around lie at even angles.
+double between_rays_m(const DeskewedScan& scan, double range_m) {
+  return range_m * 2.0 * std::numbers::pi / static_cast<double>(scan.rays.size());
+}
+
+/// Counts rays that were lost, one beside the other: do they leave room for a thing?
+class LostInARow {
+ public:
+  explicit LostInARow(double between_rays_m) : between_rays_m_(between_rays_m) {}
+
+  void ask(const Ray& ray) { count_ = ray.echo == Echo::invalid ? count_ + 1 : 0; }
+  [[nodiscard]] bool any() const { return count_ > 0; }
+  [[nodiscard]] bool hide_something() const { return any() && (count_ + 1) * between_rays_m_ > thin_thing_m; }
+
+ private:
+  double between_rays_m_;
+  int count_ = 0;
+};
+
 /// Do all rays between them, and at least one, look past both? At the edge of a box hits lie far apart too.
 bool is_gap(const Thing& from, const Thing& to, const DeskewedScan& scan) {
   constexpr double behind_m = 0.1;
@@ -46,9 +65,14 @@ bool is_gap(const Thing& from, const Thing& to, const DeskewedScan& scan) {
   const std::size_t last = to.rays.front();
   const double beyond_m = std::max(range_m(scan.rays[from.rays.back()]), range_m(scan.rays[last])) + behind_m;
   if ((last + count - first) % count > count / 4) return false;  // the long way round
-  for (std::size_t i = first; i != last; i = (i + 1) % count)
-    if (scan.rays[i].echo == Echo::invalid || range_m(scan.rays[i]) < beyond_m) return false;
-  return first != last;
+  LostInARow lost(between_rays_m(scan, beyond_m - behind_m));
+  bool any_looks_past = false;
+  for (std::size_t i = first; i != last; i = (i + 1) % count) {
+    lost.ask(scan.rays[i]);
+    if (lost.hide_something() || (!lost.any() && range_m(scan.rays[i]) < beyond_m)) return false;
+    any_looks_past = any_looks_past || !lost.any();
+  }
+  return any_looks_past;
 }
 
 enum class Side : std::uint8_t { before, after };
@@ -70,16 +94,21 @@ bool is_free(const Thing& thing, Side side, const Room& room, const DeskewedScan
     return scan.rays[(side == Side::before ? edge + count - k : edge + k) % count];
   };
   const double edge_m = range_m(scan.rays[edge]);
-  const double between_rays_m = edge_m * 2.0 * std::numbers::pi / static_cast<double>(count);
-  const auto most_slivers = static_cast<std::size_t>(room.sliver_m / between_rays_m);
+  const double apart_m = between_rays_m(scan, edge_m);
+  const auto most_slivers = static_cast<std::size_t>(room.sliver_m / apart_m);
   double past_m = edge_m + room.behind_m;
   const auto looks_past = [&](const Ray& ray) { return ray.echo != Echo::invalid && range_m(ray) > past_m; };
   std::size_t first = 1;
   for (; first <= most_slivers && !looks_past(ray_beside(first)); ++first)
     if (ends_at_something(ray_beside(first)))
       past_m = std::max(past_m, range_m(ray_beside(first)) + room.behind_m);
-  for (std::size_t k = first; k < first + beside; ++k)
-    if (!looks_past(ray_beside(k))) return false;
+  LostInARow lost(apart_m);
+  for (std::size_t k = first, past = 0; past < beside; ++k) {
+    lost.ask(ray_beside(k));
+    if (k >= count || lost.hide_something()) return false;
+    if (!lost.any() && !looks_past(ray_beside(k))) return false;
+    past += lost.any() ? 0 : 1;
+  }
   return true;
 }
 

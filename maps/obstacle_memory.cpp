@@ -1,6 +1,7 @@
 #include "maps/obstacle_memory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -183,17 +184,28 @@ void ObstacleMemory::remember_look(const DeskewedScan& scan, RayFan fan) {
   while (seeing_ - looks_.front().seeing > options_.just_before) looks_.pop_front();
 }
 
+/// Each part of the place in so many looks, between which nothing was hit there: of a scanner that loses some
+/// beams, others in each turn, hardly a look passes all of it.
 bool ObstacleMemory::was_seen_free(Place place, Stamp before) const {
   const Vec2 place_m = center_m(place);
-  int in_a_row = 0;
+  std::array<int, RayFan::parts_across> times_passed{};
   for (const Look& look : looks_) {
     const double away_m = (place_m - look.from_m).norm();
+    if (look.stamp >= before || away_m > options_.seen_free_within_m) {
+      times_passed.fill(0);
+      continue;
+    }
     const double beside_m = options_.seen_free_beside_m + options_.seen_free_beside_per_m * away_m;
-    const bool is_free = look.stamp < before && away_m <= options_.seen_free_within_m &&
-                         look.fan.all_pass(place_m, beside_m, beside_m, options_.seen_free_between_m);
-    in_a_row = is_free ? in_a_row + 1 : 0;
-    if (in_a_row >= (away_m <= options_.seen_free_near_m ? options_.looks_free : options_.looks_free_far))
-      return true;
+    const std::optional<RayFan::PassedParts> passed =
+        look.fan.passed_across(place_m, beside_m, beside_m, options_.seen_free_between_m);
+    if (!passed) {
+      times_passed.fill(0);
+      continue;
+    }
+    for (std::size_t part = 0; part < times_passed.size(); ++part)
+      times_passed[part] += passed->test(part) ? 1 : 0;
+    const int wanted = away_m <= options_.seen_free_near_m ? options_.looks_free : options_.looks_free_far;
+    if (std::ranges::min(times_passed) >= wanted) return true;
   }
   return false;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lodestar {
 namespace {
@@ -121,17 +122,45 @@ bool RayFan::graze(const Vec2& point_m, double aside_m, double along_m) const {
          std::abs(cross(way, offset)) <= off_m + off_per_m * left->length_m;
 }
 
-bool RayFan::all_pass(const Vec2& point_m, double aside_m, double before_end_m, double gap_m) const {
-  bool all = true;
+std::optional<RayFan::PassedParts> RayFan::passed_across(const Vec2& point_m, double aside_m,
+                                                         double before_end_m, double gap_m) const {
+  PassedParts passed;
+  // From the left of the point to its right, as rays are asked.
+  const auto part_at = [&](double at_m) {
+    const double share = std::clamp(0.5 * (aside_m - at_m) / aside_m, 0.0, 1.0);
+    return static_cast<std::size_t>(std::lround(share * static_cast<double>(parts_across)));
+  };
+  const auto pass = [&](double from_m, double to_m) {
+    for (std::size_t part = part_at(from_m); part < part_at(to_m); ++part) passed.set(part);
+  };
+  bool any_ends = false;
   bool has_left = false;
   bool has_right = false;
-  ask_beside(point_m, aside_m, [&](const Look& look) {
-    all = !look.line.is_lost && !look.line.is_alone && look.beyond_m > before_end_m;
+  bool is_in_doubt = false;
+  double known_to_m = aside_m;  // where the last one looked past that tells something
+  bool passes = false;          // did that go on?
+  const auto ask = [&](const Look& look) {
+    const bool is_beside = std::abs(look.aside_m) < aside_m;
+    const bool goes_on = look.beyond_m > before_end_m;
+    if (look.line.is_lost || (look.line.is_alone && goes_on)) {
+      is_in_doubt = is_in_doubt || is_beside;
+      return true;
+    }
+    const bool did_pass = std::exchange(passes, goes_on);
+    const bool hides_nothing = did_pass && passes && known_to_m - look.aside_m <= thin_thing_m;
+    if (hides_nothing || !is_in_doubt) pass(known_to_m, look.aside_m);
+    is_in_doubt = false;
+    known_to_m = look.aside_m;
+    if (!is_beside) return true;
+    any_ends = !passes;
     has_left = has_left || (look.aside_m >= 0.0 && look.aside_m <= gap_m);
     has_right = has_right || (look.aside_m <= 0.0 && look.aside_m >= -gap_m);
-    return all;
-  });
-  return all && has_left && has_right;
+    return !any_ends;
+  };
+  ask_beside(point_m, aside_m + thin_thing_m, ask);  // those farther aside tell of lost ones at the edge
+  if (any_ends || !has_left || !has_right) return std::nullopt;
+  if (!is_in_doubt) pass(known_to_m, -aside_m);
+  return passed;
 }
 
 }  // namespace lodestar

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <bitset>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "maps/scan_rays.hpp"
@@ -21,11 +24,16 @@ class RayFan {
   /// there.
   [[nodiscard]] bool graze(const Vec2& point_m, double aside_m, double along_m) const;
 
-  /// Do all rays that look past the point within `aside_m` go on for more than `before_end_m`, with one on
-  /// either side of it within `gap_m`? Not if one of them was lost, or hit alone what is nearer than all
-  /// around: it may have met what is there, with half of its spot (a mixed pixel). And not at the seam of a
-  /// turn, where a robot that turns leaves a gap.
-  [[nodiscard]] bool all_pass(const Vec2& point_m, double aside_m, double before_end_m, double gap_m) const;
+  static constexpr std::size_t parts_across = 32;
+  using PassedParts = std::bitset<parts_across>;
+
+  /// Across the point, up to `aside_m` to its left and right: which parts of that do rays pass, and go on for
+  /// more than `before_end_m`? One that was lost, or hit alone what is nearer than all around, may have met
+  /// what is there, with half of its spot (a mixed pixel): then a part is not passed where there is room for
+  /// a thin thing between the two beside it that pass. Nothing where a ray ends, nor without one that passes
+  /// on either side of the point within `gap_m`: at the seam of a turn a robot that turns leaves a gap.
+  [[nodiscard]] std::optional<PassedParts> passed_across(const Vec2& point_m, double aside_m,
+                                                         double before_end_m, double gap_m) const;
 
  private:
   struct Line {

@@ -23,6 +23,10 @@ inline bool ends_at_something(const Ray& ray) {
   return ray.echo == Echo::hit || ray.echo == Echo::too_near;
 }
 
+/// The leg of a chair. Between two rays that pass closer together than this, one that was lost has met
+/// nothing.
+inline constexpr double thin_thing_m = 0.02;
+
 /// How far its end is from the scanner, at something or not.
 inline double range_m(const Ray& ray) {
   return (ray.end_m - ray.origin_m).norm();

@@ -28,7 +28,8 @@ class RayFanTest : public ::testing::Test {
   }
 
   [[nodiscard]] bool all_pass(const Vec2& point_m) const {
-    return RayFan(scan_).all_pass(point_m, aside_m, kept_m, gap_m);
+    const auto passed = RayFan(scan_).passed_across(point_m, aside_m, kept_m, gap_m);
+    return passed && passed->all();
   }
 
   const Vec2 place_m_{3.0, 0.0};  ///< between beam 0 and beam 719
@@ -73,6 +74,32 @@ TEST_F(RayFanTest, IsNotPassedByARayThatWasLost) {
   end_at(1, 1.0, Echo::invalid);
   EXPECT_FALSE(all_pass(place_m_));
   EXPECT_TRUE(all_pass({3.0, 0.3})) << "far beside it";
+}
+
+/// Right before the scanner they lie closer together than anything that stands on a floor is wide.
+TEST_F(RayFanTest, IsPassedByAllWhereLostRaysLeaveNoRoomForAThing) {
+  const Vec2 near_m(0.5, 0.0);  // 4.4 mm from ray to ray
+  for (const int beam : {2, 3, 4}) end_at(beam, 1.0, Echo::invalid);
+  EXPECT_TRUE(all_pass(near_m));
+  end_at(6, 1.0);
+  EXPECT_TRUE(all_pass(near_m)) << "alone, as if it were lost";
+  end_at(5, 1.0, Echo::invalid);
+  EXPECT_FALSE(all_pass(near_m));
+  end_at(5, 5.0);
+  EXPECT_TRUE(all_pass(near_m));
+  end_at(5, 0.5);
+  EXPECT_FALSE(all_pass(near_m)) << "hit";
+}
+
+/// As beside a post: rays that graze its side are lost.
+TEST_F(RayFanTest, IsNotPassedByLostRaysBesideOneThatEnds) {
+  const Vec2 near_m(0.5, 0.0);  // beam 23 looks past it by 10 cm less 0.3 mm
+  for (int beam = 24; beam < 40; ++beam) end_at(beam, 0.5);
+  EXPECT_TRUE(all_pass(near_m)) << "far beside it";
+  end_at(23, 1.0, Echo::invalid);
+  EXPECT_FALSE(all_pass(near_m));
+  for (int beam = 24; beam < 40; ++beam) end_at(beam, 5.0);
+  EXPECT_TRUE(all_pass(near_m));
 }
 
 /// Half of its spot may have met a post there, and half the wall: then its range lies between the two.
