@@ -191,13 +191,11 @@ bool ObstacleMemory::was_seen_free(Place place, Stamp before) const {
   std::array<int, RayFan::parts_across> times_passed{};
   for (const Look& look : looks_) {
     const double away_m = (place_m - look.from_m).norm();
-    if (look.stamp >= before || away_m > options_.seen_free_within_m) {
-      times_passed.fill(0);
-      continue;
-    }
     const double beside_m = options_.seen_free_beside_m + options_.seen_free_beside_per_m * away_m;
     const std::optional<RayFan::PassedParts> passed =
-        look.fan.passed_across(place_m, beside_m, beside_m, options_.seen_free_between_m);
+        look.stamp < before && away_m <= options_.seen_free_within_m
+            ? look.fan.passed_across(place_m, beside_m, beside_m, options_.seen_free_between_m)
+            : std::nullopt;
     if (!passed) {
       times_passed.fill(0);
       continue;

@@ -47,8 +47,8 @@ struct ObstacleMemoryOptions {
   /// gap between beams half a degree apart.
   double seen_free_beside_m = 0.05;
   double seen_free_beside_per_m = 0.025;
-  /// In so many looks in a row: all beams that meet a thin thing may be mixed pixels, now and then. Farther
-  /// away two or three meet it, and a dark thing's edges come and go.
+  /// All of it in so many looks, without a hit between: all beams that meet a thin thing may be mixed pixels,
+  /// now and then. Farther away two or three meet it, and a dark thing's edges come and go.
   int looks_free = 2;
   double seen_free_near_m = 4.0;
   int looks_free_far = 4;
