@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "maps/scan_pieces.hpp"
 
@@ -43,19 +44,25 @@ double between_rays_m(const DeskewedScan& scan, double range_m) {
   return range_m * 2.0 * std::numbers::pi / static_cast<double>(scan.rays.size());
 }
 
-/// Counts rays that were lost, one beside the other: do they leave room for a thing?
-class LostInARow {
- public:
-  explicit LostInARow(double between_rays_m) : between_rays_m_(between_rays_m) {}
-
-  void ask(const Ray& ray) { count_ = ray.echo == Echo::invalid ? count_ + 1 : 0; }
-  [[nodiscard]] bool any() const { return count_ > 0; }
-  [[nodiscard]] bool hide_something() const { return any() && (count_ + 1) * between_rays_m_ > thin_thing_m; }
-
- private:
-  double between_rays_m_;
-  int count_ = 0;
-};
+/// Of so many rays side by side, until `enough` end farther away than `past_m`: how many do? Nothing when one
+/// does not, or when those that were lost leave room for a thing.
+template <typename RayAt>
+std::optional<std::size_t> looking_past(const RayAt& ray_at, std::size_t rays, std::size_t enough,
+                                        double past_m, double apart_m) {
+  std::size_t past = 0;
+  int lost = 0;  // in a row
+  for (std::size_t i = 0; i < rays && past < enough; ++i) {
+    const Ray& ray = ray_at(i);
+    if (ray.echo == Echo::invalid) {
+      if ((++lost + 1) * apart_m > thin_thing_m) return std::nullopt;
+      continue;
+    }
+    if (range_m(ray) <= past_m) return std::nullopt;
+    lost = 0;
+    ++past;
+  }
+  return past;
+}
 
 /// Do all rays between them, and at least one, look past both? At the edge of a box hits lie far apart too.
 bool is_gap(const Thing& from, const Thing& to, const DeskewedScan& scan) {
@@ -63,16 +70,12 @@ bool is_gap(const Thing& from, const Thing& to, const DeskewedScan& scan) {
   const std::size_t count = scan.rays.size();
   const std::size_t first = (from.rays.back() + 1) % count;
   const std::size_t last = to.rays.front();
-  const double beyond_m = std::max(range_m(scan.rays[from.rays.back()]), range_m(scan.rays[last])) + behind_m;
-  if ((last + count - first) % count > count / 4) return false;  // the long way round
-  LostInARow lost(between_rays_m(scan, beyond_m - behind_m));
-  bool any_looks_past = false;
-  for (std::size_t i = first; i != last; i = (i + 1) % count) {
-    lost.ask(scan.rays[i]);
-    if (lost.hide_something() || (!lost.any() && range_m(scan.rays[i]) < beyond_m)) return false;
-    any_looks_past = any_looks_past || !lost.any();
-  }
-  return any_looks_past;
+  const double farther_m = std::max(range_m(scan.rays[from.rays.back()]), range_m(scan.rays[last]));
+  const std::size_t between = (last + count - first) % count;
+  if (between > count / 4) return false;  // the long way round
+  const auto ray_between = [&](std::size_t i) -> const Ray& { return scan.rays[(first + i) % count]; };
+  return looking_past(ray_between, between, between, farther_m + behind_m, between_rays_m(scan, farther_m))
+             .value_or(0) > 0;
 }
 
 enum class Side : std::uint8_t { before, after };
@@ -95,21 +98,15 @@ bool is_free(const Thing& thing, Side side, const Room& room, const DeskewedScan
   };
   const double edge_m = range_m(scan.rays[edge]);
   const double apart_m = between_rays_m(scan, edge_m);
-  const auto most_slivers = static_cast<std::size_t>(room.sliver_m / apart_m);
+  const auto most_slivers = std::min(static_cast<std::size_t>(room.sliver_m / apart_m), count - 1);
   double past_m = edge_m + room.behind_m;
   const auto looks_past = [&](const Ray& ray) { return ray.echo != Echo::invalid && range_m(ray) > past_m; };
   std::size_t first = 1;
   for (; first <= most_slivers && !looks_past(ray_beside(first)); ++first)
     if (ends_at_something(ray_beside(first)))
       past_m = std::max(past_m, range_m(ray_beside(first)) + room.behind_m);
-  LostInARow lost(apart_m);
-  for (std::size_t k = first, past = 0; past < beside; ++k) {
-    lost.ask(ray_beside(k));
-    if (k >= count || lost.hide_something()) return false;
-    if (!lost.any() && !looks_past(ray_beside(k))) return false;
-    past += lost.any() ? 0 : 1;
-  }
-  return true;
+  const auto ray_after = [&](std::size_t i) -> const Ray& { return ray_beside(first + i); };
+  return looking_past(ray_after, count - first, beside, past_m, apart_m) == beside;
 }
 
 }  // namespace
