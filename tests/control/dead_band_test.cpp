@@ -51,5 +51,17 @@ TEST(DeadBand, a_speed_limit_never_turns_slower_than_the_motors_can) {
   EXPECT_EQ(command.turn_radps, options.min_turn_radps);
 }
 
+TEST(DeadBand, a_robot_beside_its_leg_is_never_driven_slower_than_the_motors_can) {
+  const DriveOptions options;
+  RotateThenDrive controller({{Vec2::Zero(), Vec2(1.0, 0.0)}}, std::nullopt, options);
+  PoseEstimate estimate;
+  BodyVelocity command;
+  for (int step = 0; step < 20; ++step) controller.update(estimate, from_seconds(period_s));
+  estimate.map_from_base = {Vec2(0.9974, 0.05), radians(10.0)};
+  for (int step = 0; step < 100; ++step) command = controller.update(estimate, from_seconds(period_s));
+  ASSERT_EQ(controller.phase(), DrivePhase::driving);
+  EXPECT_EQ(command.forward_mps, options.min_forward_mps);
+}
+
 }  // namespace
 }  // namespace lodestar

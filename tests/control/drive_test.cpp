@@ -170,6 +170,26 @@ TEST(RotateThenDrive, goes_on_from_just_beside_a_waypoint) {
   EXPECT_LT((plant.truth.position_m - Vec2(1.0, 2.0)).norm(), 0.02);
 }
 
+/// A base that answers sooner than `response_s` rolls less far than expected, to short of where it stops
+/// being driven.
+TEST(RotateThenDrive, does_not_wait_short_of_the_end_of_a_leg) {
+  for (const int periods_of_latency : {0, 1, 2}) {
+    RotateThenDrive controller({{Vec2::Zero(), Vec2(1.0, 0.0), Vec2(1.0, 1.0)}}, std::nullopt);
+    Plant plant;
+    plant.pending.resize(periods_of_latency);
+    const auto step = [&] {
+      const BodyVelocity command = controller.update({.map_from_base = plant.truth}, from_seconds(period_s));
+      plant.run(command);
+      return command;
+    };
+    while (plant.truth.position_m.x() < 0.5) step();
+    double stood_s = 0.0;
+    while (controller.phase() == DrivePhase::driving && stood_s < 2.0)
+      if (step().forward_mps == 0.0) stood_s += period_s;
+    EXPECT_LT(stood_s, 0.3) << periods_of_latency << " periods of latency";
+  }
+}
+
 TEST(RotateThenDrive, does_not_overshoot_a_turn) {
   for (const double turn : {0.3, 1.0, 2.0, 3.0, -1.5}) {
     const Path path{{Vec2::Zero(), 2.0 * Vec2(std::cos(turn), std::sin(turn))}};
