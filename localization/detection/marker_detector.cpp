@@ -247,13 +247,22 @@ std::span<const Dot> MarkerDetector::bright_ones(std::span<const Dot> area) {
   if (!options_.weigh_cells || area.empty()) return area;
   const auto brightness = [](const Dot& dot) { return dot.background_gray + dot.contrast_gray; };
   const double brightest = std::ranges::max(area | std::views::transform(brightness));
-  const double dimmest = std::ranges::min(area | std::views::transform(brightness));
-  if (dimmest >= options_.least_brightness * brightest) return area;
+  const double ceiling = median_background(area);
+  const double least = std::max(options_.least_brightness * brightest,
+                                ceiling + options_.least_returned * (brightest - ceiling));
+  if (std::ranges::all_of(area, [&](const Dot& dot) { return brightness(dot) >= least; })) return area;
   bright_dots_.clear();
-  std::ranges::copy_if(area, std::back_inserter(bright_dots_), [&](const Dot& dot) {
-    return brightness(dot) >= options_.least_brightness * brightest;
-  });
+  std::ranges::copy_if(area, std::back_inserter(bright_dots_),
+                       [&](const Dot& dot) { return brightness(dot) >= least; });
   return bright_dots_;
+}
+
+double MarkerDetector::median_background(std::span<const Dot> area) {
+  backgrounds_.clear();
+  std::ranges::transform(area, std::back_inserter(backgrounds_), &Dot::background_gray);
+  const auto middle = backgrounds_.begin() + std::ssize(backgrounds_) / 2;
+  std::ranges::nth_element(backgrounds_, middle);
+  return *middle;
 }
 
 void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots,

@@ -29,6 +29,9 @@ struct DetectorOptions {
   /// A marker's dots are about equally bright. One whose brightness is below this share of that of its area's
   /// brighter ones is the ceiling's: the rim of a reflector, a slat between two slots.
   double least_brightness = 0.75;
+  /// Likewise of what it returns beyond the ceiling about it. On a bright ceiling that tells the pin of a
+  /// sprinkler from a dot; dots blurred into each other are measured a quarter apart.
+  double least_returned = 0.66;
   double least_probability = 0.99;  ///< posterior of the ID; less is rejected
   /// Limit on undecided cells of the 16. A larger occluder makes errors of cells dependent. IDs at Hamming
   /// distance 4 stay distinct with three lost.
@@ -65,6 +68,7 @@ class MarkerDetector {
  private:
   std::span<const DetectedMarker> read(const cv::Mat& gray, std::span<const Dot> dots);
   std::span<const Dot> bright_ones(std::span<const Dot> area);
+  double median_background(std::span<const Dot> area);
   void append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots, std::span<const Dot> of_frame);
   void append_marker_of_lattice(const cv::Mat& gray, std::span<const Dot> dots,
                                 std::span<const Dot> of_frame);
@@ -76,6 +80,7 @@ class MarkerDetector {
   AreaReader area_reader_;
   IdDecoder id_decoder_;
   std::vector<Dot> bright_dots_;  ///< of an area that has others too
+  std::vector<double> backgrounds_;
   std::vector<DetectedMarker> markers_;
 };
 

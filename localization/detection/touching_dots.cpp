@@ -20,6 +20,12 @@ bool took_lines_for_background(double fitted_gray, std::span<const std::size_t> 
          });
 }
 
+/// Nearer to each other than so many sigmas of dots with this radius. A dot's sigma is its radius over the
+/// root of 2.
+bool within(double sigmas, double radius_px, const Dot& a, const Dot& b) {
+  return 2.0 * (a.center_px - b.center_px).squaredNorm() < square(sigmas * radius_px);
+}
+
 }  // namespace
 
 void TouchingDots::fit(const cv::Mat& gray, double noise_gray, double variance_per_gray,
@@ -39,24 +45,44 @@ void TouchingDots::fit(const cv::Mat& gray, double noise_gray, double variance_p
   dots.resize(kept);
 }
 
-/// Orders the dots by groups; false when no two touch.
-bool TouchingDots::find_groups(std::span<const Dot> dots) {
-  const auto near = [&](std::size_t i, std::size_t j, double sigmas) {
-    const auto [small, large] = std::minmax(dots[i].radius_px, dots[j].radius_px);
-    // A dot's sigma is its radius over the root of 2. A glint beside it is not alike.
-    return 2.0 * (dots[i].center_px - dots[j].center_px).squaredNorm() < square(sigmas * large) &&
-           large <= options_.alike * small;
-  };
+/// By the larger of two radii. A glint beside a dot is not alike.
+bool TouchingDots::are_near(const Dot& a, const Dot& b, double sigmas) const {
+  const auto [small, large] = std::minmax(a.radius_px, b.radius_px);
+  return within(sigmas, large, a, b) && large <= options_.alike * small;
+}
+
+/// One dot of a marker over something bright, such as the pin of a sprinkler, looks larger, and too near to
+/// its neighbours. So those that are near by the larger of their radii alone touch only where two others
+/// about them do too: all of a marker are blurred alike.
+bool TouchingDots::find_touching(std::span<const Dot> dots) {
+  pairs_.clear();
   touching_.assign(dots.size(), 0);
   for (std::size_t i = 0; i < dots.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (near(i, j, options_.touching_sigmas)) touching_[i] = touching_[j] = 1;
-  if (std::ranges::find(touching_, 1) == touching_.end()) return false;
+      if (are_near(dots[i], dots[j], options_.touching_sigmas)) pairs_.push_back({i, j});
+  const auto is_apart_from = [&](const Pair& pair, const Pair& other) {
+    return other.a != pair.a && other.a != pair.b && other.b != pair.a && other.b != pair.b &&
+           are_near(dots[pair.a], dots[other.a], options_.fitted_along_sigmas);
+  };
+  for (const Pair& pair : pairs_) {
+    const Dot& a = dots[pair.a];
+    const Dot& b = dots[pair.b];
+    const double small_px = std::min(a.radius_px, b.radius_px);
+    if (within(options_.touching_sigmas, small_px, a, b) ||
+        std::ranges::any_of(pairs_, [&](const Pair& other) { return is_apart_from(pair, other); }))
+      touching_[pair.a] = touching_[pair.b] = 1;
+  }
+  return std::ranges::find(touching_, 1) != touching_.end();
+}
+
+/// Orders the dots by groups; false when no two touch.
+bool TouchingDots::find_groups(std::span<const Dot> dots) {
+  if (!find_touching(dots)) return false;
   groups_.reset(dots.size());
   for (std::size_t i = 0; i < dots.size(); ++i) {
     if (touching_[i] == 0) continue;
     for (std::size_t j = 0; j < dots.size(); ++j)
-      if (near(i, j, options_.fitted_along_sigmas)) groups_.join(i, j);
+      if (are_near(dots[i], dots[j], options_.fitted_along_sigmas)) groups_.join(i, j);
   }
   groups_.number(numbers_);
   order_.resize(dots.size());

@@ -32,6 +32,13 @@ class TouchingDots {
   void fit(const cv::Mat& gray, double noise_gray, double variance_per_gray, std::vector<Dot>& dots);
 
  private:
+  struct Pair {
+    std::size_t a = 0;
+    std::size_t b = 0;
+  };
+
+  [[nodiscard]] bool are_near(const Dot& a, const Dot& b, double sigmas) const;
+  bool find_touching(std::span<const Dot> dots);
   bool find_groups(std::span<const Dot> dots);
   void fit_group(const cv::Mat& gray, double noise_gray, double variance_per_gray,
                  std::span<const std::size_t> group, std::span<Dot> dots);
@@ -39,6 +46,7 @@ class TouchingDots {
   TouchingOptions options_;
   JointFit joint_fit_;
   DisjointSets groups_;
+  std::vector<Pair> pairs_;             ///< that are near each other
   std::vector<std::uint8_t> touching_;  ///< 1 for a dot that touches another
   std::vector<std::size_t> numbers_;    ///< of each dot's group
   std::vector<std::size_t> order_;      ///< dots, group by group
