@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/median.hpp"
+
 namespace lodestar {
 namespace {
 
@@ -19,10 +21,7 @@ double spread_rad(std::span<const Vec3> normals) {
 }
 
 std::vector<std::size_t> outliers_of(const LensFit& fit, const CameraCalibrationOptions& options) {
-  std::vector<double> sorted = fit.rms_px;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, middle);
-  const double limit_px = std::max(options.outlier_ratio * *middle, options.most_rms_px);
+  const double limit_px = std::max(options.outlier_ratio * median(fit.rms_px), options.most_rms_px);
   std::vector<std::size_t> outliers;
   for (std::size_t i = 0; i < fit.rms_px.size(); ++i) {
     if (fit.rms_px[i] > limit_px) outliers.push_back(i);

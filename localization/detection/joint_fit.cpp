@@ -2,9 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
+
+#include "maps/median.hpp"
 
 namespace lodestar {
 namespace {
@@ -112,12 +113,9 @@ Normal descend(std::span<const GrayPixel> pixels, State& state, int most_iterati
 }
 
 double median_height(const State& state) {
-  std::array<double, most_joint_dots> heights{};
-  const auto dots = (state.size() - 2) / per_dot;
-  for (Eigen::Index i = 0; i < dots; ++i) heights[static_cast<std::size_t>(i)] = state[per_dot * i + 2];
-  const auto middle = heights.begin() + dots / 2;
-  std::nth_element(heights.begin(), middle, heights.begin() + dots);
-  return *middle;
+  InlineVector<double, most_joint_dots> heights;
+  for (Eigen::Index i = 0; i < state.size() - 2; i += per_dot) heights.push_back(state[i + 2]);
+  return median_in_place({heights.data(), heights.size()});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "localization/detection/confidence.hpp"
 #include "localization/detection/sixteen_pixels.hpp"
+#include "maps/median.hpp"
 
 namespace lodestar {
 namespace {
@@ -58,9 +59,7 @@ void sort_by_distance_to_center(std::vector<DetectedMarker>& markers, const cv::
 DotsOfArea dots_of_usual_size(std::span<const Dot> dots, const MarkerDecoderOptions& options) {
   InlineVector<double, DotsOfArea::static_capacity> radii;
   for (const Dot& dot : dots) radii.push_back(dot.radius_px);
-  const auto middle = radii.begin() + radii.size() / 2;
-  std::nth_element(radii.begin(), middle, radii.end());
-  const double usual_px = *middle;
+  const double usual_px = median_in_place({radii.data(), radii.size()});
   const double tolerance_px = options.alike_tolerance * usual_px + options.alike_tolerance_px2 / usual_px;
   DotsOfArea result;
   for (const Dot& dot : dots) {
@@ -260,9 +259,7 @@ std::span<const Dot> MarkerDetector::bright_ones(std::span<const Dot> area) {
 double MarkerDetector::median_background(std::span<const Dot> area) {
   backgrounds_.clear();
   std::ranges::transform(area, std::back_inserter(backgrounds_), &Dot::background_gray);
-  const auto middle = backgrounds_.begin() + std::ssize(backgrounds_) / 2;
-  std::ranges::nth_element(backgrounds_, middle);
-  return *middle;
+  return median_in_place(backgrounds_);
 }
 
 void MarkerDetector::append_markers_of_area(const cv::Mat& gray, std::span<const Dot> dots,

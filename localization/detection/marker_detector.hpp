@@ -29,8 +29,8 @@ struct DetectorOptions {
   /// A marker's dots are about equally bright. One whose brightness is below this share of that of its area's
   /// brighter ones is the ceiling's: the rim of a reflector, a slat between two slots.
   double least_brightness = 0.75;
-  /// Likewise of what it returns beyond the ceiling about it. On a bright ceiling that tells the pin of a
-  /// sprinkler from a dot; dots blurred into each other are measured a quarter apart.
+  /// Likewise of what it returns beyond the ceiling about it: on a bright ceiling the pin of a sprinkler is
+  /// nearly as bright as a dot. Less than the above, as blur dims dots by unequal shares of this.
   double least_returned = 0.66;
   double least_probability = 0.99;  ///< posterior of the ID; less is rejected
   /// Limit on undecided cells of the 16. A larger occluder makes errors of cells dependent. IDs at Hamming

@@ -1,6 +1,8 @@
 #include "localization/detection/touching_dots.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <opencv2/core/mat.hpp>
