@@ -6,13 +6,13 @@
 namespace lodestar {
 namespace {
 
-/// Pixels from first to last, both included; empty when last < first.
+/// Pixels, or others in a row, from first to last, both included; empty when last < first.
 struct Span {
   int first = 0;
   int last = -1;
 };
 
-Span pixels_between(double low, double high, int count) {
+Span those_between(double low, double high, int count) {
   const double first = std::clamp(std::ceil(low), 0.0, static_cast<double>(count));
   const double last = std::clamp(std::floor(high), -1.0, static_cast<double>(count - 1));
   return {static_cast<int>(first), static_cast<int>(last)};
@@ -49,6 +49,35 @@ void narrow(double& low, double& high, double slope, double offset, double low_v
   high = std::min(high, std::max(a, b));
 }
 
+/// Motion blur: the mean of copies less than a sigma apart, indistinguishable from a continuous one.
+class Smear {
+ public:
+  Smear(const ProjectedDisc& disc, const Vec2& motion_px, double sigma_px)
+      : motion_px_(motion_px), copies_(1 + static_cast<int>(std::ceil(motion_px.norm() / sigma_px))) {
+    if (copies_ == 1) return;
+    // The ellipse is within the diagonal of half its box: the squares of its semi-axes have the same sum.
+    const double reach_px = disc.half_size_px.norm() + DiscProfile::reach * sigma_px;
+    copies_per_px_ = copies_ / motion_px.squaredNorm() * motion_px;
+    reach_copies_ = reach_px * copies_per_px_.norm() + 1.0;
+  }
+
+  [[nodiscard]] int copies() const { return copies_; }
+  [[nodiscard]] Vec2 shift_px(int copy) const { return ((copy + 0.5) / copies_ - 0.5) * motion_px_; }
+  /// All but those that have no light at all at a point: of a robot that was carried off while the shutter
+  /// was open there are thousands.
+  [[nodiscard]] Span copies_that_reach(const Vec2& from_center_px) const {
+    if (copies_ == 1) return {0, 0};
+    const double nearest = from_center_px.dot(copies_per_px_) + 0.5 * (copies_ - 1);
+    return those_between(nearest - reach_copies_, nearest + reach_copies_, copies_);
+  }
+
+ private:
+  Vec2 motion_px_;
+  int copies_ = 1;
+  Vec2 copies_per_px_ = Vec2::Zero();  ///< along the motion
+  double reach_copies_ = 0.0;
+};
+
 }  // namespace
 
 LightImage::LightImage(int width_px, int height_px)
@@ -59,26 +88,23 @@ LightImage::LightImage(int width_px, int height_px)
 
 void LightImage::paint(const ProjectedDisc& disc, const Vec2& motion_px, double gray, double sigma_px,
                        const DiscProfile& profile) {
-  // Motion blur is the mean of copies less than a sigma apart, indistinguishable from a continuous one.
-  const int copies = 1 + static_cast<int>(std::ceil(motion_px.norm() / sigma_px));
+  const Smear smear(disc, motion_px, sigma_px);
   const DiscProfile::Row row_profile = profile.of_radius(disc.radius_px / sigma_px);
   const Vec2 reach =
       disc.half_size_px + 0.5 * motion_px.cwiseAbs() + Vec2::Constant(DiscProfile::reach * sigma_px);
-  const Span rows =
-      pixels_between(disc.center_px.y() - reach.y(), disc.center_px.y() + reach.y(), height_px_);
+  const Span rows = those_between(disc.center_px.y() - reach.y(), disc.center_px.y() + reach.y(), height_px_);
   const Span columns =
-      pixels_between(disc.center_px.x() - reach.x(), disc.center_px.x() + reach.x(), width_px_);
+      those_between(disc.center_px.x() - reach.x(), disc.center_px.x() + reach.x(), width_px_);
   const double units = units_of(gray);
   for (int v = rows.first; v <= rows.last; ++v) {
     std::int16_t* pixels = row(v);
     for (int u = columns.first; u <= columns.last; ++u) {
       const Vec2 from_center = Vec2(u, v) - disc.center_px;
+      const Span copies = smear.copies_that_reach(from_center);
       double share = 0.0;
-      for (int i = 0; i < copies; ++i) {
-        const double along = (i + 0.5) / copies - 0.5;
-        share += share_at(from_center - along * motion_px, disc, sigma_px, row_profile);
-      }
-      lay_over(pixels[u], units, share / copies);
+      for (int i = copies.first; i <= copies.last; ++i)
+        share += share_at(from_center - smear.shift_px(i), disc, sigma_px, row_profile);
+      lay_over(pixels[u], units, share / smear.copies());
     }
   }
 }
@@ -93,8 +119,8 @@ void LightImage::paint(const Band& band, double gray, double sigma_px, const Dis
   const double reach = band.half_width_px + DiscProfile::reach * sigma_px;
   const DiscProfile::Row edge = profile.of_straight_edge();
   const double units = units_of(gray);
-  const Span rows = pixels_between(std::min(band.from_px.y(), band.to_px.y()) - reach,
-                                   std::max(band.from_px.y(), band.to_px.y()) + reach, height_px_);
+  const Span rows = those_between(std::min(band.from_px.y(), band.to_px.y()) - reach,
+                                  std::max(band.from_px.y(), band.to_px.y()) + reach, height_px_);
   for (int v = rows.first; v <= rows.last; ++v) {
     // Position along the band, across it, and relative to the cuts: all linear in u within a row.
     const double dv = v - band.from_px.y();
@@ -110,7 +136,7 @@ void LightImage::paint(const Band& band, double gray, double sigma_px, const Dis
     if (band.cut_to) {
       narrow(low, high, band.cut_to->x(), band.cut_to->dot(Vec2(0.0, v) - band.to_px), -far, just_before);
     }
-    const Span columns = pixels_between(low, high, width_px_);
+    const Span columns = those_between(low, high, width_px_);
     std::int16_t* pixels = row(v);
     for (int u = columns.first; u <= columns.last; ++u) {
       const double along = along_0 + direction.x() * u;
