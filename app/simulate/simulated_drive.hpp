@@ -66,9 +66,8 @@ RunRecord simulate_drive(const Site& site, const SimulatedDriveOptions& options)
 
 /// A drive whose mission is decided on as it goes.
 struct ConductedDrive {
-  int contacts = 0;  ///< with the map, one a record of the true pose
-  int touches =
-      0;  ///< by the moving robot, of the map, of people and of other robots, one from touch to release
+  int contacts = 0;  ///< with the map, one from touch to release
+  int touches = 0;   ///< by the moving robot, of the map, of people and of other robots, likewise
   double driven_m = 0.0;
   Duration driven{};
 };

@@ -147,7 +147,8 @@ struct HostedBase::World {
     const Pose2& at = motion.true_map_from_base();
     drive.driven_m += (at.position_m - drive.map_from_base.position_m).norm();
     drive.map_from_base = at;
-    if (motion.is_blocked()) ++drive.contacts;
+    if (motion.is_blocked() && !was_blocked) ++drive.contacts;
+    was_blocked = motion.is_blocked();
   }
 
   void switch_faults() {
@@ -164,6 +165,7 @@ struct HostedBase::World {
   HostedBaseOptions options;
   SocketCanBus bus;
   SimulatedMotion motion;
+  bool was_blocked = false;
   std::unique_ptr<SimulatedFirmware> base;
   TruthServer truth;
   Stamp now;

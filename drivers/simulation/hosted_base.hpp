@@ -60,7 +60,7 @@ std::string dbc_of(HostedProtocol protocol);
 struct HostedDrive {
   Pose2 map_from_base;  ///< at the end
   double driven_m = 0.0;
-  int contacts = 0;
+  int contacts = 0;  ///< with the map, one from touch to release
 };
 
 /// The simulated base and its world, on a real CAN interface in real time. Clients see its frames as those of

@@ -26,9 +26,8 @@ void Scorer::record(const TruePose& truth, bool ran_against_obstacle) {
   const bool overlaps = footprint_ ? !footprint_->is_clear(map_, truth.map_from_base)
                                    : disc_overlaps_obstacle(map_, position_m, robot_radius_m_);
   const bool touches_map = ran_against_obstacle || overlaps;
-  if (touches_map) ++contacts_;
   if (touches_map && !touches_map_) {
-    ++map_contacts_;
+    ++contacts_;
     greatest_map_contact_mps_ = std::max(greatest_map_contact_mps_, latest_speed_mps_);
   }
   touches_map_ = touches_map;
@@ -48,7 +47,7 @@ void Scorer::change_map(const OccupancyMap& map) {
 
 ContactScore Scorer::contact_score() const {
   ContactScore score = judge_.score();
-  score.moving += map_contacts_;
+  score.moving += contacts_;
   score.greatest_contact_mps = std::max(score.greatest_contact_mps, greatest_map_contact_mps_);
   return score;
 }
@@ -79,7 +78,6 @@ void Scorer::forget() {
   path_distances_m_.clear();
   contacts_ = 0;
   judge_.forget();
-  map_contacts_ = 0;
   greatest_map_contact_mps_ = 0.0;
 }
 

@@ -55,8 +55,8 @@ class Scorer {
   /// Cross-track errors: distances of the driven track from the path followed at the time, one per recorded
   /// pose at which the robot moved along a path; turning on the spot and waiting add none.
   [[nodiscard]] const std::vector<double>& path_distances_m() const { return path_distances_m_; }
-  /// Recorded poses at which the robot overlapped a cell that is not drivable, left the map, or was
-  /// blocked by an obstacle.
+  /// How often the robot began to overlap a cell that is not drivable, to be outside the map, or to be
+  /// blocked by an obstacle: each once from touch to release, in the drive in which it began.
   [[nodiscard]] int contacts() const { return contacts_; }
   /// The contacts with discs, and those with the map among the moving ones, each counted once from touch to
   /// release. Without discs and scanner in the world: those with the map alone, and no clearance.
@@ -74,11 +74,10 @@ class Scorer {
   std::vector<ArrivalScore> arrivals_;
   std::vector<TruePose> track_;
   std::vector<double> path_distances_m_;
-  int contacts_ = 0;
   ContactJudge judge_;
   double latest_speed_mps_ = 0.0;
   bool touches_map_ = false;
-  int map_contacts_ = 0;  ///< counted once each
+  int contacts_ = 0;
   double greatest_map_contact_mps_ = 0.0;
 };
 

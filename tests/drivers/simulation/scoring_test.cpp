@@ -80,7 +80,7 @@ TEST(DiscContact, agrees_with_points_sampled_in_the_disc_on_a_rotated_map) {
   }
 }
 
-TEST(Scorer, counts_the_poses_in_contact) {
+TEST(Scorer, counts_a_contact_once_from_touch_to_release) {
   Scorer scorer(hand_made_map(), radius_m);
   scorer.record({at(0), {{1.5, 1.75}, 0.0}});
   scorer.record({at(1), {{1.75, 1.75}, 0.0}});
@@ -88,8 +88,20 @@ TEST(Scorer, counts_the_poses_in_contact) {
   scorer.record({at(2), {{1.8, 1.75}, 0.0}});
   scorer.record({at(3), {{1.9, 1.75}, 0.0}});
   scorer.record({at(4), {{1.5, 1.75}, 0.0}}, true);  // blocked by an obstacle
-  EXPECT_EQ(scorer.contacts(), 3);
-  EXPECT_EQ(scorer.track().size(), 5U);
+  EXPECT_EQ(scorer.contacts(), 1);
+  scorer.record({at(5), {{1.5, 1.75}, 0.0}});
+  scorer.record({at(6), {{1.8, 1.75}, 0.0}});
+  EXPECT_EQ(scorer.contacts(), 2);
+  EXPECT_EQ(scorer.track().size(), 7U);
+}
+
+TEST(Scorer, counts_a_contact_that_lasts_in_the_drive_in_which_it_began) {
+  Scorer scorer(hand_made_map(), radius_m);
+  scorer.record({at(0), {{1.8, 1.75}, 0.0}});
+  EXPECT_EQ(scorer.contacts(), 1);
+  scorer.forget();
+  scorer.record({at(1), {{1.8, 1.75}, 0.0}});
+  EXPECT_EQ(scorer.contacts(), 0);
 }
 
 TEST(Scorer, scores_an_arrival_by_the_truth_at_that_moment) {
