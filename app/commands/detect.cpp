@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/format_option.hpp"
 #include "app/commands/frame_arguments.hpp"
 #include "app/common/json_text.hpp"
 #include "localization/detection/marker_detector.hpp"
@@ -92,9 +93,8 @@ std::vector<Command> detect_commands(CLI::App& lodestar) {
   CLI::App* command = lodestar.add_subcommand(
       "detect", "Decode the markers in images, videos or a camera's frames; exit 1 when there are none");
   command->add_option("--camera", arguments->camera, "camera_info YAML file: frames must be of its size");
-  command->add_option("--format", arguments->format, "csv: one row a marker; json: one line a frame")
-      ->check(CLI::IsMember({"csv", "json"}))
-      ->capture_default_str();
+  add_format_option(*command, arguments->format, {"csv", "json"},
+                    "csv: one row a marker; json: one line a frame");
   add_frame_arguments(*command, arguments->frames);
   return {{command, [arguments] { return detect(*arguments); }}};
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/format_option.hpp"
 #include "app/commands/frame_arguments.hpp"
 #include "app/commands/localize_methods.hpp"
 #include "app/common/json_text.hpp"
@@ -210,11 +211,8 @@ std::vector<Command> localize_commands(CLI::App& lodestar) {
       ->capture_default_str();
   command->add_flag("--track", arguments->track,
                     "The frames are a sequence: search first where the last pose predicts the markers");
-  command
-      ->add_option("--format", arguments->format,
-                   "One line per frame with a pose. csv; json; tum: stamp x y z qx qy qz qw")
-      ->check(CLI::IsMember({"csv", "tum", "json"}))
-      ->capture_default_str();
+  add_format_option(*command, arguments->format, {"csv", "tum", "json"},
+                    "One line per frame with a pose. csv; json; tum: stamp x y z qx qy qz qw");
   add_frame_arguments(*command, arguments->frames);
   command->footer(command->get_footer() +
                   "\nStamps are in seconds: a video's own time, a camera's since boot; an image's is "

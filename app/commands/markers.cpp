@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/format_option.hpp"
 #include "app/common/json_text.hpp"
 #include "app/placement/accepted_issues.hpp"
 #include "app/placement/coverage.hpp"
@@ -24,7 +25,6 @@ struct MarkersArguments {
   std::string map;
   std::string site;
   std::string format = "text";
-  bool json = false;
 };
 
 struct GenerateArguments {
@@ -135,7 +135,7 @@ ExitCode check(const MarkersArguments& arguments) {
       site ? check_coverage(registry, covered_floor(*site)) : check_registry(registry, map);
   const std::vector<AcceptedIssue> accepted =
       site ? load_accepted(site->folder) : std::vector<AcceptedIssue>{};
-  if (arguments.json || arguments.format == "json") {
+  if (arguments.format == "json") {
     print_json(registry, issues, accepted);
   } else {
     print_text(file, registry, issues, accepted);
@@ -206,11 +206,8 @@ CLI::App* add_generate(CLI::App& markers, GenerateArguments& arguments) {
       ->type_name("FILE");
   command->add_option("--seed", arguments.code.seed, "Seed of the choice; the same seed gives the same IDs")
       ->capture_default_str();
-  command
-      ->add_option("--format", arguments.format,
-                   "ids: one per line; yaml: a registry with placeholder positions, to be surveyed")
-      ->check(CLI::IsMember({"ids", "yaml"}))
-      ->capture_default_str();
+  add_format_option(*command, arguments.format, {"ids", "yaml"},
+                    "ids: one per line; yaml: a registry with placeholder positions, to be surveyed");
   return command;
 }
 
@@ -225,9 +222,7 @@ std::vector<Command> markers_commands(CLI::App& lodestar) {
   CLI::App* list_command = markers->add_subcommand(
       "list", "List the markers in the map frame, with the registry's alignment applied");
   list_command->add_option("registry", arguments->registry, "Marker registry")->required();
-  list_command->add_option("--format", arguments->format, "text, csv or json")
-      ->check(CLI::IsMember({"text", "csv", "json"}))
-      ->capture_default_str();
+  add_format_option(*list_command, arguments->format, {"text", "csv", "json"}, "text, csv or json");
 
   CLI::App* check_command = markers->add_subcommand(
       "check",
@@ -240,11 +235,7 @@ std::vector<Command> markers_commands(CLI::App& lodestar) {
           "--site", arguments->site,
           "Site folder: also report areas and stretches of its usual routes without a marker in view")
       ->excludes(map);
-  check_command->add_option("--format", arguments->format, "text or json")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
-
-  check_command->add_flag("--json", arguments->json, "The same as --format json");
+  add_format_option(*check_command, arguments->format, {"text", "json"}, "text or json");
 
   const auto generated = std::make_shared<GenerateArguments>();
   CLI::App* generate_command = add_generate(*markers, *generated);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/format_option.hpp"
 #include "app/commands/planner_options.hpp"
 #include "app/common/json_text.hpp"
 #include "app/common/picture_file.hpp"
@@ -200,9 +201,7 @@ std::vector<Command> plan_commands(CLI::App& lodestar) {
                    "Distance that counts as close, metres beyond the radius")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--format", arguments->format, "text or json")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
+  add_format_option(*command, arguments->format, {"text", "json"}, "text or json");
   command->add_option("--draw", arguments->draw, "PNG file for a picture of map and path");
   return {{command, [arguments] { return plan(*arguments); }}};
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/format_option.hpp"
 #include "app/common/json_text.hpp"
 #include "app/frames/survey_log_file.hpp"
 #include "app/placement/survey_report.hpp"
@@ -200,9 +201,7 @@ Command add_check(CLI::App* survey) {
                       "What is known, as for a survey: a print's scale, say");
   command->add_option("--without", arguments->without, "IDs to leave out")
       ->check(CLI::Range(0, marker_id_count - 1));
-  command->add_option("--format", arguments->format, "text, csv or json")
-      ->check(CLI::IsMember({"text", "csv", "json"}))
-      ->capture_default_str();
+  add_format_option(*command, arguments->format, {"text", "csv", "json"}, "text, csv or json");
   command->add_flag("--apply", arguments->apply, "Write the changes into the site's registry");
   return {command, [arguments] { return check_command(*arguments); }};
 }

@@ -213,5 +213,14 @@ TEST(Markers, of_the_lab_are_in_order) {
   EXPECT_THAT(list.out, StartsWith("id,x_m,y_m,z_m,yaw_deg,dots\n"));
 }
 
+TEST(Markers, are_listed_as_json_by_the_flag_that_other_commands_have) {
+  const ScratchFolder scratch;
+  const std::string list = "markers list " + std::string(LODESTAR_SOURCE_DIR) + "/sites/lab/markers.yaml ";
+  const Ran by_format = run_lodestar(list + "--format json", scratch.path());
+  EXPECT_TRUE(nlohmann::json::accept(by_format.out));
+  EXPECT_EQ(run_lodestar(list + "--json", scratch.path()).out, by_format.out);
+  EXPECT_EQ(run_lodestar(list + "--json --format csv", scratch.path()).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace lodestar
