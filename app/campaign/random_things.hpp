@@ -7,6 +7,8 @@
 
 #include "app/site/site.hpp"
 #include "drivers/simulation/moving_disc.hpp"
+#include "maps/motion.hpp"
+#include "maps/occupancy_map.hpp"
 
 namespace lodestar {
 

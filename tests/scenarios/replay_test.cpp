@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
@@ -7,6 +6,7 @@
 #include "app/report/run_statistics.hpp"
 #include "app/simulate/simulated_drive.hpp"
 #include "app/simulate/simulated_drives.hpp"
+#include "maps/median.hpp"
 
 #include "tests/scenarios/command_line.hpp"
 
@@ -71,8 +71,7 @@ TEST(Replay, knows_where_it_is_to_millimetres_under_markers_that_are_not_level) 
     EXPECT_TRUE(record.arrived()) << "seed " << seed;
     std::vector<double> errors_m;
     for (const EstimateError& error : estimate_errors(record)) errors_m.push_back(error.position_m);
-    std::ranges::nth_element(errors_m, errors_m.begin() + static_cast<std::ptrdiff_t>(errors_m.size() / 2));
-    EXPECT_LT(errors_m[errors_m.size() / 2], 0.003) << "seed " << seed;
+    EXPECT_LT(median(errors_m), 0.003) << "seed " << seed;
   }
 }
 

@@ -1,6 +1,5 @@
 #include "drivers/camera/genicam_camera.hpp"
 
-#include <algorithm>
 #include <arv.h>
 #include <cmath>
 #include <fcntl.h>
@@ -12,6 +11,7 @@
 
 #include "drivers/camera/pluggable_camera.hpp"
 #include "maps/input_error.hpp"
+#include "maps/median.hpp"
 
 namespace lodestar {
 namespace {
@@ -94,9 +94,7 @@ TEST_F(GenicamCameraTest, streams_frames_of_the_calibrated_size_with_regular_sta
   std::vector<double> periods_ms;
   for (std::size_t i = 1; i < stamps.size(); ++i)
     periods_ms.push_back(std::chrono::duration<double, std::milli>(stamps[i] - stamps[i - 1]).count());
-  const auto middle = periods_ms.begin() + std::ssize(periods_ms) / 2;
-  std::nth_element(periods_ms.begin(), middle, periods_ms.end());
-  EXPECT_NEAR(*middle, 20.0, 2.0);
+  EXPECT_NEAR(median(periods_ms), 20.0, 2.0);
   EXPECT_THAT(camera.description(),
               HasSubstr("50 frames a second, exposure 4.0 ms, stamped by its own clock"));
 }
