@@ -6,13 +6,13 @@
 namespace lodestar {
 namespace {
 
-/// Pixels, or others in a row, from first to last, both included; empty when last < first.
+/// Indices from first to last, both included; empty when last < first.
 struct Span {
   int first = 0;
   int last = -1;
 };
 
-Span those_between(double low, double high, int count) {
+Span indices_between(double low, double high, int count) {
   const double first = std::clamp(std::ceil(low), 0.0, static_cast<double>(count));
   const double last = std::clamp(std::floor(high), -1.0, static_cast<double>(count - 1));
   return {static_cast<int>(first), static_cast<int>(last)};
@@ -68,7 +68,7 @@ class Smear {
   [[nodiscard]] Span copies_that_reach(const Vec2& from_center_px) const {
     if (copies_ == 1) return {0, 0};
     const double nearest = from_center_px.dot(copies_per_px_) + 0.5 * (copies_ - 1);
-    return those_between(nearest - reach_copies_, nearest + reach_copies_, copies_);
+    return indices_between(nearest - reach_copies_, nearest + reach_copies_, copies_);
   }
 
  private:
@@ -92,9 +92,10 @@ void LightImage::paint(const ProjectedDisc& disc, const Vec2& motion_px, double 
   const DiscProfile::Row row_profile = profile.of_radius(disc.radius_px / sigma_px);
   const Vec2 reach =
       disc.half_size_px + 0.5 * motion_px.cwiseAbs() + Vec2::Constant(DiscProfile::reach * sigma_px);
-  const Span rows = those_between(disc.center_px.y() - reach.y(), disc.center_px.y() + reach.y(), height_px_);
+  const Span rows =
+      indices_between(disc.center_px.y() - reach.y(), disc.center_px.y() + reach.y(), height_px_);
   const Span columns =
-      those_between(disc.center_px.x() - reach.x(), disc.center_px.x() + reach.x(), width_px_);
+      indices_between(disc.center_px.x() - reach.x(), disc.center_px.x() + reach.x(), width_px_);
   const double units = units_of(gray);
   for (int v = rows.first; v <= rows.last; ++v) {
     std::int16_t* pixels = row(v);
@@ -119,8 +120,8 @@ void LightImage::paint(const Band& band, double gray, double sigma_px, const Dis
   const double reach = band.half_width_px + DiscProfile::reach * sigma_px;
   const DiscProfile::Row edge = profile.of_straight_edge();
   const double units = units_of(gray);
-  const Span rows = those_between(std::min(band.from_px.y(), band.to_px.y()) - reach,
-                                  std::max(band.from_px.y(), band.to_px.y()) + reach, height_px_);
+  const Span rows = indices_between(std::min(band.from_px.y(), band.to_px.y()) - reach,
+                                    std::max(band.from_px.y(), band.to_px.y()) + reach, height_px_);
   for (int v = rows.first; v <= rows.last; ++v) {
     // Position along the band, across it, and relative to the cuts: all linear in u within a row.
     const double dv = v - band.from_px.y();
@@ -136,7 +137,7 @@ void LightImage::paint(const Band& band, double gray, double sigma_px, const Dis
     if (band.cut_to) {
       narrow(low, high, band.cut_to->x(), band.cut_to->dot(Vec2(0.0, v) - band.to_px), -far, just_before);
     }
-    const Span columns = those_between(low, high, width_px_);
+    const Span columns = indices_between(low, high, width_px_);
     std::int16_t* pixels = row(v);
     for (int u = columns.first; u <= columns.last; ++u) {
       const double along = along_0 + direction.x() * u;
