@@ -6,26 +6,6 @@
 namespace lodestar {
 namespace {
 
-using DirectionSet = std::uint8_t;
-
-/// Directions to expand after arriving in `direction` (natural and forced neighbours): straight on; after a
-/// diagonal step also its two straight directions; after a straight step also towards forced neighbours.
-constexpr DirectionSet ways_on(int direction, NeighbourMask neighbours) {
-  unsigned ways = 1U << direction;
-  const auto add = [&](int eighths) { ways |= 1U << turned(direction, eighths); };
-  if (is_diagonal(direction)) {
-    add(1);
-    add(-1);
-    return static_cast<DirectionSet>(ways);
-  }
-  for (const int side : {2, -2}) {
-    if (!is_forced(direction, neighbours, side)) continue;
-    add(side);
-    add(side / 2);
-  }
-  return static_cast<DirectionSet>(ways);
-}
-
 constexpr auto ways_table = [] {
   std::array<std::array<DirectionSet, 256>, 8> table{};
   for (std::size_t direction = 0; direction < table.size(); ++direction) {
@@ -36,7 +16,6 @@ constexpr auto ways_table = [] {
   return table;
 }();
 
-constexpr unsigned all_directions = 0xff;
 constexpr std::size_t small_map = std::size_t{1} << 20U;   // 16 MB of nodes
 constexpr std::size_t first_room = std::size_t{1} << 16U;  // nodes in a hash table; a power of two
 

@@ -25,6 +25,28 @@ constexpr bool is_jump_point(int direction, NeighbourMask neighbours) {
   return is_forced(direction, neighbours, 2) || is_forced(direction, neighbours, -2);
 }
 
+/// Bit k for grid_steps[k].
+using DirectionSet = std::uint8_t;
+inline constexpr unsigned all_directions = 0xff;
+
+/// Directions to expand after arriving in `direction` (natural and forced neighbours): straight on; after a
+/// diagonal step also its two straight directions; after a straight step also towards forced neighbours.
+constexpr DirectionSet ways_on(int direction, NeighbourMask neighbours) {
+  unsigned ways = 1U << direction;
+  const auto add = [&](int eighths) { ways |= 1U << turned(direction, eighths); };
+  if (is_diagonal(direction)) {
+    add(1);
+    add(-1);
+    return static_cast<DirectionSet>(ways);
+  }
+  for (const int side : {2, -2}) {
+    if (!is_forced(direction, neighbours, side)) continue;
+    add(side);
+    add(side / 2);
+  }
+  return static_cast<DirectionSet>(ways);
+}
+
 /// For every cell and direction: the number of steps to the next jump point; or, if an obstacle comes first,
 /// minus the number of free steps up to it. Computed once per map in time linear in its cells (the JPS+ of
 /// Harabor and Grastien 2014); 17 bytes per cell.

@@ -7,18 +7,6 @@
 namespace lodestar {
 namespace {
 
-constexpr unsigned all_directions = 0xff;
-
-/// Natural and forced neighbours of a cell that was reached in this direction.
-unsigned ways_on(int direction, NeighbourMask neighbours) {
-  const auto way = [direction](int eighths) { return 1U << turned(direction, eighths); };
-  if (is_diagonal(direction)) return way(0) | way(1) | way(-1);
-  unsigned ways = way(0);
-  if (is_forced(direction, neighbours, 2)) ways |= way(2) | way(1);
-  if (is_forced(direction, neighbours, -2)) ways |= way(-2) | way(-1);
-  return ways;
-}
-
 double octile_distance(Cell from, Cell to) {
   return free_steps(from, to).length_cells();
 }
